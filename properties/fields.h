@@ -117,11 +117,11 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
       fields(inner, item);
     } else if constexpr (Listed<T> && reads) {
       const auto& word = json.template get_ref<const std::string&>();
-      const auto named = from_name<T>(word);
-      if (!named)
+      const auto value = from_name<T>(word);
+      if (!value)
         throw Json::other_error::create(502, "\"" + word + "\" is none of: " + all_names<T>(),
                                         &json);
-      item = *named;
+      item = *value;
     } else if constexpr (Listed<T>) {
       json = name_of(item);
     } else if constexpr (reads) {

@@ -25,7 +25,7 @@ namespace {
 using namespace assay;
 
 // The verbs, in the order of `assay help`.
-constexpr reports::AddedVerb (*verbs[])(CLI::App&) = {
+constexpr reports::VerbAction (*verbs[])(CLI::App&) = {
     reports::add_check,  reports::add_run,    reports::add_certify,  reports::add_bench,
     reports::add_list,   reports::add_replay, reports::add_shrink,   reports::add_verify,
     reports::add_report, reports::add_scene,  reports::add_self_test};
@@ -46,20 +46,20 @@ class Formatter : public CLI::Formatter {
   }
   std::string make_usage(const CLI::App* app, std::string) const override {
     if (app->get_name().empty()) return "Usage: assay VERB [OPTION...]\n";
-    std::string needed = "Usage: assay " + app->get_name(), others;
+    std::string required = "Usage: assay " + app->get_name(), others;
     for (const bool is_positional : {true, false}) {
       for (const auto* option : app->get_options()) {
         if (option->get_positional() != is_positional) continue;
         const auto word = make_option_name(option, is_positional) + make_option_opts(option);
         if (option->get_required())
-          needed += " " + word;
+          required += " " + word;
         else if (is_positional)
-          needed += " [" + word + "]";
+          required += " [" + word + "]";
         else
           others = " [OPTION...]";
       }
     }
-    return needed + others + "\n";
+    return required + others + "\n";
   }
   std::string make_footer(const CLI::App* app) const override { return app->get_footer(); }
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -88,9 +88,9 @@ class Formatter : public CLI::Formatter {
 };
 
 int refuse_verb(const CLI::App& app, const std::string& word) {
-  for (const auto& [gone, input] : {std::pair("judge", "LOG"), {"check-queries", "QUERIES.csv"}}) {
-    if (word == gone)
-      return reports::refuse(fmt::format("{} is check: assay check {}", gone, input));
+  for (const auto& [name, input] : {std::pair("judge", "LOG"), {"check-queries", "QUERIES.csv"}}) {
+    if (word == name)
+      return reports::refuse(fmt::format("{} is check: assay check {}", name, input));
   }
   Words names;
   for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());
@@ -112,7 +112,7 @@ std::string complaint_of(const CLI::ParseError& wrong, const Words& unexpected,
     const auto option = std::ranges::find_if(unexpected, [](auto& word) { return word[0] == '-'; });
     const auto name = option == unexpected.end() ? "" : option->substr(0, option->find('='));
     Words names;
-    for (const auto* known : verb.get_options()) names.push_back(known->get_name());
+    for (const auto* verb_option : verb.get_options()) names.push_back(verb_option->get_name());
     return fmt::format("not expected: {}{}", fmt::join(unexpected, " "),
                        corpus::did_you_mean(names, name));
   }
@@ -137,8 +137,8 @@ int run(const Words& words) {
   app.formatter(std::make_shared<Formatter>());
   app.option_defaults()->group(reports::OptionGroup::question);
   app.footer(reports::exit_codes_text());
-  std::vector<reports::AddedVerb> added;
-  for (const auto add_verb : verbs) added.push_back(add_verb(app));
+  std::vector<reports::VerbAction> actions;
+  for (const auto add_verb : verbs) actions.push_back(add_verb(app));
   // These two are words in the list of verbs, and nothing is parsed of them.
   for (const auto& [word, about] :
        {std::pair("help", "This list; `assay help VERB` says what a verb does"),
@@ -154,8 +154,8 @@ int run(const Words& words) {
     return reports::exit_holds;
   }
   const auto& name = words[is_of_all];
-  const auto named = std::ranges::find(added, name, &reports::AddedVerb::name);
-  if (named == added.end()) return refuse_verb(app, name);
+  const auto action = std::ranges::find(actions, name, &reports::VerbAction::name);
+  if (action == actions.end()) return refuse_verb(app, name);
   const auto& verb = *app.get_subcommand(name);
   if (is_of_all || std::any_of(words.begin() + 1, words.end(), is_help)) return print_help(verb);
   try {
@@ -164,7 +164,7 @@ int run(const Words& words) {
     return reports::refuse(fmt::format("{} (assay {} --help lists options)",
                                        complaint_of(wrong, app.remaining(true), verb), name));
   }
-  return named->act();
+  return action->act();
 }
 
 // The program may end at once, because a store is whole at any moment.
@@ -175,10 +175,10 @@ constexpr const char* no_memory = "not enough memory for this input";
 // some memory for them alone.
 std::atomic<void*> memory_for_destructors = nullptr;
 void find_memory() {
-  void* const kept =
+  void* const memory =
       std::uncaught_exceptions() > 0 ? memory_for_destructors.exchange(nullptr) : nullptr;
-  if (!kept) throw std::bad_alloc();
-  std::free(kept);
+  if (!memory) throw std::bad_alloc();
+  std::free(memory);
 }
 
 }  // namespace

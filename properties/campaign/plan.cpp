@@ -176,7 +176,7 @@ constexpr corpus::Below most_cases{1'000'000'000}, most_repeated_triangles{1'000
 // What a number has to be, and how that is said.
 struct Rule {
   bool (*holds)(double);
-  const char* expected;
+  const char* expectation;
 };
 constexpr Rule at_least_0 = {[](double x) { return x >= 0; }, "a number of at least 0 expected"};
 constexpr Rule above_0 = {[](double x) { return x > 0; }, "a number above 0 expected"};
@@ -238,7 +238,7 @@ class PlanWriter {
     write(json[name], x);
   }
   template <class T>
-  static Json written(T x) {
+  static Json json_of(T x) {
     PlanWriter writer;
     fields(writer, x);
     return writer.json;
@@ -248,10 +248,10 @@ class PlanWriter {
   static void write(Json& out, const auto& x) { out = x; }
   static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
   static void write(Json& out, const Bytes& x) { out = x.value; }
-  static void write(Json& out, const Policy& policy) { out = written(policy); }
+  static void write(Json& out, const Policy& policy) { out = json_of(policy); }
   static void write(Json& out, const std::vector<StratumPlan>& strata) {
     out = Json::array();
-    for (const StratumPlan& stratum : strata) out.push_back(written(stratum));
+    for (const StratumPlan& stratum : strata) out.push_back(json_of(stratum));
   }
   static void write(Json& out, const std::vector<SpeedLimit>& limits) {
     out = Json::object();
@@ -266,13 +266,13 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
   using JsonReader::JsonReader, JsonReader::read;
 
   // Reads all fields of an object. An unknown key is refused, because a misspelt limit must not
-  // pass for a limit that was not stated; `known` has those that are not read here.
+  // pass for a limit that was not stated; `names` has those that are not read here.
   template <class T>
-  static void read_all(const JsonField& object, T& x, Json known = Json::object()) {
+  static void read_all(const JsonField& object, T& x, Json names = Json::object()) {
     if (!object.json().is_object()) throw Refused{object.problem("an object expected")};
-    known.update(PlanWriter::written(x));
+    names.update(PlanWriter::json_of(x));
     for (const auto& [key, value] : object.json().items()) {
-      if (!known.contains(key)) throw Refused{object.problem("no field '" + key + "' is known")};
+      if (!names.contains(key)) throw Refused{object.problem("no field '" + key + "' is known")};
     }
     PlanReader reader(object);
     fields(reader, x);
@@ -280,7 +280,7 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
 
   static void read(const JsonField& field, double& x, const Rule& rule) {
     read(field, x);
-    if (!rule.holds(x)) throw Refused{field.problem(rule.expected)};
+    if (!rule.holds(x)) throw Refused{field.problem(rule.expectation)};
   }
   static void read(const JsonField& field, const Seconds& x) {
     if (!field.json().is_null()) read(field, x.value, at_least_0);
@@ -348,13 +348,13 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
   PlanReader::read_all(top, plan, {{"schema", schema}, {"about", ""}});
   if (auto fault = fault_of(top, plan)) return *fault;
   return plan;
-} catch (const Refused& refused) {
-  return refused.problem;
+} catch (const Refused& refusal) {
+  return refusal.problem;
 }
 
 std::string plan_text(const CampaignPlan& plan) {
   Json json = {{"schema", schema}};
-  json.update(PlanWriter::written(plan));
+  json.update(PlanWriter::json_of(plan));
   return json.dump();
 }
 
@@ -364,12 +364,12 @@ namespace {
 // case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
 // its query is judged beside the steps, or alone. Their times may differ: a campaign that was
 // stopped by --time keeps its name.
-bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
+bool is_made_of(CampaignPlan plan, const CampaignPlan& other) {
   plan.seconds = 0;
-  plan.case_seconds = named.case_seconds;
-  plan.case_bytes = named.case_bytes;
-  const CampaignPlan of_plugin = without_questions(named);
-  const auto variants = {named,
+  plan.case_seconds = other.case_seconds;
+  plan.case_bytes = other.case_bytes;
+  const CampaignPlan of_plugin = without_questions(other);
+  const auto variants = {other,
                          of_plugin,
                          without_relations(of_plugin),
                          with_queries(of_plugin),
@@ -386,8 +386,8 @@ bool is_made_of(CampaignPlan plan, const CampaignPlan& named) {
 corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(file));
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
-  for (const auto& named : named_plans()) {
-    if (plan.name == named.name && !is_made_of(plan, named))
+  for (const auto& other : named_plans()) {
+    if (plan.name == other.name && !is_made_of(plan, other))
       return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
   }
   return plan;

@@ -130,9 +130,9 @@ void add_mesh(Case& c, const detector::Triangles& triangles,
               const std::function<Positions(std::size_t)>& places) {
   const auto vertices = c.frames.front().rows(), rows = c.triangles.rows();
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    const Positions added = places(f);
-    c.frames[f].conservativeResize(vertices + added.rows(), 3);
-    c.frames[f].bottomRows(added.rows()) = added;
+    const Positions new_places = places(f);
+    c.frames[f].conservativeResize(vertices + new_places.rows(), 3);
+    c.frames[f].bottomRows(new_places.rows()) = new_places;
   }
   c.triangles.conservativeResize(rows + triangles.rows(), 3);
   c.triangles.bottomRows(triangles.rows()) =
@@ -145,23 +145,23 @@ void put_side_by_side(Case& c, int copies) {
   const detector::Triangles triangles = c.triangles;
   for (int k = 1; k < copies; ++k) {
     add_mesh(c, triangles, [&](std::size_t f) {
-      Positions moved = own[f];
-      moved.col(0).array() += 4 * reach * k;
-      return moved;
+      Positions positions = own[f];
+      positions.col(0).array() += 4 * reach * k;
+      return positions;
     });
   }
 }
 
 void take_frames(Case& c, const Numbers& frames, std::vector<corpus::CaseStep> script) {
   std::map<std::int32_t, std::int32_t> number;
-  Numbers used;
+  Numbers numbers;
   for (const auto frame : frames) {
-    if (number.try_emplace(frame, static_cast<std::int32_t>(used.size())).second)
-      used.push_back(frame);
+    if (number.try_emplace(frame, static_cast<std::int32_t>(numbers.size())).second)
+      numbers.push_back(frame);
   }
   const auto take = [&](auto& list) {
     auto all = std::exchange(list, {});
-    for (const auto frame : used) {
+    for (const auto frame : numbers) {
       if (at(frame) < all.size()) list.push_back(std::move(all[at(frame)]));
     }
   };

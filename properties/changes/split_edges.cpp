@@ -77,12 +77,12 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
   }
   frames = std::move(longer);
   for (const auto t : around) {
-    const auto added = triangles.rows();
-    triangles.conservativeResize(added + 1, 3);
-    triangles.row(added) = triangles.row(t);
+    const auto new_triangle = triangles.rows();
+    triangles.conservativeResize(new_triangle + 1, 3);
+    triangles.row(new_triangle) = triangles.row(t);
     for (Eigen::Index i = 0; i < 3; ++i) {
       if (triangles(t, i) == v) triangles(t, i) = middle;
-      if (triangles(added, i) == u) triangles(added, i) = middle;
+      if (triangles(new_triangle, i) == u) triangles(new_triangle, i) = middle;
     }
     form.parent.push_back(form.parent[static_cast<std::size_t>(t)]);
   }
@@ -101,16 +101,16 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
 // is why none is split.
 std::optional<Form> split_some_edges(const corpus::Case& c, Random& random) {
   Form form = unchanged(c);
-  const int wanted = random.between(1, 4);
-  int done = 0;
-  for (int tries = 0; tries < 4 * wanted && done < wanted; ++tries) {
+  const int count = random.between(1, 4);
+  int splits = 0;
+  for (int tries = 0; tries < 4 * count && splits < count; ++tries) {
     const auto triangle = random.below(static_cast<int>(form.c.triangles.rows()));
     const int corner = random.below(3);
     constexpr double shares[] = {0.5, 0.5, 0.25, 0.75};
     const double share = shares[random.below(4)];
-    done += split(form, triangle, corner, share) ? 1 : 0;
+    splits += split(form, triangle, corner, share) ? 1 : 0;
   }
-  return done > 0 ? std::optional(form) : std::nullopt;
+  return splits > 0 ? std::optional(form) : std::nullopt;
 }
 
 }  // namespace

@@ -26,16 +26,16 @@ Claims claims_named(const std::vector<std::string>& words) {
 }
 
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries) {
-  Claims judged = claims;
+  Claims rest = claims;
   for (const auto& row : all_rows<Claim>)
-    if (*row.why_void(contract, of_queries)) judged.set(row.value, false);
-  return judged;
+    if (*row.why_void(contract, of_queries)) rest.set(row.value, false);
+  return rest;
 }
 
 void weigh(const Claims& claims, StepDiff& diff) {
   for (const auto& row : all_rows<Claim>)
-    if (claims.has(row.value) && row.shown_by(diff).kind) diff.broken.push_back(row.value);
-  if (!diff.broken.empty()) diff.outcome = Outcome::defect;
+    if (claims.has(row.value) && row.sign_of(diff).kind) diff.breaches.push_back(row.value);
+  if (!diff.breaches.empty()) diff.outcome = Outcome::defect;
 }
 
 Contract contract_of(const detector::Options& options) {

@@ -61,13 +61,13 @@ struct FirstTimes {
 // How many candidate pairs the detector gave, and the least possible number: the pairs in contact
 // that count.
 struct CandidateCount {
-  std::uint64_t given = 0, least = 0;
+  std::uint64_t given_pairs = 0, least = 0;
 };
 
 // What a limiter allowed in a step that starts without a contact (judge_limit).
 struct LimitDiff {
   double share = -1;  // of the step; -1: not stated
-  double used = 0;    // the share, or else how much of the way the positions go
+  double way = 0;     // the share, or else how much of the way the positions go
   std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
   // The first contact on the straight way to where the caller stops.
   std::optional<detector::PairContact> hit;
@@ -80,7 +80,7 @@ struct LimitDiff {
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
-  std::vector<Claim> broken;  // claims of the detector that this step refutes
+  std::vector<Claim> breaches;  // claims of the detector that this step refutes
   detector::Answer answer = detector::Answer::undecided;  // the detector's
   bool oracle_complete = false;                           // false: the oracle was stopped
   bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
@@ -99,7 +99,7 @@ struct StepDiff {
   // pairs.
   std::vector<detector::PairContact> missing;
   bool is_without_excuse = false;               // one of them, even if all-pairs is not claimed
-  std::vector<detector::PairContact> excused;   // missing, but not claimed
+  std::vector<detector::PairContact> excuses;   // missing, but not claimed
   std::vector<detector::PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time, which is unsafe, or ends before it.
   std::vector<WrongTime> late, early;
@@ -128,9 +128,9 @@ struct StepDiff {
   // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
-  std::optional<LimitDiff> limit;   // only of a limiter
-  bool has_answer = true;           // false: the library gives candidates or limits, no answers
-  std::optional<StepLoad> refused;  // only of a step that was refused as beyond the capacity
+  std::optional<LimitDiff> limit;    // only of a limiter
+  bool has_answer = true;            // false: the library gives candidates or limits, no answers
+  std::optional<StepLoad> overload;  // only of a step that was refused as beyond the capacity
 };
 
 // How a step breaks a claim, which is the kind of its failure ("late pair"; null: it does not), and
@@ -139,23 +139,23 @@ struct StepDiff {
 struct WithinSlack {
   detector::PairContact contact;
 };
-struct Shown {
+struct Sign {
   const char* kind = nullptr;
   std::variant<std::monostate, detector::PairContact, WithinSlack, WrongTime,
                detector::TrianglePair>
       by = {};
 };
 // The first that breaks it.
-inline Shown operator|(const Shown& a, const Shown& b) { return a.kind ? a : b; }
+inline Sign operator|(const Sign& a, const Sign& b) { return a.kind ? a : b; }
 
-inline Shown if_so(bool is_so, const char* kind,
-                   const std::optional<detector::PairContact>& contact = {}) {
+inline Sign if_so(bool is_so, const char* kind,
+                  const std::optional<detector::PairContact>& contact = {}) {
   if (!is_so) return {};
-  return contact ? Shown{kind, *contact} : Shown{kind};
+  return contact ? Sign{kind, *contact} : Sign{kind};
 }
 template <class Wrong>
-Shown if_any(const char* kind, const std::vector<Wrong>& list) {
-  return list.empty() ? Shown() : Shown{kind, list.front()};
+Sign if_any(const char* kind, const std::vector<Wrong>& list) {
+  return list.empty() ? Sign() : Sign{kind, list.front()};
 }
 
 // What a detector claims of its answers.
@@ -188,7 +188,7 @@ enum class Claim : std::uint8_t {
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
 
 // What puts a claim to the test.
-enum class Tried : std::uint8_t {
+enum class Probe : std::uint8_t {
   by_step,           // any that is judged
   by_contact,        // a step with a contact that counts
   by_stated_time,    // such a step, where first times are stated
@@ -216,11 +216,11 @@ struct ClaimRow {
   std::uint32_t bit;    // of assay_description::claims; 0: nobody claims it from outside
   std::uint32_t since;  // the version of the interface in which that bit came
   About about;
-  Tried tried;
+  Probe probe;
   Deed deed;
   // How a step breaks it. Two runs alone break `deterministic` (exam.h), and nothing breaks
   // times_unique.
-  Shown (*shown_by)(const StepDiff&) = [](const StepDiff&) { return Shown(); };
+  Sign (*sign_of)(const StepDiff&) = [](const StepDiff&) { return Sign(); };
   // Why it is not judged under this contract; empty if it is.
   const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
     return "";
@@ -230,7 +230,7 @@ struct ClaimRow {
 constexpr auto names_of(Claim) {
   using enum Claim;
   using enum About;
-  using enum Tried;
+  using enum Probe;
   using enum Deed;
   using C = const Contract&;
   using D = const StepDiff&;
@@ -249,7 +249,7 @@ constexpr auto names_of(Claim) {
        },
        [](C c, bool) { return c.margin > 0 ? "the contract has a margin" : ""; }},
       {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, 1, pairs, by_contact, loses,
-       [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Shown(); },
+       [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Sign(); },
        without_pairs},
       {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, 1, pairs, by_contact, loses,
        [](D d) { return if_any("missing pair", d.missing) | if_any("late pair", d.late); },
@@ -257,10 +257,10 @@ constexpr auto names_of(Claim) {
       {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, 1, answers, by_step, reports,
        [](D d) {
          const auto pair =
-             d.spurious.empty() ? Shown() : Shown{"spurious pair", d.spurious.front().pair};
-         if (d.answered_collision) return Shown{"answered collision", pair.by};
+             d.spurious.empty() ? Sign() : Sign{"spurious pair", d.spurious.front().pair};
+         if (d.answered_collision) return Sign{"answered collision", pair.by};
          return pair | if_any("early pair", d.early) |
-                (d.first_in_slack ? Shown{"early alarm", WithinSlack{*d.first_in_slack}} : Shown());
+                (d.first_in_slack ? Sign{"early alarm", WithinSlack{*d.first_in_slack}} : Sign());
        },
        [](C c, bool of_queries) {
          return c.judges_alarms(of_queries) ? ""
@@ -268,12 +268,12 @@ constexpr auto names_of(Claim) {
        }},
       {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, 1, runs, by_second_run, differs},
       {total, "total", ASSAY_CLAIM_TOTAL, 1, runs, by_step, ends,
-       [](D d) { return if_so(d.owes_answer, d.refused ? name_of(Outcome::refused) : "error"); }},
+       [](D d) { return if_so(d.owes_answer, d.overload ? name_of(Outcome::refused) : "error"); }},
       {candidates, "candidates", ASSAY_CLAIM_CANDIDATES, 2, broad_phase, by_candidates, loses,
        [](D d) { return if_any("missing candidate", d.missing_candidates); }},
       {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) {
-         return d.limit && d.limit->hit ? Shown{"contact on the way", *d.limit->hit} : Shown();
+         return d.limit && d.limit->hit ? Sign{"contact on the way", *d.limit->hit} : Sign();
        }},
       {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) { return if_so(d.limit && d.limit->too_far, "share too large", d.first_contact); }},
@@ -342,9 +342,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
 // deterministic and total. With pairs first, no arithmetic claims all-pairs.
 inline Claims claims_of(const detector::Options& options) {
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
-  const bool proved = exact || options.arithmetic == detector::Arithmetic::bounded;
+  const bool is_proved = exact || options.arithmetic == detector::Arithmetic::bounded;
   Claims claims = {Claim::deterministic, Claim::total};
-  if (!proved) return claims;
+  if (!is_proved) return claims;
   claims = claims.with({Claim::free_sound, Claim::not_late, Claim::first_time, Claim::first_pairs});
   claims.set(Claim::all_pairs, options.pairs == detector::Pairs::all);
   return claims.set(Claim::no_spurious, exact).set(Claim::times_unique, exact);
@@ -368,7 +368,7 @@ Contract contract_of(const detector::Options& options);
 // of queries, and of steps if it leaves neighbours out.
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
 
-// Adds to `broken` those of the claims that the step breaks, and makes it a defect if one is.
+// Adds to `breaches` those of the claims that the step breaks, and makes it a defect if one is.
 void weigh(const Claims& claims, StepDiff& diff);
 
 // What a plug-in says of itself.

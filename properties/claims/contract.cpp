@@ -119,7 +119,7 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
   return shared_vertices(triangles, pair) > most_shared;
 }
 
-detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates) {
+detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates) {
   if (coordinates == Coordinates::float64) return x;
   // Two steps, through memory: of two conversions in a row g++ 12 drops both where it vectorises.
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = x.cast<float>();
@@ -128,7 +128,7 @@ detector::Positions contracted(const detector::PositionsView& x, Coordinates coo
 
 detector::Positions displacement(const detector::PositionsView& x_t0,
                                  const detector::PositionsView& x_t1) {
-  return contracted(x_t1 - x_t0, Coordinates::float32);
+  return round_to(x_t1 - x_t0, Coordinates::float32);
 }
 
 double length_of(const detector::PositionsView& x, const Edge& edge) {

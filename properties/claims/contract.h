@@ -82,10 +82,10 @@ constexpr auto names_of(LimitGives) {
 }
 
 // Whether a detector names the pairs that meet.
-enum class Reported : std::uint8_t { pairs, no_pairs };
-constexpr auto names_of(Reported) {
-  return std::to_array<Named<Reported>>(
-      {{Reported::pairs, "pairs"}, {Reported::no_pairs, "no-pairs"}});
+enum class PairReporting : std::uint8_t { pairs, no_pairs };
+constexpr auto names_of(PairReporting) {
+  return std::to_array<Named<PairReporting>>(
+      {{PairReporting::pairs, "pairs"}, {PairReporting::no_pairs, "no-pairs"}});
 }
 
 // A contract that asks for more is refused.
@@ -109,7 +109,7 @@ struct Contract {
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
-  Reported reports = Reported::pairs;
+  PairReporting reports = PairReporting::pairs;
   // Above 0: the question is not which triangles touch, but which come within this distance. Then
   // pairs that share no vertex are asked for alone.
   double separation = 0;
@@ -133,7 +133,7 @@ struct Contract {
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
-  bool reports_pairs() const { return reports == Reported::pairs; }
+  bool reports_pairs() const { return reports == PairReporting::pairs; }
   // Whether it is judged what the detector reports although it is not there. The features of a
   // query share no vertex.
   bool judges_alarms(bool of_queries = false) const {
@@ -170,7 +170,7 @@ void fields(Archive& archive, Contract& x) {
     archive(name.data(), member);
     if (name == "rest_distance") archive("takes_relations", x.takes_relations);
   });
-  x.reports = reports_pairs ? Reported::pairs : Reported::no_pairs;
+  x.reports = reports_pairs ? PairReporting::pairs : PairReporting::no_pairs;
 }
 
 // The shortest decimal that reads back to the same double. It is made without libfmt, because the
@@ -204,7 +204,7 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 
 // The positions that the detector and the oracle are both given. A coordinate that has no float32
 // becomes infinite.
-detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
+detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates);
 
 // The displacement of a step that a detector of float32 is given: the nearest to its way.
 detector::Positions displacement(const detector::PositionsView& x_t0,

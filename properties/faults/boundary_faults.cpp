@@ -183,10 +183,10 @@ template <bool (*skips)(const GhostSweep&, std::int32_t ghost)>
 struct GhostsSkipped : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
-    std::vector<std::int32_t> kept;
-    std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(kept),
+    std::vector<std::int32_t> first_ghosts;
+    std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(first_ghosts),
                  [&](std::int32_t ghost) { return !skips(s, ghost); });
-    return BoundaryHandler::sweep(s, kept, stop, touched, counts);
+    return BoundaryHandler::sweep(s, first_ghosts, stop, touched, counts);
   }
 };
 

@@ -151,11 +151,11 @@ class TakenForDuplicate : public ContactDropped {
       for (const auto& end : {point.t0, point.t1})
         places.insert(places.end(), end.begin(), end.end());
     }
-    return !seen_.insert(std::move(places)).second;
+    return !contacts_.insert(std::move(places)).second;
   }
 
  private:
-  mutable std::set<std::vector<double>> seen_;  // found in contact so far
+  mutable std::set<std::vector<double>> contacts_;  // found in contact so far
 };
 
 }  // namespace

@@ -8,23 +8,23 @@ namespace assay::properties {
 
 std::span<const Fault> faults() {
   static const std::vector<Fault> all = [] {
-    std::vector<Fault> joined;
+    std::vector<Fault> list;
     for (const auto& module :
          {view_point_faults(), view_line_faults(), pair_faults(), cone_faults(),
           elementary_faults(), start_faults(), state_faults(), release_faults(), boundary_faults(),
           ghost_faults(), search_faults()}) {
-      joined.insert(joined.end(), module.begin(), module.end());
+      list.insert(list.end(), module.begin(), module.end());
     }
-    return joined;
+    return list;
   }();
   return all;
 }
 
 const Fault* find_fault(std::string_view name) {
   const auto all = faults();
-  const auto found =
+  const auto place =
       std::find_if(all.begin(), all.end(), [&](const Fault& fault) { return fault.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return place == all.end() ? nullptr : &*place;
 }
 
 std::size_t planted_count() {

@@ -45,9 +45,9 @@ detector::Stages with(const detector::Options& options) {
 }
 template <class Wrong>
 constexpr PlantedStage wrong_stage() {
-  PlantedStage planted{"", with<Wrong>};
-  at_place_of<Wrong>([&](auto, const char* name) { planted.stage = name; });
-  return planted;
+  PlantedStage stage{"", with<Wrong>};
+  at_place_of<Wrong>([&](auto, const char* name) { stage.stage = name; });
+  return stage;
 }
 // What a row of the registry begins with: this wrong stage.
 template <class Wrong>

@@ -43,10 +43,10 @@ struct MarkedUntilAnyFlag : detector::Marking {
             MarkingCounts& counts) const override {
     for (std::int32_t node = leaf;; node = tree.parent(node)) {
       auto& of_node = marks.node_flags[at(node)];
-      const bool marked = node != leaf && (of_node & ~flag::positive) != 0;
+      const bool is_marked = node != leaf && (of_node & ~flag::positive) != 0;
       of_node |= flags;
       ++counts.marked;
-      if (marked || node == BoundingVolumeTree::root) return;
+      if (is_marked || node == BoundingVolumeTree::root) return;
     }
   }
 };
@@ -85,8 +85,8 @@ class SkippedForOneSet : public detector::TreeSearch {
   static std::int32_t skip(const SearchInput& input, std::int32_t node, std::int32_t other) {
     const auto& flags = input.marks.node_flags;
     while (!input.tree.is_leaf(node)) {
-      const unsigned asked = table(input, node, other).partners(flags[at(other)]) & flags[at(node)];
-      const unsigned first = asked & (~asked + 1);
+      const unsigned both = table(input, node, other).partners(flags[at(other)]) & flags[at(node)];
+      const unsigned first = both & (~both + 1);
       const auto child = input.tree.child(node);
       const bool left = (flags[at(child)] & first) != 0,
                  right = (flags[at(child + 1)] & first) != 0;
@@ -143,11 +143,11 @@ class FittedOnce : public detector::TreeSearch {
 class GoesOnAfterStop : public detector::TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
-    std::uint64_t seen = 0;
+    std::uint64_t count = 0;
     const bool completed = TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
-      return ++seen <= looked_at_ || sink(a, b);
+      return ++count <= looked_at_ || sink(a, b);
     });
-    looked_at_ = completed ? 0 : std::max(seen, looked_at_);
+    looked_at_ = completed ? 0 : std::max(count, looked_at_);
     return completed;
   }
 
@@ -162,9 +162,9 @@ struct CountedTogether : detector::TreeSearch {
     static std::atomic<std::uint64_t> box_tests = 0;
     const std::uint64_t before = box_tests;
     const std::uint64_t own_before = counts.box_tests;
-    std::uint64_t told = own_before;
+    std::uint64_t own_count = own_before;
     const auto tell = [&] {
-      box_tests += counts.box_tests - std::exchange(told, counts.box_tests);
+      box_tests += counts.box_tests - std::exchange(own_count, counts.box_tests);
     };
     const bool completed = TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
       tell();

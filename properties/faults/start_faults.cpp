@@ -41,14 +41,14 @@ struct StartHalfChecked : ReleaseRule {
     step.tree.refit(step.surface.mesh, step.motion.at_start());
     const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
                                      step.elementary, true};
-    Flags seen(step.surface.all().triangles.size(), 0);
+    Flags is_seen(step.surface.all().triangles.size(), 0);
     for (const auto component : components) {
       const std::size_t c = at(component);
       if (contacts) add_own_contacts(step, c, touched);
       if (ghosts) {
         step.boundary.sweep(still, step.ghosts(c), step.stop, touched, cost.counts.ghosts);
       }
-      detector::mark_clean_by_layers({step.surface, step.motion.vertices_t0, touched}, c, seen,
+      detector::mark_clean_by_layers({step.surface, step.motion.vertices_t0, touched}, c, is_seen,
                                      marks.clean);
       if (layers == StartLayers::by_piece) continue;
       const auto own = step.own_triangles(c);

@@ -25,10 +25,10 @@ template <void (*forget)(StepMarks&, Pairs&, bool& complete)>
 struct Forgotten : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
               StepState& state) const override {
-    StepMarks kept = marks;
-    Pairs seen = pairs;
-    forget(kept, seen, complete);
-    ReleaseRule::settle(step, kept, seen, complete, state);
+    StepMarks first_marks = marks;
+    Pairs first_pairs = pairs;
+    forget(first_marks, first_pairs, complete);
+    ReleaseRule::settle(step, first_marks, first_pairs, complete, state);
   }
 };
 
@@ -76,13 +76,13 @@ struct CarriedPastGhosts : ReleaseRule {
 struct OnlyMetAgainstGhosts : ReleaseRule {
   std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
-    std::vector<std::int32_t> met;
+    std::vector<std::int32_t> triangles;
     const auto is_met = [&](std::int32_t t) {
       return std::any_of(step.last_state->contacts.begin(), step.last_state->contacts.end(),
                          [&](const auto& pair) { return pair.a == t || pair.b == t; });
     };
-    std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(met), is_met);
-    return met;
+    std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(triangles), is_met);
+    return triangles;
   }
 };
 
@@ -169,7 +169,7 @@ template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                const Components& components) const override {
-    Flags touched(marks.clean.size(), 0), seen(touched);
+    Flags touched(marks.clean.size(), 0), is_seen(touched);
     const detector::FloatGrid grid(step.motion.at_start());
     if (contacts == Contacts::tested) detector::add_lasting_contacts(step, cost, touched);
     for (const auto component : components) {
@@ -183,7 +183,7 @@ struct ReleaseHalfChecked : ReleaseRule {
       switch (layers) {
         case ReleasedLayers::of_pieces:
           detector::release_pieces({step.surface, step.motion.vertices_t0, touched}, c, in_doubt,
-                                   witnesses(step, marks, c), seen, marks.clean);
+                                   witnesses(step, marks, c), is_seen, marks.clean);
           break;
         case ReleasedLayers::across_touched:
           release_across_touched(step, marks, c, in_doubt, touched);
@@ -204,9 +204,9 @@ struct ReleaseHalfChecked : ReleaseRule {
   void release_across_touched(const GivenStep& step, StepMarks& marks, std::size_t c,
                               const Triangles& in_doubt, const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
-    Flags seen(nothing);
+    Flags is_seen(nothing);
     detector::release_pieces({step.surface, step.motion.vertices_t0, nothing}, c, in_doubt,
-                             witnesses(step, marks, c), seen, marks.clean);
+                             witnesses(step, marks, c), is_seen, marks.clean);
     for (const auto t : in_doubt) marks.clean[at(t)] &= !touched[at(t)];
   }
 
@@ -253,12 +253,12 @@ struct ReleasedWhileTouched : ReleaseRule {
 // triangle of another component.
 struct WitnessesByPlace : ReleaseRule {
   Triangles witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
-    Triangles found;
+    Triangles triangles;
     const auto own = step.own_triangles(c);
     for (std::size_t i = 0; i < own.size(); ++i) {
-      if (marks.clean[i]) found.push_back(own[i]);
+      if (marks.clean[i]) triangles.push_back(own[i]);
     }
-    return found;
+    return triangles;
   }
 };
 

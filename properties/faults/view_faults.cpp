@@ -75,10 +75,10 @@ ViewSign in_plain_doubles(const MovingTriangle& triangle, const ViewPrimitive& p
   return sign_of_coefficients(f, 0);
 }
 
-template <ViewSign merged>
+template <ViewSign merged_sign>
 ViewSign zero_merged(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
   const ViewSign right = right_sign(triangle, primitive);
-  return right == ViewSign::zero ? merged : right;
+  return right == ViewSign::zero ? merged_sign : right;
 }
 
 // Says that a triangle without area is positive, as if it could not be seen from behind because it

@@ -88,9 +88,9 @@ struct Turn {
   std::array<double, 3> sign;
 
   Point operator()(const Point& x) const {
-    Point turned{};
-    for (std::size_t k = 0; k < 3; ++k) turned[axis[k]] = sign[k] * x[k];
-    return turned;
+    Point rotated_point{};
+    for (std::size_t k = 0; k < 3; ++k) rotated_point[axis[k]] = sign[k] * x[k];
+    return rotated_point;
   }
 };
 
@@ -109,14 +109,14 @@ Approach draw_approach(Random& random, double d) {
   const double unit = std::ldexp(1.0, std::ilogb(d) + random.between(2, 6));
   const Heights heights = draw_heights(random, scene, d, unit);
   const Turn turn = draw_turn(random);
-  Approach made;
+  Approach approach;
   for (std::size_t i = 0; i < 3; ++i) {
     Point a{}, b{};
     for (std::size_t k = 0; k < 3; ++k) {
       a[k] = unit * scene.a[i][k];
       b[k] = unit * scene.b[i][k];
     }
-    made.a[i] = {turn(a), turn(a)};
+    approach.a[i] = {turn(a), turn(a)};
     Point b_t0 = b, b_t1 = b;
     const auto up = static_cast<std::size_t>(scene.up);
     const auto along = static_cast<std::size_t>(scene.along);
@@ -124,9 +124,9 @@ Approach draw_approach(Random& random, double d) {
     b_t1[up] += heights.t1;
     b_t0[along] += heights.along_t0;
     b_t1[along] += heights.along_t1;
-    made.b[i] = {turn(b_t0), turn(b_t1)};
+    approach.b[i] = {turn(b_t0), turn(b_t1)};
   }
-  return made;
+  return approach;
 }
 
 corpus::Case with_approach(corpus::Case c, double d, Random& random) {

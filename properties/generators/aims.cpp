@@ -7,7 +7,7 @@
 namespace assay::properties {
 namespace {
 
-struct Aimed {
+struct Aim {
   std::int32_t vertex = 0;
   Face target{};
 };
@@ -23,11 +23,11 @@ class Aimer {
   Points& x_t1() { return draft_.frames[step_ + 1]; }
 
   // Chooses a vertex of the mesh, and the nearest of a few faces that do not hold it.
-  std::optional<Aimed> choose() {
+  std::optional<Aim> choose() {
     const Face& own = one_of(random_, draft_.faces);
     const std::int32_t v = own[at(random_.below(3))];
     const Point& from = at(x_t0(), v);
-    std::optional<Aimed> best;
+    std::optional<Aim> best;
     double nearest = 0;
     for (int tries = random_.one_in(3) ? 2 : 12; tries > 0; --tries) {
       const Face& f = one_of(random_, draft_.faces);
@@ -35,7 +35,7 @@ class Aimer {
       const Point offset = at(x_t0(), f[0]) + at(x_t0(), f[1]) - 2 * from;
       const double distance = dot(offset, offset);
       if (best && distance >= nearest) continue;
-      best = Aimed{v, f};
+      best = Aim{v, f};
       nearest = distance;
     }
     if (best)
@@ -75,7 +75,7 @@ class Aimer {
   }
 
   // Lets the middle of an edge (v, u) meet an edge of the target.
-  bool cross_edges(const Aimed& aimed, double t) {
+  bool cross_edges(const Aim& aimed, double t) {
     const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
                                   [&](const Face& f) { return has(f, aimed.vertex); });
     const auto u = (*own)[0] == aimed.vertex ? (*own)[1] : (*own)[0];
@@ -90,7 +90,7 @@ class Aimer {
   // Lets vertex and face touch without crossing, at t = s. In the axes of the face, the corner p2
   // goes up by w: p2(t) = p2 + t w spans the plane "height = t * part along e". The vertex is at
   // part 2 s - t and at height s^2, so it is above the plane by s^2 - t (2 s - t) = (t - s)^2.
-  void graze(const Aimed& aimed) {
+  void graze(const Aim& aimed) {
     const double s = random_.one_in(2) ? 0.5 : 0.25;
     const auto [a, b, c] = aimed.target;
     at(x_t1(), a) = at(x_t0(), a);
@@ -106,7 +106,7 @@ class Aimer {
 
   // Keeps a face of the vertex and the target in the plane in which the target rests, in all
   // frames.
-  void flatten(const Aimed& aimed) {
+  void flatten(const Aim& aimed) {
     const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
                                   [&](const Face& f) { return has(f, aimed.vertex); });
     const auto axis = at(random_.below(3));

@@ -23,30 +23,30 @@ void drop_unused_vertices(Draft& draft) {
   for (const auto& face : draft.faces) {
     for (const auto v : face) number[at(v)] = 0;
   }
-  std::int32_t used = 0, second = 0;
+  std::int32_t count = 0, second = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    if (static_cast<std::int32_t>(v) == draft.second_piece) second = used;
-    if (number[v] == 0) number[v] = used++;
+    if (static_cast<std::int32_t>(v) == draft.second_piece) second = count;
+    if (number[v] == 0) number[v] = count++;
   }
   draft.second_piece = second;
   for (auto& face : draft.faces) {
     for (auto& v : face) v = number[at(v)];
   }
   for (auto& x : draft.frames) {
-    Points kept;
+    Points points;
     for (std::size_t v = 0; v < number.size(); ++v) {
-      if (number[v] >= 0) kept.push_back(x[v]);
+      if (number[v] >= 0) points.push_back(x[v]);
     }
-    x = std::move(kept);
+    x = std::move(points);
   }
 }
 
 void drop_invalid_faces(Draft& draft) {
-  std::set<Face> known;
+  std::set<Face> faces;
   std::erase_if(draft.faces, [&](Face face) {
     std::sort(face.begin(), face.end());
     const bool repeats = face[0] == face[1] || face[1] == face[2];
-    return repeats || !known.insert(face).second;
+    return repeats || !faces.insert(face).second;
   });
 }
 
@@ -90,9 +90,9 @@ double greatest_of(const corpus::Case& c) {
   return greatest;
 }
 
-GeneratedCase finished(Draft draft, std::string id) {
-  GeneratedCase made;
-  corpus::Case& c = made.c;
+RandomCase finished(Draft draft, std::string id) {
+  RandomCase random_case;
+  corpus::Case& c = random_case.c;
   c.id = std::move(id);
   c.triangles.resize(static_cast<Eigen::Index>(draft.faces.size()), 3);
   for (std::size_t t = 0; t < draft.faces.size(); ++t) {
@@ -112,10 +112,10 @@ GeneratedCase finished(Draft draft, std::string id) {
   if (!draft.q0.empty()) c.view = corpus::CaseView{std::move(draft.q0), std::move(draft.q1)};
   std::sort(draft.tags.begin(), draft.tags.end());
   draft.tags.erase(std::unique(draft.tags.begin(), draft.tags.end()), draft.tags.end());
-  made.tags = std::move(draft.tags);
-  for (const auto& tag : made.tags) c.about += (c.about.empty() ? "" : ", ") + tag;
+  random_case.tags = std::move(draft.tags);
+  for (const auto& tag : random_case.tags) c.about += (c.about.empty() ? "" : ", ") + tag;
   c.source = "random";
-  return made;
+  return random_case;
 }
 
 }  // namespace assay::properties

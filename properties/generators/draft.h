@@ -20,7 +20,7 @@ class Random;
 // tags: "closed", "shape:torus", "holes:2", "motion:twist", "menu:ulp", "aim:edge", ...; each once,
 // ascending. They say what the generator meant to make; whether, say, an aimed contact is the first
 // one of its step is for the oracle to judge.
-struct GeneratedCase {
+struct RandomCase {
   corpus::Case c;
   std::vector<std::string> tags;
 };
@@ -126,6 +126,6 @@ bool is_cycle(const std::vector<Face>& faces);
 double greatest_of(const corpus::Case& c);
 
 // Turns the draft into a case. Its tags are sorted, each once.
-GeneratedCase finished(Draft draft, std::string id);
+RandomCase finished(Draft draft, std::string id);
 
 }  // namespace assay::properties

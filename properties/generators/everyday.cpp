@@ -55,14 +55,14 @@ void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, 
   const double gap = dot(normal, x[first_group] - x[0]) / normal[axis];
   if (!std::isfinite(gap)) return;
   for (std::size_t i = 0; i < first_group; ++i) x[i][axis] += gap;
-  const auto moved = [&](int by) {
+  const auto at_distance = [&](int by) {
     auto y = x;
     for (std::size_t i = 0; i < first_group; ++i)
       y[i][axis] = units_beyond(y[i][axis], by, towards);
     return y;
   };
   const auto side = [&](int by) {
-    const auto y = moved(by);
+    const auto y = at_distance(by);
     return detector::orientation(y[0], y[1], y[2], y[3]);
   };
   constexpr int most = 64;
@@ -76,7 +76,7 @@ void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, 
       (side(middle) == start ? before : there) = middle;
     }
   }
-  x = moved(there + units);
+  x = at_distance(there + units);
 }
 
 int units_at_a_feature(Random& random) {
@@ -130,20 +130,20 @@ double EverydayNumbers::rounded(double c) const {
   return decimal(grains, grain_) * multiplier_ / divisor_ + 0.0;
 }
 
-Point EverydayNumbers::turned(const Point& x) const {
+Point EverydayNumbers::rotate(const Point& x) const {
   if (!is_turned_) return x;
   return {dot(rows_[0], x), dot(rows_[1], x), dot(rows_[2], x)};
 }
 
 Point EverydayNumbers::place(const Point& x) const {
-  Point p = turned(size_ * (x + offset_));
+  Point p = rotate(size_ * (x + offset_));
   for (double& c : p) c = rounded(c);
   return p;
 }
 
 Point EverydayNumbers::end(const Point& x0, const Point& way) const {
   if (way == Point{0, 0, 0}) return x0;
-  Point by = turned(size_ * way);
+  Point by = rotate(size_ * way);
   if (motion_ == velocity) {
     const Point v = 1 / time_step_ * by;
     by = time_step_ * v;
@@ -217,10 +217,10 @@ void open_up(Random& random, Draft& d) {
 
 // A level top between -1 and 1, on a body, on what is left of one, or alone. Its first face is
 // there.
-Draft ground(Random& random, bool closed) {
+Draft ground(Random& random, bool is_closed) {
   const double depth = random.between(1, 8) / 4.0;
   const Points triangle = {{-1, -1, 0}, {1, -1, 0}, {random.signed_unit(), 1, 0}};
-  const int kind = random.below(closed ? 4 : 8);
+  const int kind = random.below(is_closed ? 4 : 8);
   if (kind >= 6) return of({{0, 1, 2}}, triangle, "shape:triangle");
   if (kind >= 4)
     return of({{0, 1, 2}, {0, 2, 3}}, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
@@ -230,28 +230,28 @@ Draft ground(Random& random, bool closed) {
   Draft d = kind >= 2 ? box({-1, -1, -depth}, {1, 1, 0})
                       : of({{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}}, std::move(corners),
                            "shape:tetrahedron");
-  if (!closed) open_up(random, d);
+  if (!is_closed) open_up(random, d);
   return d;
 }
 
 // Something to fall, of about `size` triangles. What is lowest of it is at height 0, one vertex of
 // it at the origin: a vertex, an edge or a side; `lowest` names it.
-Draft faller(Random& random, bool closed, int size, std::vector<std::int32_t>& lowest) {
+Draft faller(Random& random, bool is_closed, int size, std::vector<std::int32_t>& lowest) {
   Draft d;
-  if (!closed && random.below(5) < 2) {
+  if (!is_closed && random.below(5) < 2) {
     d = of({{0, 1, 2}, {0, 2, 3}}, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, "shape:flat");
     if (random.one_in(2)) d.faces.pop_back(), d.rest().pop_back();
     for (auto& p : d.rest()) p[0] += random.signed_unit() / 4, p[1] += random.signed_unit() / 4;
-  } else if (!closed && size <= 3 && random.one_in(2)) {
+  } else if (!is_closed && size <= 3 && random.one_in(2)) {
     d = simple_shape(random, 4);
     open_up(random, d);
-  } else if (!closed && size <= 3) {
+  } else if (!is_closed && size <= 3) {
     d = of({{0, 1, 2}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, "shape:triangle");
     for (auto& p : d.rest()) p = any_vector(random);
-  } else if (closed && random.one_in(4)) {
+  } else if (is_closed && random.one_in(4)) {
     d = box({-1, -1, -1}, {1, 1, 1});
   } else {
-    d = closed ? simple_shape(random, size) : open_shape(random, size);
+    d = is_closed ? simple_shape(random, size) : open_shape(random, size);
   }
   const double scale = random.between(2, 12) / 8.0;
   for (auto& p : d.rest()) p = scale * p;
@@ -296,11 +296,11 @@ Point place_on_top(Random& random) {
 
 }  // namespace
 
-Draft falling_piece(Random& random, bool closed, int size) {
-  Draft below = ground(random, closed);
+Draft falling_piece(Random& random, bool is_closed, int size) {
+  Draft below = ground(random, is_closed);
   std::vector<std::int32_t> lowest;
-  const auto left = size - static_cast<int>(below.faces.size());
-  Draft above = faller(random, closed, std::max(closed ? 4 : 1, left), lowest);
+  const auto rest = size - static_cast<int>(below.faces.size());
+  Draft above = faller(random, is_closed, std::max(is_closed ? 4 : 1, rest), lowest);
   const auto offset = below.vertices();
   Draft d = joined(std::move(below), above);
   const Point place = place_on_top(random);
@@ -312,7 +312,7 @@ Draft falling_piece(Random& random, bool closed, int size) {
   const bool aside = random.one_in(2), rises = random.one_in(3);
   const Point up = {aside ? random.signed_unit() : 0, aside ? random.signed_unit() : 0, height};
   const Point rise = {0, 0, rises ? height * random.between(1, 7) / 8.0 : 0};
-  const auto moved = [&](const Point& upper, const Point& lower) {
+  const auto between = [&](const Point& upper, const Point& lower) {
     Points x = landed;
     for (std::int32_t v = 0; v < d.vertices(); ++v)
       at(x, v) = at(x, v) + (v < offset ? lower : upper);
@@ -320,7 +320,7 @@ Draft falling_piece(Random& random, bool closed, int size) {
   };
   Landing landing{1, {}, d.faces.front(), 2, -1.0 * up, units_at_a_feature(random)};
   for (const auto v : lowest) landing.vertices.push_back(v + offset);
-  const Points apart = moved(up, -1.0 * rise);
+  const Points apart = between(up, -1.0 * rise);
   d.frames = {apart, landed};
   // What is flat slides well: all of it in one plane.
   const bool is_flat = landing.vertices.size() == d.rest().size() - at(offset);
@@ -333,19 +333,19 @@ Draft falling_piece(Random& random, bool closed, int size) {
   } else if (kind <= 2) {
     const double share = random.between(1, 31) / 32.0;
     const double beyond = (1 - share) / share;
-    d.frames[1] = moved(-beyond * up, beyond * rise);
+    d.frames[1] = between(-beyond * up, beyond * rise);
     d.tag("lands:within");
   } else if (kind == 3) {
     // It comes from the side at the height of the top.
     const Point side = {random.one_in(2) ? 4.0 : -4.0, random.signed_unit(), 0};
-    d.frames[0] = moved(side, {0, 0, 0});
+    d.frames[0] = between(side, {0, 0, 0});
     d.landings.push_back(landing);
     d.landings.back().frame = 0;
     d.tag("lands:sliding");
   } else {
     d.tag("lands:at-end");
     if (random.one_in(4)) {
-      d.frames.push_back(random.one_in(2) ? landed : moved({0.25, 0, height}, {0, 0, 0}));
+      d.frames.push_back(random.one_in(2) ? landed : between({0.25, 0, height}, {0, 0, 0}));
       if (d.frames.back() == landed) {
         d.landings.push_back(landing);
         d.landings.back().frame = 2;

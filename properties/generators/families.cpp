@@ -16,7 +16,7 @@ namespace assay::properties {
 // How a case of a family is put together: shape, motion, aims, menus, primitive, in this order.
 
 struct Recipe {
-  bool closed = true, broken = false;
+  bool is_closed = true, is_broken = false;
   bool exact = false;              // small integers and dyadics, exact aims and collapses
   bool nearly_degenerate = false;  // ulp neighbours, slivers, aims just missed
   bool far = false;                // far from the origin, scales, denormals, large steps
@@ -31,7 +31,7 @@ namespace {
 int any_size(Random& random, const Recipe& recipe) {
   const int share = random.below(100);
   if (recipe.everyday) {
-    const int least = recipe.closed ? 4 : 2;
+    const int least = recipe.is_closed ? 4 : 2;
     if (share < 60) return random.between(least, 2 * least);
     return share < 90 ? random.between(2 * least, 12) : random.between(12, 40);
   }
@@ -60,7 +60,7 @@ const char* size_class(std::size_t triangles) {
 // Makes the frames by one to three motions, more often small than large. In some cases the mesh
 // returns on the way it came.
 void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) {
-  const auto chosen =
+  const auto places =
       some_motions(random, random.between(1, 3), recipe.exact, draft.faces.size() <= 60);
   const int least = 3;
   const double mantissa = 1 + random.unit();
@@ -76,7 +76,7 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
       draft.tag("motion:closing");
       continue;
     }
-    const Motion& motion = *one_of(random, chosen);
+    const Motion& motion = *one_of(random, places);
     const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
     motion.move(random, draft, x, amount);
     if (motion.level && !recipe.exact) roughen(random, x, amount);
@@ -102,9 +102,9 @@ void shuffle_faces(Random& random, Draft& draft) {
 }
 
 Draft any_shape(Random& random, const Recipe& recipe, bool positive, int size) {
-  if (positive) return recipe.closed ? star_shape(random, size) : open_star_shape(random, size);
-  if (recipe.broken) return broken_shape(random, size);
-  return recipe.closed ? closed_shape(random, size) : open_shape(random, size);
+  if (positive) return recipe.is_closed ? star_shape(random, size) : open_star_shape(random, size);
+  if (recipe.is_broken) return broken_shape(random, size);
+  return recipe.is_closed ? closed_shape(random, size) : open_shape(random, size);
 }
 
 // Rounds coordinates to few bits. A coarse grid makes coincidences, a fine one only keeps aims
@@ -138,7 +138,7 @@ void use_far_menus(Random& random, Draft& draft) {
   }
 }
 
-GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
+RandomCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const int mode = random.below(100);
   const bool positive = mode < recipe.positive;
   const bool aimed = !positive && mode < recipe.positive + recipe.aimed;
@@ -146,7 +146,7 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   // A case that is made to be positive needs no long sequence.
   const int steps = std::min(any_steps(random, size), positive ? 2 : 8);
   const bool falls = recipe.everyday && aimed;
-  Draft draft = falls ? falling_piece(random, recipe.closed, size)
+  Draft draft = falls ? falling_piece(random, recipe.is_closed, size)
                       : any_shape(random, recipe, positive, size);
   if (!positive && random.one_in(12)) {
     for (auto& f : draft.faces) std::swap(f[1], f[2]);
@@ -165,7 +165,7 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   if (recipe.far) use_far_menus(random, draft);
   if (recipe.everyday) use_everyday_numbers(random, draft);
   if (random.one_in(2)) shuffle_faces(random, draft);
-  draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");
+  draft.tag(recipe.is_broken ? "broken" : recipe.is_closed ? "closed" : "unclosed");
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");
   draft.tag(size_class(draft.faces.size()));
   draft.tag("steps:" + std::to_string(draft.frames.size() - 1));
@@ -175,13 +175,13 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const bool responds =
       draft.frames.size() > 2 && draft.faces.size() <= most_faces && random.one_in(3);
   if (responds) draft.tag("response");
-  GeneratedCase made = finished(std::move(draft), std::move(id));
-  if (responds) made.c = with_response(made.c);
-  return made;
+  RandomCase random_case = finished(std::move(draft), std::move(id));
+  if (responds) random_case.c = with_response(random_case.c);
+  return random_case;
 }
 
 template <const Recipe& recipe>
-GeneratedCase make(Random& random, std::string id) {
+RandomCase make(Random& random, std::string id) {
   return make_by(recipe, random, std::move(id));
 }
 
@@ -189,32 +189,32 @@ constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
 constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
 constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
 constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
-constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
-constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
+constexpr Recipe unclosed_generic = {.is_closed = false, .positive = 20, .aimed = 40};
+constexpr Recipe unclosed_exact = {.is_closed = false, .exact = true, .positive = 25, .aimed = 40};
 constexpr Recipe unclosed_near = {
-    .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
+    .is_closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
 constexpr Recipe closed_everyday = {.everyday = true, .positive = 12, .aimed = 78};
 constexpr Recipe unclosed_everyday = {
-    .closed = false, .everyday = true, .positive = 12, .aimed = 78};
-constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
+    .is_closed = false, .everyday = true, .positive = 12, .aimed = 78};
+constexpr Recipe broken_meshes = {.is_closed = false, .is_broken = true, .aimed = 30};
 
 constexpr Recipe counted_generic = {.positive = 10, .aimed = 50};
-constexpr Recipe counted_exact = {.closed = false, .exact = true, .positive = 10, .aimed = 50};
+constexpr Recipe counted_exact = {.is_closed = false, .exact = true, .positive = 10, .aimed = 50};
 
-GeneratedCase make_counted(Random& random, std::string id) {
+RandomCase make_counted(Random& random, std::string id) {
   const Recipe& recipe = random.one_in(2) ? counted_generic : counted_exact;
-  GeneratedCase made = make_by(recipe, random, std::move(id));
-  add_relation(random, made);
-  return made;
+  RandomCase random_case = make_by(recipe, random, std::move(id));
+  add_relation(random, random_case);
+  return random_case;
 }
 
 constexpr Family counted_table[] = {
     {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
      false, true, make_counted}};
 
-GeneratedCase make_any(Random& random, std::string id) {
-  const auto known = families();
-  return one_of(random, known).make(random, std::move(id));
+RandomCase make_any(Random& random, std::string id) {
+  const auto all = families();
+  return one_of(random, all).make(random, std::move(id));
 }
 
 constexpr Family question_table[] = {
@@ -242,7 +242,7 @@ constexpr Family family_table[] = {
     {"unclosed-everyday", "as closed-everyday, with holes and single triangles", false, false,
      make<unclosed_everyday>},
     {"broken", "no cycles, flipped, zero-area, open seams, 3 to 6 triangles at an edge", false,
-     true, make<broken>},
+     true, make<broken_meshes>},
 };
 
 }  // namespace
@@ -255,7 +255,7 @@ bool is_question_family(std::string_view name) {
   return std::ranges::find(question_table, name, &Family::name) != std::end(question_table);
 }
 
-GeneratedCase make_case(const Family& family, std::string_view id) {
+RandomCase make_case(const Family& family, std::string_view id) {
   Random random(id);
   return family.make(random, std::string(id));
 }
@@ -276,57 +276,57 @@ Point shortened(const Point& a, const Point& b, double s) {
 
 class Responder {
  public:
-  explicit Responder(const corpus::Case& c) : given_(c), made_(c) {
-    made_.frames.assign(1, c.frames.front());
-    made_.expected = {};
-    made_.ghosts.reset();
-    if (made_.view) {
-      for (auto* end : {&made_.view->q0, &made_.view->q1}) {
+  explicit Responder(const corpus::Case& c) : original_(c), case_(c) {
+    case_.frames.assign(1, c.frames.front());
+    case_.expected = {};
+    case_.ghosts.reset();
+    if (case_.view) {
+      for (auto* end : {&case_.view->q0, &case_.view->q1}) {
         if (!end->empty()) end->erase(end->begin() + 1, end->end());
       }
     }
   }
 
   corpus::Case run() {
-    for (std::size_t k = 0; k + 1 < given_.frames.size(); ++k) step(k);
-    return std::move(made_);
+    for (std::size_t k = 0; k + 1 < original_.frames.size(); ++k) step(k);
+    return std::move(case_);
   }
 
  private:
   // Adds the frame that comes after `now_`: the displacement of step k, times s, is applied.
   std::int32_t add_frame(std::size_t k, double s) {
-    const Positions& x = made_.frames[static_cast<std::size_t>(now_)];
-    Positions next = x + s * (given_.frames[k + 1] - given_.frames[k]);
+    const Positions& x = case_.frames[static_cast<std::size_t>(now_)];
+    Positions next = x + s * (original_.frames[k + 1] - original_.frames[k]);
     // A step that starts where the given one does, and is not shortened, also has to end there
     // exactly.
-    if (s == 1 && x == given_.frames[k]) next = given_.frames[k + 1];
-    made_.frames.push_back(std::move(next));
-    if (made_.view) {
-      add_place(given_.view->q0, made_.view->q0, k, s);
-      if (!given_.view->q1.empty()) add_place(given_.view->q1, made_.view->q1, k, s);
+    if (s == 1 && x == original_.frames[k]) next = original_.frames[k + 1];
+    case_.frames.push_back(std::move(next));
+    if (case_.view) {
+      add_place(original_.view->q0, case_.view->q0, k, s);
+      if (!original_.view->q1.empty()) add_place(original_.view->q1, case_.view->q1, k, s);
     }
-    return static_cast<std::int32_t>(made_.frames.size()) - 1;
+    return static_cast<std::int32_t>(case_.frames.size()) - 1;
   }
 
   // The view primitive of a step that is not shortened ends where the given one does, because it
   // need not go with the mesh.
-  void add_place(const std::vector<Point>& given, std::vector<Point>& made, std::size_t k,
+  void add_place(const std::vector<Point>& points, std::vector<Point>& new_points, std::size_t k,
                  double s) {
-    const Point from = made[static_cast<std::size_t>(now_)];
-    const Point to = s == 1 ? given[k + 1] : shortened(from, given[k + 1], s);
-    made.push_back(to);
+    const Point from = new_points[static_cast<std::size_t>(now_)];
+    const Point to = s == 1 ? points[k + 1] : shortened(from, points[k + 1], s);
+    new_points.push_back(to);
   }
 
   void step(std::size_t k) {
     const std::int32_t whole = add_frame(k, 1);
     const auto judgement =
-        oracle::judge_step({frame(now_), frame(whole)}, made_.triangles, {1, {}});
+        oracle::judge_step({frame(now_), frame(whole)}, case_.triangles, {1, {}});
     if (judgement.answer == detector::Answer::free) {
-      made_.script.push_back({now_, whole, true});
+      case_.script.push_back({now_, whole, true});
       now_ = whole;
       return;
     }
-    made_.script.push_back({now_, whole, false});
+    case_.script.push_back({now_, whole, false});
     constexpr double shares[] = {1, 0.75, 0.25};
     const double s = below_half(judgement.first.lo) * shares[k % 3];
     // If the mesh is in contact from the start, no part of the step is free, and the step is
@@ -334,18 +334,18 @@ class Responder {
     if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
     // This is judged again, because rounded positions can touch although the exact ones do not.
-    const bool free = is_free(frame(now_), frame(part), made_);
-    made_.script.push_back({now_, part, free});
+    const bool free = is_free(frame(now_), frame(part), case_);
+    case_.script.push_back({now_, part, free});
     if (free) now_ = part;
   }
 
   // The greatest power of two that is at most t / 2. It is 0 if t is 0.
   static double below_half(double t) { return t == 0 ? 0 : std::ldexp(1, std::ilogb(t) - 1); }
 
-  const Positions& frame(std::int32_t f) const { return made_.frames[static_cast<std::size_t>(f)]; }
+  const Positions& frame(std::int32_t f) const { return case_.frames[static_cast<std::size_t>(f)]; }
 
-  const corpus::Case& given_;
-  corpus::Case made_;
+  const corpus::Case& original_;
+  corpus::Case case_;
   std::int32_t now_ = 0;  // the frame that the mesh is in
 };
 

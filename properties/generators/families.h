@@ -22,19 +22,19 @@
 namespace assay::properties {
 
 class Random;
-struct AskedQuery;
-struct GeneratedCase;
+struct QueryTask;
+struct RandomCase;
 
 struct Family {
   std::string_view name;  // of the stratum
   std::string_view about;
-  bool closed = false;      // every case is a cycle
+  bool is_closed = false;   // every case is a cycle
   bool degenerate = false;  // exact coincidences are frequent: the oracle needs dear rungs
-  GeneratedCase (*make)(Random&, std::string id);
+  RandomCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // of every case, about; 0: few, as above
   // Of a family of queries (queries/query_families.h): query `index` of `seed`, made from these two
   // alone. It is a vertex-face query for even indices, an edge-edge query for odd ones.
-  AskedQuery (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
+  QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
   int one_in = 1;  // one for each `one_in` of "query-small-int": the dearer, the fewer
 };
 
@@ -57,7 +57,7 @@ bool is_size_family(std::string_view name);
 // Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
 // randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A
 // tenth of the cases has a response (below), which costs some judgements of the oracle more.
-GeneratedCase make_case(const Family& family, std::string_view id);
+RandomCase make_case(const Family& family, std::string_view id);
 
 // Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
 //

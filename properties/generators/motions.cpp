@@ -184,17 +184,17 @@ std::vector<const Motion*> some_motions(Random& random, int count, bool exact_to
   };
   int total = 0;
   for (const auto& m : motion_table) total += weight(m);
-  std::vector<const Motion*> chosen;
-  while (static_cast<int>(chosen.size()) < count) {
+  std::vector<const Motion*> motions;
+  while (static_cast<int>(motions.size()) < count) {
     int place = random.below(total);
     for (const auto& m : motion_table) {
       place -= weight(m);
       if (place >= 0) continue;
-      if (std::find(chosen.begin(), chosen.end(), &m) == chosen.end()) chosen.push_back(&m);
+      if (std::find(motions.begin(), motions.end(), &m) == motions.end()) motions.push_back(&m);
       break;
     }
   }
-  return chosen;
+  return motions;
 }
 
 namespace {

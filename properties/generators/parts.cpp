@@ -183,12 +183,12 @@ double length_of_some_edge(Random& random, const corpus::Case& c) {
 void leave_out_features(Random& random, const corpus::Case& c, const detector::TrianglePair& pair,
                         CountedPairs& pairs) {
   const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
-  const auto turned = [&](std::int32_t t) {
+  const auto rotation_of = [&](std::int32_t t) {
     Face corners = {c.triangles(t, 0), c.triangles(t, 1), c.triangles(t, 2)};
     std::rotate(corners.begin(), corners.begin() + random.below(3), corners.end());
     return corners;
   };
-  const Face a = turned(of), b = turned(face);
+  const Face a = rotation_of(of), b = rotation_of(face);
   const std::array edge_a = {a[0], a[1]}, edge_b = {b[0], b[1]};
   if (random.one_in(2)) {
     if (!has(b, a[0])) pairs.vertex_faces.push_back({a[0], face});
@@ -235,8 +235,8 @@ CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Ca
   return pairs;
 }
 
-void add_relation(Random& random, GeneratedCase& made) {
-  corpus::Case& c = made.c;
+void add_relation(Random& random, RandomCase& random_case) {
+  corpus::Case& c = random_case.c;
   CountedPairs pairs;
   pairs.level =
       random.one_in(2) ? detector::CountedLevel::triangles : detector::CountedLevel::features;
@@ -246,11 +246,11 @@ void add_relation(Random& random, GeneratedCase& made) {
   if (random.one_in(3) && std::isfinite(length)) pairs.rest_distance = length / 2;
   if (pairs.count_all()) pairs.rings = 1;
   if (pairs.rest_distance > 0) pairs.rest = corpus::points_of(c.frames.front());
-  made.tags.push_back(std::string("relation:") + name_of(pairs.level));
-  if (!pairs.apart.empty()) made.tags.push_back("relation:bodies");
-  if (pairs.rings > 0) made.tags.push_back("relation:rings");
-  if (pairs.rest_distance > 0) made.tags.push_back("relation:rest-distance");
-  std::sort(made.tags.begin(), made.tags.end());
+  random_case.tags.push_back(std::string("relation:") + name_of(pairs.level));
+  if (!pairs.apart.empty()) random_case.tags.push_back("relation:bodies");
+  if (pairs.rings > 0) random_case.tags.push_back("relation:rings");
+  if (pairs.rest_distance > 0) random_case.tags.push_back("relation:rest-distance");
+  std::sort(random_case.tags.begin(), random_case.tags.end());
   c.counted = corpus::CaseRelation{std::move(pairs), {}};
 }
 

@@ -171,7 +171,7 @@ class EverydayNumbers {
   enum Rounding { none, decimals, inches, quotient, float32 };
   enum Motion { velocity, sum, rounded_end };
   double rounded(double c) const;
-  Point turned(const Point& x) const;
+  Point rotate(const Point& x) const;
 
   double size_;
   Rounding rounding_;
@@ -194,14 +194,14 @@ void use_everyday_numbers(Random& random, Draft& draft);
 // lands on the top, on its border or at its corner, where a step ends; or the piece goes on through
 // the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
 // flat and mostly slides within the plane of the top.
-Draft falling_piece(Random& random, bool closed, int size);
+Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).
 
 // Gives the case a relation that leaves something out: bodies, which are its components, of which
 // some do not meet; one or two rings; a distance at rest of the order of an edge, at rest as in the
 // first frame. It is one of triangles or of features.
-void add_relation(Random& random, GeneratedCase& made);
+void add_relation(Random& random, RandomCase& random_case);
 
 // What a relation leaves out, one thing alone.
 enum class LeftOut : std::uint8_t { nothing, bodies, rings, near_at_rest, single_pairs };

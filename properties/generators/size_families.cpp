@@ -169,14 +169,14 @@ void stacks_in_one_place(Random& random, int triangles, Draft& draft, Points& en
     for (int t = 0; t < stack; ++t) {
       // Along the normal of a plane that no axis is near.
       const double along = layer * t;
-      const double moved = along + layer * 1.5 * random.signed_unit();
+      const double position = along + layer * 1.5 * random.signed_unit();
       const auto v = draft.vertices();
       for (const Point& corner : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}}) {
         const Point at_rest = place + corner;
         const Point normal = {third, third, third};
         draft.vertex(at_rest + along * normal);
         const double noise = 0.25 * layer * random.signed_unit();
-        end.push_back(at_rest + (moved + noise) * normal);
+        end.push_back(at_rest + (position + noise) * normal);
       }
       draft.faces.push_back({v, v + 1, v + 2});
     }
@@ -330,7 +330,7 @@ void map_all(Random& random, Draft& draft) {
 constexpr int largest_with_two_steps = 2000;
 
 template <int triangles>
-GeneratedCase make_large(Random& random, std::string id) {
+RandomCase make_large(Random& random, std::string id) {
   const LargeShape& shape = large_shapes[turn_of(id) % std::size(large_shapes)];
   Draft draft;
   draft.frames.resize(2);

@@ -36,16 +36,16 @@ struct Times {
   }
 };
 
-// Moves from `missing` to `excused` the pairs that need not be found to have the first contact
+// Moves from `missing` to `excuses` the pairs that need not be found to have the first contact
 // right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
 // missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
 // of the oracle that count) whose time is `first`. Times that share an enclosure count as one
 // time. O(n log n).
 void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEnclosure& first,
-                             std::vector<PairContact>& missing, std::vector<PairContact>& excused) {
-  std::set<TrianglePair> lost, of_lost_parts;
-  for (const auto& contact : missing) lost.insert(contact.pair);
-  const auto is_lost = [&](const auto& contact) { return lost.contains(contact.pair); };
+                             std::vector<PairContact>& missing, std::vector<PairContact>& excuses) {
+  std::set<TrianglePair> losses, of_lost_parts;
+  for (const auto& contact : missing) losses.insert(contact.pair);
+  const auto is_lost = [&](const auto& contact) { return losses.contains(contact.pair); };
   for (const auto& part : contact_parts(pairs, first)) {
     if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
     for (const auto& contact : part) of_lost_parts.insert(contact.pair);
@@ -53,7 +53,7 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   const auto begin = std::stable_partition(
       missing.begin(), missing.end(),
       [&](const auto& contact) { return of_lost_parts.contains(contact.pair); });
-  excused.assign(begin, missing.end());
+  excuses.assign(begin, missing.end());
   missing.erase(begin, missing.end());
 }
 
@@ -75,7 +75,7 @@ struct Comparison {
         truth_(truth_of(judgement, contract, triangles)) {}
 
   // What may be reported: whatever is there, or is so within the slack.
-  const std::vector<PairContact>& allowed() const {
+  const std::vector<PairContact>& allowed_pairs() const {
     return judgement_.within_slack ? *judgement_.within_slack : judgement_.pairs;
   }
 
@@ -86,10 +86,10 @@ struct Comparison {
   void compare_with_all() {
     // If the oracle was stopped, it has not refuted what it has not reached.
     if (!judgement_.complete) return;
-    auto theirs = allowed().begin();
+    auto theirs = allowed_pairs().begin();
     for (const auto& ours : result_.pairs) {
-      while (theirs != allowed().end() && theirs->pair < ours.pair) ++theirs;
-      if (theirs == allowed().end() || ours.pair < theirs->pair) {
+      while (theirs != allowed_pairs().end() && theirs->pair < ours.pair) ++theirs;
+      if (theirs == allowed_pairs().end() || ours.pair < theirs->pair) {
         diff_.spurious.push_back(ours);
       } else if (times_.ends_before(ours.time, theirs->time)) {
         diff_.early.push_back({ours.pair, ours.time, theirs->time});
@@ -139,9 +139,9 @@ struct Comparison {
   // Sorts out the missing pairs that are excused.
   void excuse() {
     auto unexcused = diff_.missing;
-    std::vector<PairContact> excused;
+    std::vector<PairContact> excuses;
     if (truth_.complete && truth_.first) {
-      excuse_beside_the_first(truth_.pairs, truth_.first->time, unexcused, excused);
+      excuse_beside_the_first(truth_.pairs, truth_.first->time, unexcused, excuses);
     } else if (result_.answer == Answer::collision) {
       // If the oracle was stopped, only a pair that is earlier than the detector's first time is
       // missed for sure.
@@ -149,7 +149,7 @@ struct Comparison {
           unexcused.begin(), unexcused.end(), [&](const PairContact& contact) {
             return times_.begins_after(result_.first, contact.time);
           });
-      excused.assign(later, unexcused.end());
+      excuses.assign(later, unexcused.end());
       unexcused.erase(later, unexcused.end());
     }
     diff_.is_without_excuse = !unexcused.empty();
@@ -160,7 +160,7 @@ struct Comparison {
       return;
     }
     diff_.missing = std::move(unexcused);
-    diff_.excused = std::move(excused);
+    diff_.excuses = std::move(excuses);
   }
 
   // With a slack a first time may be earlier than the exact one, but not than the first that comes
@@ -169,9 +169,9 @@ struct Comparison {
     if (!judgement_.within_slack || !judgement_.complete || result_.answer != Answer::collision)
       return;
     const auto first = std::min_element(
-        allowed().begin(), allowed().end(),
+        allowed_pairs().begin(), allowed_pairs().end(),
         [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
-    if (first != allowed().end() && times_.ends_before(result_.first, first->time))
+    if (first != allowed_pairs().end() && times_.ends_before(result_.first, first->time))
       diff_.first_in_slack = *first;
   }
 
@@ -200,38 +200,38 @@ std::int64_t ordinal(double x) {
 
 }  // namespace
 
-TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double tolerance) {
-  const double ulps = std::abs(static_cast<double>(ordinal(stated.lo) - ordinal(exact.lo)));
-  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0, ulps};
-  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo, ulps};
+TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, double tolerance) {
+  const double ulps = std::abs(static_cast<double>(ordinal(interval.lo) - ordinal(exact.lo)));
+  if (interval.lo > exact.lo + tolerance) return {interval.lo - exact.lo, 0, ulps};
+  if (interval.lo < exact.lo - tolerance) return {0, exact.lo - interval.lo, ulps};
   return {};
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  Comparison compared(result, judgement, claims, contract, triangles);
-  auto& diff = compared.diff_;
-  auto& truth = compared.truth_;
+  Comparison comparison(result, judgement, claims, contract, triangles);
+  auto& diff = comparison.diff_;
+  auto& truth = comparison.truth_;
   diff.answer = result.answer;
   diff.oracle_complete = judgement.complete;
-  diff.nothing_in_contact = judgement.complete && compared.allowed().empty();
+  diff.nothing_in_contact = judgement.complete && comparison.allowed_pairs().empty();
   diff.claims_pairs = claims.has_any(claims_about({About::pairs}));
   diff.unanswered_contact = is_unanswered_contact(result, truth);
   if (result.answer == Answer::error) {
     diff.owes_answer = !result.problem;
-    return compared.weighed(Outcome::error);
+    return comparison.weighed(Outcome::error);
   }
-  diff.partial = !compared.detector_complete() || !judgement.complete;
+  diff.partial = !comparison.detector_complete() || !judgement.complete;
   diff.first_contact = truth.first;
   diff.starts_near = truth.starts_near;
   diff.left_out = std::move(truth.left_out);
-  compared.compare_with_all();
-  compared.compare_with_what_counts();
-  compared.compare_answers();
-  compared.compare_with_slack();
-  compared.excuse();
-  return compared.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
+  comparison.compare_with_all();
+  comparison.compare_with_what_counts();
+  comparison.compare_answers();
+  comparison.compare_with_slack();
+  comparison.excuse();
+  return comparison.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
 }
 
 oracle::AskedFeatures asked_features(const Contract& contract) {
@@ -254,9 +254,9 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
   options.pairs = detector::Pairs::all;
   const auto finds = [&](detector::Culling culling) {
     options.culling = culling;
-    auto made = detector::Detector::create(triangles, x_t0, options);
-    if (!made) return false;
-    const auto result = made.value().evaluate(x_t0, x_t1);
+    auto creation = detector::Detector::create(triangles, x_t0, options);
+    if (!creation) return false;
+    const auto result = creation.value().evaluate(x_t0, x_t1);
     return std::any_of(result.pairs.begin(), result.pairs.end(),
                        [&](const PairContact& contact) { return contact.pair == pair; });
   };
@@ -295,9 +295,9 @@ StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& c
   diff.oracle_complete = judgement.complete;
   const StepTruth truth = truth_of(judgement, contract, triangles);
   diff.starts_near = truth.starts_near;
-  diff.refused = {static_cast<std::uint64_t>(triangles.rows()), truth.pairs.size(),
-                  judgement.feature_candidates};
-  if (beyond_capacity(contract, *diff.refused)) {
+  diff.overload = {static_cast<std::uint64_t>(triangles.rows()), truth.pairs.size(),
+                   judgement.feature_candidates};
+  if (beyond_capacity(contract, *diff.overload)) {
     diff.outcome = Outcome::refused;
   } else if (!judgement.complete) {
     diff.partial = true;
@@ -372,11 +372,11 @@ StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contr
     if (!leaves_out(contract, triangles, contact.pair)) truth.pairs.push_back(contact);
   }
   // A contact is left out if it is not among these, or is so only later.
-  auto counted = truth.pairs.begin();
+  auto counted_pair = truth.pairs.begin();
   for (const auto& contact : judgement.pairs) {
-    while (counted != truth.pairs.end() && counted->pair < contact.pair) ++counted;
-    const bool counts = counted != truth.pairs.end() && counted->pair == contact.pair &&
-                        !(contact.time < counted->time);
+    while (counted_pair != truth.pairs.end() && counted_pair->pair < contact.pair) ++counted_pair;
+    const bool counts = counted_pair != truth.pairs.end() && counted_pair->pair == contact.pair &&
+                        !(contact.time < counted_pair->time);
     if (!counts) truth.left_out.push_back(contact);
   }
   const auto first =

@@ -59,7 +59,7 @@ using ContactPart = std::vector<detector::PairContact>;
 std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
                                        const detector::TimeEnclosure& time);
 
-TimeOff time_off(const detector::TimeEnclosure& stated, const detector::TimeEnclosure& exact,
+TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEnclosure& exact,
                  double tolerance);
 
 // Judges a step by what its detector claims. Pairs of the oracle that lie outside of the

@@ -23,13 +23,13 @@ std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsVie
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
   const auto own = tested_pairs(contract, c.frames.front());
   oracle::MeshFeatures features;
-  std::optional<oracle::PairRelation> tested, counted;
+  std::optional<oracle::PairRelation> tested, counted_relation;
   if (c.counted || !own.count_all()) features = oracle::mesh_features(c.triangles);
   if (!own.count_all()) tested.emplace(own, features);
-  if (c.counted) counted.emplace(c.counted->pairs, features);
+  if (c.counted) counted_relation.emplace(c.counted->pairs, features);
   return oracle::any_nearer_than(x, c.triangles, distance, [&](std::int32_t a, std::int32_t b) {
     return !leaves_out(contract, c.triangles, {a, b}) && (!tested || tested->counts_faces(a, b)) &&
-           (!counted || counted->counts_faces(a, b));
+           (!counted_relation || counted_relation->counts_faces(a, b));
   });
 }
 
@@ -45,13 +45,13 @@ bool contract_relation(corpus::Case& c, const Contract& contract) {
   }
   if (!c.counted || contract.coordinates == Coordinates::float64) return true;
   auto& [pairs, steps] = *c.counted;
-  const auto given = pairs;
+  const auto all = pairs;
   const auto round = [](double& x) { return std::isfinite(x = static_cast<float>(x)); };
   bool is_finite = round(pairs.rest_distance);
   for (auto& place : pairs.rest) {
     for (double& x : place) is_finite = round(x) && is_finite;
   }
-  if (pairs != given) steps.clear();
+  if (pairs != all) steps.clear();
   return is_finite;
 }
 
@@ -72,18 +72,18 @@ std::optional<detector::Positions> exact_end(const detector::Positions& x,
 }
 
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
-// displacement that leads nearest to the end that was `given`. Steps whose sum is no double are
+// displacement that leads nearest to the end in `original`. Steps whose sum is no double are
 // left out. False if all are. A mesh at rest stays the first frame where the contract goes by it.
-bool hold_displacements(corpus::Case& c, corpus::Case given, const Contract& contract) {
+bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& contract) {
   std::vector<std::size_t> exact;
   auto steps = corpus::steps_of(c);
   for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (exact_end(start_of(c, steps[s]), end_of(given, steps[s]))) exact.push_back(s);
+    if (exact_end(start_of(c, steps[s]), end_of(original, steps[s]))) exact.push_back(s);
   }
   if (exact.empty()) return false;
   if (exact.size() < steps.size()) {
     c = with_steps(c, exact, contract);
-    given = with_steps(given, exact, contract);
+    original = with_steps(original, exact, contract);
     steps = corpus::steps_of(c);
   }
   std::vector<detector::Positions> frames;
@@ -91,7 +91,7 @@ bool hold_displacements(corpus::Case& c, corpus::Case given, const Contract& con
   if (contract.rest_distance > 0) frames.push_back(c.frames.front());
   for (const auto& step : steps) {
     const auto& x = start_of(c, step);
-    const auto end = *exact_end(x, end_of(given, step));
+    const auto end = *exact_end(x, end_of(original, step));
     const auto place = static_cast<std::int32_t>(frames.size());
     script.push_back({place, place + 1, step.commit});
     frames.push_back(x);
@@ -158,18 +158,18 @@ std::vector<Edge> edges_of(const corpus::Case& c) {
   return edges;
 }
 
-std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract) {
+std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract& contract) {
   corpus::Case out = c;
   const auto edges = edges_of(c);
   if (!contract_relation(out, contract)) return std::nullopt;
   for (auto& frame : out.frames) {
-    detector::Positions taken = contracted(frame, contract.coordinates);
+    detector::Positions positions = round_to(frame, contract.coordinates);
     // Facts about other coordinates are none about these.
-    if (taken != frame && out.expected.answer != detector::Answer::error) {
+    if (positions != frame && out.expected.answer != detector::Answer::error) {
       out.expected = {};
       if (out.counted) out.counted->steps.clear();
     }
-    frame = std::move(taken);
+    frame = std::move(positions);
     if (!why_no_frame(frame, edges, contract).empty()) return std::nullopt;
   }
   if (contract.motion == MotionGiven::displacement && !hold_displacements(out, c, contract))
@@ -199,7 +199,7 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
   std::size_t number = 0;
   for (const auto& frame : c.frames) {
     ++number;
-    const auto why = why_no_frame(contracted(frame, contract.coordinates), edges, contract);
+    const auto why = why_no_frame(round_to(frame, contract.coordinates), edges, contract);
     if (!why.empty()) return fmt::format("frame {} of {}: {}", number, c.frames.size(), why);
   }
   const std::string distance = contract.start == StartRule::apart
@@ -217,16 +217,16 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
     return fmt::format("start {}: the two features start {}", start, distance);
   }
   const auto steps = corpus::steps_of(c);
-  const auto x = contracted(start_of(c, steps.front()), contract.coordinates);
-  corpus::Case seen = c;
-  for (auto& frame : seen.frames) frame = contracted(frame, contract.coordinates);
-  if (corpus::Case held = seen;
-      contract.motion == MotionGiven::displacement && !hold_displacements(held, c, contract))
+  const auto x = round_to(start_of(c, steps.front()), contract.coordinates);
+  corpus::Case contracted_case = c;
+  for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
+  if (corpus::Case displaced = contracted_case;
+      contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
     return "motion displacement: the end of every step is no double";
-  if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(seen, contract))
+  if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
     return "stops at start-plus: the way of a vertex is beyond the largest number";
-  if (!contract_relation(seen, contract)) return "a place at rest has no float32";
-  const auto pair = pair_too_near(x, seen, contract);
+  if (!contract_relation(contracted_case, contract)) return "a place at rest has no float32";
+  const auto pair = pair_too_near(x, contracted_case, contract);
   if (!pair) return "";
   return fmt::format(
       "start {}: triangles {} and {} are {} where {}", start, pair->a, pair->b, distance,

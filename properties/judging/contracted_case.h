@@ -19,11 +19,11 @@ namespace assay::properties {
 // what the contract can hold, or if no step is left: the case is then not for this detector. A
 // query (query_case.h) is taken or left out as a whole; a case that says that it is a query and is
 // none is not taken. Expected facts that are no longer known to hold are left out.
-std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract);
+std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract& contract);
 
-// Why contracted() gives nothing for the case, in one line: the member of the contract, the place
-// and the value ("frame 1 of 2: edge 3-4 is 2e-13 long, below least_nonzero, 1e-06"; "start free:
-// triangles 3 and 8 are in contact where step 1 starts, and every other step starts so").
+// Why contract_case() gives nothing for the case, in one line: the member of the contract, the
+// place and the value ("frame 1 of 2: edge 3-4 is 2e-13 long, below least_nonzero, 1e-06"; "start
+// free: triangles 3 and 8 are in contact where step 1 starts, and every other step starts so").
 std::string why_left_out(const corpus::Case& c, const Contract& contract);
 
 // The edges whose lengths count for a contract's range: of all triangles, or of the features of a

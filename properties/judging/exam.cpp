@@ -23,8 +23,8 @@ std::uint64_t time_of(const Work& work) {
       std::chrono::duration_cast<std::chrono::microseconds>(took).count());
 }
 
-bool has_an_answer(const Examined& examined) {
-  return std::any_of(examined.runs.begin(), examined.runs.end(),
+bool has_an_answer(const CaseResults& results) {
+  return std::any_of(results.runs.begin(), results.runs.end(),
                      [](const CaseRun& run) { return !run.steps.empty(); });
 }
 
@@ -39,17 +39,17 @@ Outcome worse(Outcome a, Outcome b) {
   return rank(a) < rank(b) ? b : a;
 }
 
-void add_broken(Verdict& judged, Claim claim) {
-  judged.outcome = Outcome::defect;
-  const auto place = std::lower_bound(judged.broken.begin(), judged.broken.end(), claim);
-  if (place == judged.broken.end() || *place != claim) judged.broken.insert(place, claim);
+void add_broken(Verdict& verdict, Claim claim) {
+  verdict.outcome = Outcome::defect;
+  const auto place = std::lower_bound(verdict.breaches.begin(), verdict.breaches.end(), claim);
+  if (place == verdict.breaches.end() || *place != claim) verdict.breaches.insert(place, claim);
 }
 
-void not_answered(Verdict& judged, const Claims& claims) {
+void not_answered(Verdict& verdict, const Claims& claims) {
   if (claims.has(Claim::total)) {
-    add_broken(judged, Claim::total);
+    add_broken(verdict, Claim::total);
   } else {
-    judged.outcome = Outcome::error;
+    verdict.outcome = Outcome::error;
   }
 }
 
@@ -64,23 +64,23 @@ struct AskedPairs {
 
 std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c, const Contract& contract,
                                                int jobs) {
-  const AskedPairs asked(c, contract, jobs);
+  const AskedPairs pairs(c, contract, jobs);
   std::vector<oracle::StepJudgement> judgements;
   for (const auto& step : corpus::steps_of(c)) {
     judgements.push_back(
-        judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, asked.options));
+        judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, pairs.options));
   }
   return judgements;
 }
 
 }  // namespace
 
-const std::string& Examined::printed(std::size_t configuration) const {
-  const auto& first = runs[configuration].printed;
-  return first.empty() && !again.empty() ? again[configuration].printed : first;
+const std::string& CaseResults::output(std::size_t configuration) const {
+  const auto& first = runs[configuration].output;
+  return first.empty() && !again.empty() ? again[configuration].output : first;
 }
 
-std::string Examined::why_not_run() const {
+std::string CaseResults::why_not_run() const {
   for (const auto* list : {&runs, &again}) {
     for (const auto& run : *list) {
       if (run.end == RunEnd::not_run) return run.explanation;
@@ -89,45 +89,45 @@ std::string Examined::why_not_run() const {
   return "";
 }
 
-void run_first(const Exam& exam, Examined& examined) {
-  examined.detector_us = time_of([&] {
+void run_first(const Exam& exam, CaseResults& results) {
+  results.detector_us = time_of([&] {
     if (exam.worker) {
-      examined.runs = exam.worker->run(examined.c, exam.configurations);
+      results.runs = exam.worker->run(results.c, exam.configurations);
     } else {
       for (const auto& configuration : exam.configurations)
-        examined.runs.push_back(run_case(examined.c, configuration));
+        results.runs.push_back(run_case(results.c, configuration));
     }
   });
 }
 
-void run_again(const Exam& exam, Examined& examined) {
-  if (exam.second) examined.again = exam.second->run(examined.c, exam.configurations);
+void run_again(const Exam& exam, CaseResults& results) {
+  if (exam.second) results.again = exam.second->run(results.c, exam.configurations);
 }
 
-void judge(const Exam& exam, Examined& examined) {
+void judge(const Exam& exam, CaseResults& results) {
   const auto& [detector, configurations, worker, second, jobs, needs_an_answer] = exam;
-  auto& [c, truth, runs, again, verdicts, oracle_us, detector_us] = examined;
-  if (truth.empty() && (!needs_an_answer || has_an_answer(examined)))
+  auto& [c, truth, runs, again, verdicts, oracle_us, detector_us] = results;
+  if (truth.empty() && (!needs_an_answer || has_an_answer(results)))
     oracle_us = time_of([&] { truth = judge_case(c, detector.contract, jobs); });
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const auto claims = detector.claims_on(c, configurations[i]);
     auto& verdict = verdicts.emplace_back(
-        judge_run(c, runs[i], truth, claims, detector.contract, examined.second(i)));
+        judge_run(c, runs[i], truth, claims, detector.contract, results.second(i)));
     if (verdict.outcome == Outcome::defect)
       verdict.failure = failure_of(verdict, c, truth, runs[i], configurations[i], detector);
   }
 }
 
-Examined examine(const Exam& exam, corpus::Case c) {
-  Examined examined;
-  examined.c = std::move(c);
-  run_first(exam, examined);
-  run_again(exam, examined);
-  judge(exam, examined);
-  return examined;
+CaseResults examine(const Exam& exam, corpus::Case c) {
+  CaseResults results;
+  results.c = std::move(c);
+  run_first(exam, results);
+  run_again(exam, results);
+  judge(exam, results);
+  return results;
 }
 
-std::vector<Examined> examine(const Exam& exam, std::vector<corpus::Case> cases) {
+std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cases) {
   const auto runs = [&](WorkerProcess& worker) {
     auto all = worker.run(cases, exam.configurations);
     std::vector<std::vector<CaseRun>> by_case(cases.size());
@@ -143,15 +143,15 @@ std::vector<Examined> examine(const Exam& exam, std::vector<corpus::Case> cases)
     std::reverse(cases.begin(), cases.end());
     std::reverse(again.begin(), again.end());
   }
-  std::vector<Examined> examined(cases.size());
+  std::vector<CaseResults> results(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    auto& one = examined[i];
+    auto& one = results[i];
     one.c = std::move(cases[i]);
     one.runs = std::move(first[i]);
     one.again = std::move(again[i]);
     judge(exam, one);
   }
-  return examined;
+  return results;
 }
 
 CaseRun run_alone(WorkerProcess& worker, const corpus::Case& c,
@@ -195,57 +195,57 @@ StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& st
 Verdict judge_run(const corpus::Case& c, const CaseRun& run,
                   std::span<const oracle::StepJudgement> judgements, const Claims& claims,
                   const Contract& contract, const CaseRun* again) {
-  Verdict judged;
-  judged.explanation = run.explanation;
-  judged.disturbances = run.disturbances + (again ? again->disturbances : 0);
+  Verdict verdict;
+  verdict.explanation = run.explanation;
+  verdict.disturbances = run.disturbances + (again ? again->disturbances : 0);
   switch (run.end) {
     case RunEnd::completed:
       break;
     case RunEnd::crashed:
-      not_answered(judged, claims);
+      not_answered(verdict, claims);
       break;
     case RunEnd::refused:
-      if (c.expected.answer != detector::Answer::error) not_answered(judged, claims);
+      if (c.expected.answer != detector::Answer::error) not_answered(verdict, claims);
       break;
     case RunEnd::beyond_capacity: {
       const StepLoad load = {static_cast<std::uint64_t>(c.triangles.rows()), 0, 0};
       if (beyond_capacity(contract, load)) {
-        judged.outcome = Outcome::refused;
+        verdict.outcome = Outcome::refused;
       } else {
-        not_answered(judged, claims);
+        not_answered(verdict, claims);
       }
       break;
     }
     case RunEnd::hung:
     case RunEnd::out_of_memory:
-      judged.outcome = Outcome::undecided;
+      verdict.outcome = Outcome::undecided;
       break;
     case RunEnd::not_run:
-      judged.outcome = Outcome::error;
-      return judged;
+      verdict.outcome = Outcome::error;
+      return verdict;
   }
   const Contract of_case = says_query(c) ? on_queries(contract) : contract;
   const auto script = corpus::steps_of(c);
   const detector::TrianglesView triangles(c.triangles);
-  std::optional<AskedPairs> asked;
+  std::optional<AskedPairs> pairs;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
-    if (!asked) asked.emplace(c, contract, 1);
+    if (!pairs) pairs.emplace(c, contract, 1);
     const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
     auto diff =
-        judge_step(run, s, {motion, triangles, asked->options}, judgements[s], claims, of_case);
-    judged.outcome = worse(judged.outcome, diff.outcome);
-    for (const auto claim : diff.broken) add_broken(judged, claim);
-    judged.left_out_misses += diff.left_out_missed ? 1 : 0;
-    judged.steps.push_back(std::move(diff));
+        judge_step(run, s, {motion, triangles, pairs->options}, judgements[s], claims, of_case);
+    verdict.outcome = worse(verdict.outcome, diff.outcome);
+    for (const auto claim : diff.breaches) add_broken(verdict, claim);
+    verdict.left_out_misses += diff.left_out_missed ? 1 : 0;
+    verdict.steps.push_back(std::move(diff));
   }
-  if (!again) return judged;
+  if (!again) return verdict;
   if (again->end == RunEnd::not_run) {
-    judged.explanation = again->explanation;
-    judged.outcome = worse(judged.outcome, Outcome::error);
+    verdict.explanation = again->explanation;
+    verdict.outcome = worse(verdict.outcome, Outcome::error);
   }
   if (again->end == RunEnd::crashed && run.end != RunEnd::crashed) {
-    judged.explanation = again->explanation;
-    not_answered(judged, claims);
+    verdict.explanation = again->explanation;
+    not_answered(verdict, claims);
   }
   const auto ended_by_itself = [](const CaseRun& one) {
     return one.end == RunEnd::completed || one.end == RunEnd::crashed ||
@@ -253,9 +253,9 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
   };
   if (claims.has(Claim::deterministic) && ended_by_itself(run) && ended_by_itself(*again) &&
       !same_answers(run, *again)) {
-    add_broken(judged, Claim::deterministic);
+    add_broken(verdict, Claim::deterministic);
   }
-  return judged;
+  return verdict;
 }
 
 using detector::Answer;
@@ -276,20 +276,20 @@ class CaseChecker {
         configuration_{"", options},
         detector_(built_in_detector().in(configuration_)),
         claims_(detector_.claims_in(configuration_)),
-        checked_{examine({.detector = detector_,
-                          .configurations = {&configuration_, 1},
-                          .oracle_jobs = jobs,
-                          .needs_an_answer = true},
-                         c)},
-        case_(checked_.c),
+        check_{examine({.detector = detector_,
+                        .configurations = {&configuration_, 1},
+                        .oracle_jobs = jobs,
+                        .needs_an_answer = true},
+                       c)},
+        case_(check_.c),
         script_(corpus::steps_of(case_)) {}
 
-  CheckedCase run() {
-    const auto& run = checked_.runs[0];
+  CaseCheck run() {
+    const auto& run = check_.runs[0];
     const auto& expected = case_.expected.answer;
     if (run.end != RunEnd::completed) {
       if (expected != Answer::error) fail("refused: " + run.explanation);
-      return std::move(checked_);
+      return std::move(check_);
     }
     if (expected == Answer::error) fail("accepted, expected to be refused");
     bool collision = false;
@@ -298,26 +298,26 @@ class CaseChecker {
       collision |= run.steps[s].answer == Answer::collision;
     }
     // The answer that is expected of a case is that of all pairs (CaseRelation).
-    if (!expected || case_.counted) return std::move(checked_);
+    if (!expected || case_.counted) return std::move(check_);
     if (*expected == Answer::collision ? claims_.has(Claim::free_sound) && !collision
                                        : claims_.has(Claim::no_spurious) && collision) {
       fail(fmt::format("answer {}, expected {}", collision ? "collision" : "free",
                        name_of(*expected)));
     }
-    return std::move(checked_);
+    return std::move(check_);
   }
 
  private:
-  void fail(std::string fact) { checked_.failed.push_back(std::move(fact)); }
+  void fail(std::string fact) { check_.broken_facts.push_back(std::move(fact)); }
 
   detector::SteppedMesh motion(std::size_t s) const {
     return {start_of(case_, script_[s]), end_of(case_, script_[s])};
   }
 
   void check_step(std::size_t s) {
-    const auto& truth = checked_.truth[s];
+    const auto& truth = check_.truth[s];
     const std::string where = fmt::format("step {}: ", s + 1);
-    if (checked_.verdicts[0].steps[s].outcome != Outcome::holds)
+    if (check_.verdicts[0].steps[s].outcome != Outcome::holds)
       fail(where + "detector and oracle disagree");
     if (s < case_.expected.steps.size())
       check_facts(where, case_.expected.steps[s],
@@ -327,7 +327,7 @@ class CaseChecker {
     if (case_.counted && s < case_.counted->steps.size())
       check_facts(where + "of what counts: ", case_.counted->steps[s], truth);
     if (uses_views(configuration_.options.culling) && claims_.has(Claim::free_sound))
-      check_signs(where, s, checked_.runs[0].steps[s]);
+      check_signs(where, s, check_.runs[0].steps[s]);
     if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
   }
 
@@ -343,11 +343,11 @@ class CaseChecker {
                        time_text(*expected.first_time)));
     }
     if (!expected.pairs) return;
-    std::vector<corpus::ExpectedPair> found;
-    for (const auto& contact : judgement.pairs) found.push_back({contact.pair, contact.time});
-    if (found == *expected.pairs) return;
+    std::vector<corpus::ExpectedPair> pairs;
+    for (const auto& contact : judgement.pairs) pairs.push_back({contact.pair, contact.time});
+    if (pairs == *expected.pairs) return;
     fail(fmt::format("{}{} pairs with their times, expected {}, or other pairs or times", where,
-                     found.size(), expected.pairs->size()));
+                     pairs.size(), expected.pairs->size()));
   }
 
   // Compares the detector's own signs with the oracle's, for the primitives that the detector
@@ -364,8 +364,8 @@ class CaseChecker {
         // A triangle in V0 costs time only. Arithmetic that does not certify every sign may put
         // triangles there, and so does a relation for which a component needs no views.
         const bool may_be_zero = !claims_.has(Claim::no_spurious) || case_.counted;
-        const bool allowed = exact == ours || (may_be_zero && ours == ViewSign::zero);
-        if (!allowed) {
+        const bool is_allowed = exact == ours || (may_be_zero && ours == ViewSign::zero);
+        if (!is_allowed) {
           fail(fmt::format("{}view sign of triangle {}: detector {}, oracle {}", where, t,
                            static_cast<int>(ours), static_cast<int>(exact)));
         }
@@ -397,15 +397,15 @@ class CaseChecker {
   Configuration configuration_;
   DetectorUnderTest detector_;
   Claims claims_;
-  CheckedCase checked_;
+  CaseCheck check_;
   const corpus::Case& case_;
   std::vector<corpus::CaseStep> script_;
 };
 
 }  // namespace
 
-CheckedCase check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
-                       std::optional<Arithmetic> arithmetic) {
+CaseCheck check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
+                     std::optional<Arithmetic> arithmetic) {
   auto options = options_of(c);
   options.culling = culling.value_or(options.culling);
   options.arithmetic = arithmetic.value_or(options.arithmetic);

@@ -18,7 +18,7 @@
 namespace assay::properties {
 
 // What the oracle and the detector say of one case; of the lists, one item for each configuration.
-struct Examined {
+struct CaseResults {
   corpus::Case c;  // as the contract has it
   std::vector<oracle::StepJudgement> truth = {};
   std::vector<CaseRun> runs = {};
@@ -32,7 +32,7 @@ struct Examined {
     return again.empty() ? nullptr : &again[configuration];
   }
   // What the detector printed in the first run or, if that was silent, in the second.
-  const std::string& printed(std::size_t configuration) const;
+  const std::string& output(std::size_t configuration) const;
   // Why a run did not take place: there is no worker. Empty if all did.
   std::string why_not_run() const;
 };
@@ -52,14 +52,14 @@ struct Exam {
 
 // A case is examined in three parts: it is run, it is run again, and both runs are judged. All of
 // them REQUIRE a contracted case. What is there already of the oracle's is not asked again.
-void run_first(const Exam& exam, Examined& examined);
-void run_again(const Exam& exam, Examined& examined);
-void judge(const Exam& exam, Examined& examined);
+void run_first(const Exam& exam, CaseResults& results);
+void run_again(const Exam& exam, CaseResults& results);
+void judge(const Exam& exam, CaseResults& results);
 
-Examined examine(const Exam& exam, corpus::Case c);
+CaseResults examine(const Exam& exam, corpus::Case c);
 // Examines cases, in order. They go to the worker together, and to the second one together from the
 // last to the first. What they print, and how long they take, is not told apart.
-std::vector<Examined> examine(const Exam& exam, std::vector<corpus::Case> cases);
+std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cases);
 
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
 CaseRun run_alone(WorkerProcess& worker, const corpus::Case& c, const Configuration& configuration);
@@ -101,8 +101,8 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
 // Runs a case of the corpus through detector and oracle, and compares both with its expected
 // facts.
 
-struct CheckedCase : Examined {
-  std::vector<std::string> failed = {};  // one line for each fact that does not hold
+struct CaseCheck : CaseResults {
+  std::vector<std::string> broken_facts = {};  // one line for each fact that does not hold
 };
 
 // Runs the case in this process with its own options (case_options.h); `culling` and `arithmetic`
@@ -113,7 +113,7 @@ struct CheckedCase : Examined {
 // signs (of the detector if it tested the triangle, always of the oracle), and the agreement of
 // detector and oracle. The detector's answer, pairs and signs are held to what its arithmetic
 // claims.
-CheckedCase check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
-                       int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
+CaseCheck check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
+                     int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
 
 }  // namespace assay::properties

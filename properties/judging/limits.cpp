@@ -54,13 +54,13 @@ class LimitComparison {
     const auto& first = truth_.first;
     // The end of a displacement is where the caller's own numbers place it.
     const bool is_whole =
-        answer_.positions == to || answer_.positions == contracted(to, contract_.coordinates);
+        answer_.positions == to || answer_.positions == round_to(to, contract_.coordinates);
     const bool stays = answer_.positions == from;
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
     // A share counts for no more than the positions beside it go, each rounded by an ulp at most.
-    limit.used =
+    limit.way =
         answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;
     if (answer_.positions == to) {
@@ -68,13 +68,13 @@ class LimitComparison {
     } else if (!stays) {
       limit.hit = first_on_the_way_to(answer_.positions);
     }
-    const double promised = contract_.progress > 0 ? contract_.progress : usual_progress;
-    if (stays && could_move(promised * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
+    const double progress = contract_.progress > 0 ? contract_.progress : usual_progress;
+    if (stays && could_move(progress * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
     limit.too_far = answer_.share >= 0 && first && !is_before(answer_.share, first->time);
     // The sign of this is exact but for the least of all doubles.
-    const bool is_short = answer_.share >= 0 && std::fma(promised, possible, -limit.used) > 0;
+    const bool is_short = answer_.share >= 0 && std::fma(progress, possible, -limit.way) > 0;
     if (is_short && claims_.has(Claim::progress)) {
-      limit.too_short = is_owed(promised * possible, possible);
+      limit.too_short = is_owed(progress * possible, possible);
       limit.is_excused = !limit.too_short;
     }
     weigh(claims_.only(claims_on_limits), diff);
@@ -86,12 +86,12 @@ class LimitComparison {
 
  private:
   std::optional<detector::PairContact> first_on_the_way_to(const Positions& place) {
-    Contract asked = contract_;
-    asked.margin = 0;  // what comes within a slack is no contact
+    Contract of_way = contract_;
+    of_way.margin = 0;  // what comes within a slack is no contact
     const auto judgement =
-        judge_under(asked, {step_.motion.vertices_t0, place}, step_.triangles, step_.options);
+        judge_under(of_way, {step_.motion.vertices_t0, place}, step_.triangles, step_.options);
     was_stopped_ |= !judgement.complete;
-    return truth_of(judgement, asked, step_.triangles).first;
+    return truth_of(judgement, of_way, step_.triangles).first;
   }
 
   // Whether rounding cannot be why less than this share is gone: there is room, and each of some
@@ -107,10 +107,10 @@ class LimitComparison {
 
   // Where the caller stops who is told this share; nothing if that is beyond all numbers.
   std::optional<Positions> place_at(double share) const {
-    Contract told = contract_;
-    if (told.limit_gives == LimitGives::positions) told.limit_gives = LimitGives::start_plus;
+    Contract of_rest = contract_;
+    if (of_rest.limit_gives == LimitGives::positions) of_rest.limit_gives = LimitGives::start_plus;
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
-    const auto stop = limit_answer({share, nullptr}, {}, told, from, to, displacement(from, to));
+    const auto stop = limit_answer({share, nullptr}, {}, of_rest, from, to, displacement(from, to));
     return stop ? std::optional(stop.value().positions) : std::nullopt;
   }
 
@@ -119,14 +119,14 @@ class LimitComparison {
   double share_gone(double ulps) const {
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
     const Positions whole = to - from;
-    Positions gone = (answer_.positions - from).cwiseAbs();
-    for (Eigen::Index i = 0; i < gone.size() && ulps > 0; ++i) {
+    Positions way = (answer_.positions - from).cwiseAbs();
+    for (Eigen::Index i = 0; i < way.size() && ulps > 0; ++i) {
       const double larger = std::max(std::abs(from.data()[i]), std::abs(to.data()[i]));
-      gone.data()[i] += ulps * ulp(larger, contract_.coordinates);
+      way.data()[i] += ulps * ulp(larger, contract_.coordinates);
     }
     const double unit = std::max(whole.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
     const double length = (whole / unit).norm();
-    return length > 0 ? (gone / unit).norm() / length : 1;
+    return length > 0 ? (way / unit).norm() / length : 1;
   }
 
   // Whether this share of the step moves some coordinate by so many units in its last place.

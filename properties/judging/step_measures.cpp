@@ -45,7 +45,7 @@ double TimesOff::quantile(double part) const {
   return 0;
 }
 
-double LimitUse::used(double part) const {
+double LimitUse::share(double part) const {
   // The worst come first. What was used to the end stands in no list.
   const auto at_least_so_good =
       contact - static_cast<std::uint64_t>(part * static_cast<double>(contact - 1));
@@ -77,7 +77,7 @@ LimitUse use_of(const LimitDiff& limit) {
     return use;
   }
   use.contact = 1;
-  use.unused = one_off(1 - limit.used / std::max(limit.ahead->lo, least_positive), 0);
+  use.unused = one_off(1 - limit.way / std::max(limit.ahead->lo, least_positive), 0);
   use.excused = limit.is_excused ? 1 : 0;
   if (!limit.stall.empty()) use.stalls[limit.stall] = 1;
   return use;
@@ -170,7 +170,7 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
     if (!diff.oracle_complete) continue;
     if (diff.candidates) {
       ++sum.candidate_steps;
-      sum.candidates += diff.candidates->given;
+      sum.candidates += diff.candidates->given_pairs;
       sum.least_candidates += diff.candidates->least;
     }
     const auto& first = results[s].first;
@@ -199,7 +199,7 @@ Rate miss_rate(const StepMeasures& m) {
 }
 
 double spurious_pairs_a_step(const StepMeasures& m) {
-  return ratio_of(m.errors.spurious, m.errors.answered());
+  return ratio_of(m.errors.spurious, m.errors.answers());
 }
 
 double candidates_over_least(const StepMeasures& m) {

@@ -43,7 +43,7 @@ struct LimitUse {
 
   // The share that was used of the time until the contact, at this part of the steps in ascending
   // order: 0 is the worst, 0.5 the median. REQUIRES contact > 0.
-  double used(double part) const;
+  double share(double part) const;
   std::uint64_t stalled() const;
 
   static constexpr bool adds_up = true;
@@ -73,7 +73,7 @@ struct StepErrors {
   std::uint64_t missing = 0, spurious = 0;
   LimitUse limits;  // counted whatever is claimed, and for steps without an answer too
 
-  std::uint64_t answered() const { return steps - undecided; }
+  std::uint64_t answers() const { return steps - undecided; }
   std::uint64_t collisions() const { return contact - missed; }  // of `contact`
 
   static constexpr bool adds_up = true;

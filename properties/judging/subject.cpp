@@ -83,7 +83,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
   subject.detector = built_in_detector();
   if (library.empty()) return subject;
   subject.plugin = library;
-  subject.judged = JudgedLibrary::of(library, subject.worker);
+  subject.library = JudgedLibrary::of(library, subject.worker);
   auto process = subject.process();
   auto described = process.describe();
   if (!described) return described.error();

@@ -54,12 +54,12 @@ enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
 struct Subject {
   DetectorUnderTest detector;
-  std::filesystem::path worker;                 // the program assay-worker
-  std::optional<std::filesystem::path> plugin;  // nothing: the built-in detector
-  std::shared_ptr<const JudgedLibrary> judged;  // its files and their digests
-  PluginDescription description;                // what the plug-in says of itself
-  WorkerLimits limits;                          // of its processes
-  Isolation isolation = Isolation::limits;      // that the first of a plug-in's processes had
+  std::filesystem::path worker;                  // the program assay-worker
+  std::optional<std::filesystem::path> plugin;   // nothing: the built-in detector
+  std::shared_ptr<const JudgedLibrary> library;  // its files and their digests
+  PluginDescription description;                 // what the plug-in says of itself
+  WorkerLimits limits;                           // of its processes
+  Isolation isolation = Isolation::limits;       // that the first of a plug-in's processes had
 
   // The detector in this library; the built-in one, if it is empty. Fails if it cannot serve, does
   // not hold the part that is asked for, or cannot be isolated as it is asked for.

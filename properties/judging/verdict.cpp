@@ -12,10 +12,10 @@
 
 namespace assay::properties {
 
-BodyNames::BodyNames(const detector::CountedPairs* counted,
+BodyNames::BodyNames(const detector::CountedPairs* counted_pairs,
                      const detector::TrianglesView& triangles) {
-  if (!counted || counted->body.empty()) return;
-  const auto& body = counted->body;
+  if (!counted_pairs || counted_pairs->body.empty()) return;
+  const auto& body = counted_pairs->body;
   std::vector<std::int32_t> sizes(at(*std::max_element(body.begin(), body.end())) + 1, 0);
   by_triangle_.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -36,7 +36,7 @@ namespace {
 void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
                 const StepDiff& diff, detector::Options options) {
   const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
-                                   [&](const auto& lost) { return lost.pair == failure.pair; });
+                                   [&](const auto& miss) { return miss.pair == failure.pair; });
   options.counted = corpus::counted_of(c);
   if (is_lost)
     failure.stage =
@@ -80,7 +80,7 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
   Failure failure;
   const auto diff = std::ranges::find(verdict.steps, Outcome::defect, &StepDiff::outcome);
   if (diff == verdict.steps.end()) {
-    failure.claim = verdict.broken.front();
+    failure.claim = verdict.breaches.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
     failure.explanation = verdict.explanation.empty() ? failure.kind : verdict.explanation;
   } else {
@@ -101,7 +101,7 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
     }
     failure.step = s;
   }
-  if (const Fault* planted = find_fault(configuration.fault)) failure.stage = planted->stage;
+  if (const Fault* fault = find_fault(configuration.fault)) failure.stage = fault->stage;
   failure.configuration = configuration.name;
   if (failure.pair)
     failure.explanation += BodyNames(corpus::counted_of(c), c.triangles).text(*failure.pair);
@@ -148,23 +148,23 @@ std::string share_text(double share) {
 class FailureOfStep {
  public:
   FailureOfStep(const StepDiff& diff, const detector::StepResult& result, const Contract& contract)
-      : diff_(diff), contract_(contract), row_(row_of(diff.broken.front())) {
+      : diff_(diff), contract_(contract), row_(row_of(diff.breaches.front())) {
     failure_.claim = row_.value;
-    const Shown shown = row_.shown_by(diff);
-    failure_.kind = shown.kind;
-    if (diff.refused) failure_.explanation = refusal_text(*diff.refused);
+    const Sign sign = row_.sign_of(diff);
+    failure_.kind = sign.kind;
+    if (diff.overload) failure_.explanation = refusal_text(*diff.overload);
     if (row_.about == About::runs) return;
-    std::visit([&](const auto& by) { tell(by); }, shown.by);
+    std::visit([&](const auto& by) { tell(by); }, sign.by);
     if (row_.value == Claim::commit_free)
       failure_.explanation = "on the way that is allowed, " + failure_.explanation;
     if (row_.about == About::times && diff.first)  // else the oracle was stopped
       failure_.explanation +=
-          fmt::format(", {} by {}", shown.kind,
+          fmt::format(", {} by {}", sign.kind,
                       share_text(diff.late_first ? diff.first->off.late : diff.first->off.early));
     failure_.explanation +=
         row_.about == About::limits ? how_far()
         : row_.about == About::broad_phase
-            ? fmt::format(", and are none of {} candidates", diff.candidates->given)
+            ? fmt::format(", and are none of {} candidates", diff.candidates->given_pairs)
             : fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first),
                           diff.first_contact
                               ? answer_text(detector::Answer::collision, diff.first_contact->time)
@@ -215,7 +215,7 @@ class FailureOfStep {
   std::string how_far() const {
     const auto& limit = *diff_.limit;
     std::string text = limit.share >= 0 ? fmt::format("; allowed a share of {}", limit.share)
-                                        : fmt::format("; allowed {:.3g} of the way", limit.used);
+                                        : fmt::format("; allowed {:.3g} of the way", limit.way);
     if (contract_.progress > 0 && row_.value == Claim::progress)
       text += fmt::format(", promised {} of what is free", contract_.progress);
     return text;

@@ -26,7 +26,7 @@ class BodyNames {
  public:
   BodyNames() = default;
   // It has no names if there is no relation (null), or one without bodies. O(triangles).
-  BodyNames(const detector::CountedPairs* counted, const detector::TrianglesView& triangles);
+  BodyNames(const detector::CountedPairs* counted_pairs, const detector::TrianglesView& triangles);
 
   bool empty() const { return by_triangle_.empty(); }
   // REQUIRES names.
@@ -43,7 +43,7 @@ class BodyNames {
 // A defect of a trial, described by what distinguishes it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // How the claim is broken: by a step (ClaimRow::shown_by), or else "two runs differ", "crashed"
+  // How the claim is broken: by a step (ClaimRow::sign_of), or else "two runs differ", "crashed"
   // or "refused".
   std::string kind;
   std::size_t step = 0;                        // step of the script
@@ -69,7 +69,7 @@ Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
 
 struct Verdict {
   Outcome outcome = Outcome::holds;
-  std::vector<Claim> broken;        // in the order of Claim, each once
+  std::vector<Claim> breaches;      // in the order of Claim, each once
   std::string explanation;          // how the run ended, if it did not complete
   std::uint64_t disturbances = 0;   // how often it was killed from outside and repeated
   std::vector<StepDiff> steps;      // only of a completed run

@@ -126,8 +126,8 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   if (about_contacts && !contact) return not_met();
   if (claim == Claim::free_sound && result.answer != Answer::free && !contact) return not_met();
   const auto diff = compare(result, judgement, claims_of(facts.options()));
-  const bool broken = std::count(diff.broken.begin(), diff.broken.end(), claim) != 0;
-  return holds_if(!broken, "refuted");
+  const bool is_broken = std::count(diff.breaches.begin(), diff.breaches.end(), claim) != 0;
+  return holds_if(!is_broken, "refuted");
 }
 
 constexpr Law pair_set_law_table[] = {
@@ -234,10 +234,10 @@ class EagerProofs : public detector::PairSearch {
 };
 
 std::string left_out(const detector::StepResult& result, const oracle::StepJudgement& judgement) {
-  std::set<detector::TrianglePair> found;
-  for (const auto& contact : result.pairs) found.insert(contact.pair);
+  std::set<detector::TrianglePair> pairs;
+  for (const auto& contact : result.pairs) pairs.insert(contact.pair);
   for (const auto& contact : judgement.pairs) {
-    if (!found.contains(contact.pair))
+    if (!pairs.contains(contact.pair))
       return fmt::format("({}, {}) is in contact, and was left out", contact.pair.a,
                          contact.pair.b);
   }

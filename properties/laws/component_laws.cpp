@@ -25,7 +25,7 @@ bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::Trian
 
 Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
-  const auto& found = facts.result(s).pairs;
+  const auto& pairs = facts.result(s).pairs;
   bool premise_held = false;
   for (const auto& contact : facts.judgement(s).pairs) {
     if (facts.same_component(contact.pair)) continue;
@@ -39,7 +39,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;
     };
-    if (std::none_of(found.begin(), found.end(), same)) {
+    if (std::none_of(pairs.begin(), pairs.end(), same)) {
       return fmt::format("({}, {}) of two components is missing or has another time",
                          contact.pair.a, contact.pair.b);
     }

@@ -115,11 +115,11 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
 
 // Empty if the mesh is refused for that reason.
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
-                         InputError wanted) {
-  const auto made =
+                         InputError error) {
+  const auto creation =
       detector::assemble(triangles, x, facts.options(), facts.stages_of()(facts.options()));
-  if (!made && made.error().error == wanted) return {};
-  return std::string("a mesh is not refused as ") + detector::name_of(wanted);
+  if (!creation && creation.error().error == error) return {};
+  return std::string("a mesh is not refused as ") + detector::name_of(error);
 }
 
 std::string create_wrongly(const CaseFacts& facts, Random& random) {
@@ -144,15 +144,15 @@ std::string create_wrongly(const CaseFacts& facts, Random& random) {
 }
 
 std::string step_wrong(Detector& detector, const Positions& x_t0, const Positions& x_t1,
-                       std::span<const detector::ViewPrimitive> primitives, InputError wanted) {
+                       std::span<const detector::ViewPrimitive> primitives, InputError error) {
   const auto result = detector.step(x_t0, x_t1, primitives);
   if (result.answer == detector::Answer::error && result.problem &&
-      result.problem->error == wanted) {
+      result.problem->error == error) {
     const auto commit = detector.commit();
     if (commit && commit->error == InputError::nothing_to_commit) return {};
     return "a refused step can be committed";
   }
-  return std::string("a step is not refused as ") + detector::name_of(wanted);
+  return std::string("a step is not refused as ") + detector::name_of(error);
 }
 
 std::string step_wrongly(Detector& detector, const CaseFacts& facts, std::size_t s,

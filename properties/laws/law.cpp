@@ -14,7 +14,7 @@ namespace assay::properties {
 LawTally& LawTally::operator+=(const LawTally& other) {
   premise += other.premise;
   close += other.close;
-  broken += other.broken;
+  broken_steps += other.broken_steps;
   if (first_broken.empty() || (!other.first_broken.empty() && other.first_broken < first_broken)) {
     first_broken = other.first_broken;
   }
@@ -41,9 +41,9 @@ bool is_checked_on(const Law& law, std::string_view case_id) {
 
 const Law* law_named(std::string_view name) {
   const auto all = laws();
-  const auto found =
+  const auto place =
       std::find_if(all.begin(), all.end(), [&](const Law& law) { return law.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return place == all.end() ? nullptr : &*place;
 }
 
 void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally,
@@ -51,7 +51,7 @@ void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTal
   if (!finding) return;
   LawTally observed{1, is_close(facts, step) ? 1u : 0u, 0, {}};
   if (!finding->empty()) {
-    observed.broken = 1;
+    observed.broken_steps = 1;
     observed.first_broken = fmt::format("{}, step {}: {}", facts.source().id, step + 1, *finding);
   }
   tally += observed;

@@ -18,10 +18,10 @@ class CaseFacts;
 struct CaseChange;
 
 struct LawTally {
-  std::uint64_t premise = 0;  // steps in which the premise held
-  std::uint64_t close = 0;    // steps of these that were close
-  std::uint64_t broken = 0;   // steps of these that refute the law
-  std::string first_broken;   // case id, step, what; of several tallies the least text
+  std::uint64_t premise = 0;       // steps in which the premise held
+  std::uint64_t close = 0;         // steps of these that were close
+  std::uint64_t broken_steps = 0;  // steps of these that refute the law
+  std::string first_broken;        // case id, step, what; of several tallies the least text
 
   LawTally& operator+=(const LawTally& other);
   friend bool operator==(const LawTally&, const LawTally&) = default;
@@ -31,7 +31,7 @@ struct LawTally {
 // goes other ways under each culling: view-point knows it after every step, and view-auto may have
 // done a step without views. So a law about it that is met under one culling says nothing of the
 // others.
-enum class MetUnder : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
+enum class PremiseScope : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
 
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
@@ -41,7 +41,7 @@ struct Law {
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
   // The law is checked on one case in so many, because laws that run the case again are dear.
   int one_in = 1;
-  MetUnder met_under = MetUnder::any_culling;
+  PremiseScope met_under = PremiseScope::any_culling;
   // The change that it is about, if any detector can be put the changed case; else null.
   const CaseChange* change = nullptr;
 };

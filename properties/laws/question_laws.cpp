@@ -42,18 +42,18 @@ void check_distance(CaseFacts& facts, LawTally& tally) {
   if (!(options.separation > 0x1p-400 && options.separation < 0x1p400)) return;
   const Contract contract = contract_of(options);
   const auto& c = facts.source();
-  auto made =
+  auto creation =
       detector::assemble(c.triangles, c.frames.front(), options, facts.stages_of()(options));
-  for (std::size_t s = 0; made && s < facts.steps(); ++s) {
-    const auto result = made.value().step(facts.x_t0(s), facts.x_t1(s));
+  for (std::size_t s = 0; creation && s < facts.steps(); ++s) {
+    const auto result = creation.value().step(facts.x_t0(s), facts.x_t1(s));
     const auto judgement = judge_under(contract, {facts.x_t0(s), facts.x_t1(s)}, c.triangles, {});
     const auto diff = compare(result, judgement, claims_of(options), contract, c.triangles);
     note(facts, s,
          diff.outcome == Outcome::holds
              ? ""
              : fmt::format("within {}, {}: {}", options.separation, name_of(options.culling),
-                           diff.broken.empty() ? "no answer"
-                                               : failure_of(diff, result, contract).explanation),
+                           diff.breaches.empty() ? "no answer"
+                                                 : failure_of(diff, result, contract).explanation),
          tally);
   }
 }
@@ -67,20 +67,20 @@ void check_limits(CaseFacts& facts, LawTally& tally) {
   if (!player || !alone) return;
   Contract contract;
   contract.progress = built_in_progress;
-  const oracle::JudgeOptions asked;
+  const oracle::JudgeOptions judge_options;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto &x_t0 = facts.x_t0(s), &x_t1 = facts.x_t1(s);
     const auto limit = player.value().detector().limit(x_t0, x_t1);
     StepDiff diff;
     if (!limit.problem)
       judge_limit(LimitAnswer{limit.share, limit.positions},
-                  {{x_t0, x_t1}, facts.source().triangles, asked}, facts.judgement(s),
+                  {{x_t0, x_t1}, facts.source().triangles, judge_options}, facts.judgement(s),
                   claims_on_limits, contract, diff);
     std::string wrong = limit.problem ? "refused" : "";
-    for (const auto claim : diff.broken) wrong = fmt::format("{}", name_of(claim));
+    for (const auto claim : diff.breaches) wrong = fmt::format("{}", name_of(claim));
     // The state stays as it is.
-    const StepResult after = player.value().play(s), expected = alone.value().play(s);
-    if (wrong.empty()) wrong = difference(expected, after);
+    const StepResult after = player.value().play(s), expectation = alone.value().play(s);
+    if (wrong.empty()) wrong = difference(expectation, after);
     if (facts.is_judged(s)) note(facts, s, wrong, tally);
   }
 }
@@ -97,11 +97,11 @@ void check_stops(CaseFacts& facts, LawTally& tally) {
     std::string wrong;
     bool is_stopped = true;
     for (int stop_at = 1; is_stopped && stop_at < 100; stop_at += random.between(1, 4)) {
-      int asked = 0;
-      const auto stopped = player.value().look(s, [&] { return ++asked == stop_at; });
-      is_stopped = asked >= stop_at;
+      int questions = 0;
+      const auto answer = player.value().look(s, [&] { return ++questions == stop_at; });
+      is_stopped = questions >= stop_at;
       if (!is_stopped) break;
-      if (stopped.answer != Answer::undecided) wrong = "the answer of a stopped step";
+      if (answer.answer != Answer::undecided) wrong = "the answer of a stopped step";
       if (!player.value().detector().commit()) wrong = "a stopped step is committed, which";
     }
     const StepResult after = player.value().play(s);

@@ -18,10 +18,10 @@ bool any(const TriangleFlags& flags) {
 
 Observation carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.known_from(s) || !facts.is_trusted(s)) return not_met();
-  TriangleFlags held = dirty_triangles(facts, s);
-  for (auto& flag : held) flag = !flag;
-  if (!any(held)) return not_met();
-  return what_is_not_clean(facts, facts.layers_at_start(s), held);
+  TriangleFlags is_held = dirty_triangles(facts, s);
+  for (auto& flag : is_held) flag = !flag;
+  if (!any(is_held)) return not_met();
+  return what_is_not_clean(facts, facts.layers_at_start(s), is_held);
 }
 
 Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
@@ -45,18 +45,18 @@ Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
 
 Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
-  TriangleFlags held = dirty_triangles(facts, s);
-  for (std::size_t t = 0; t < held.size(); ++t) {
-    held[t] = !held[t] && !facts.own_contacts(s)[t] && !facts.touched(s)[t];
+  TriangleFlags is_held = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < is_held.size(); ++t) {
+    is_held[t] = !is_held[t] && !facts.own_contacts(s)[t] && !facts.touched(s)[t];
   }
-  if (!any(held)) return not_met();
-  const std::string wrong = what_is_not_clean(facts, facts.layers_at_end(s), held);
+  if (!any(is_held)) return not_met();
+  const std::string wrong = what_is_not_clean(facts, facts.layers_at_end(s), is_held);
   if (!wrong.empty() || facts.options().pairs != detector::Pairs::all) return wrong;
   for (std::size_t next = s + 1; next < facts.steps(); ++next) {
     if (facts.known_from(next) != s || !facts.has_views(next)) continue;
     const auto dirty = dirty_triangles(facts, next);
-    for (std::size_t t = 0; t < held.size(); ++t) {
-      if (held[t] && dirty[t]) return fmt::format("triangle {} became dirty for nothing", t);
+    for (std::size_t t = 0; t < is_held.size(); ++t) {
+      if (is_held[t] && dirty[t]) return fmt::format("triangle {} became dirty for nothing", t);
     }
   }
   return holds();
@@ -127,39 +127,39 @@ constexpr Law state_law_table[] = {
     {"L8_CarriedCleanIsClean", "L8",
      "What a step that continues from a committed one starts with as clean touches nothing of S "
      "then, and is of one layer in each component.",
-     "layers", each_step<carried_clean_is_clean>, 1, MetUnder::each_culling},
+     "layers", each_step<carried_clean_is_clean>, 1, PremiseScope::each_culling},
     {"L8_WhatIsNotCleanStaysDirty", "L8",
      "What was in contact with its own component, touched by a ghost, or dirty, and is not clean "
      "at the end, is dirty in the next step.",
      "pair set, triangles touched by ghosts, layers", each_step<what_is_not_clean_stays_dirty>, 1,
-     MetUnder::each_culling},
+     PremiseScope::each_culling},
     {"L8_CleanAndUntouchedStaysClean", "L8",
      "What is clean at the start, in no contact with its own component and touched by no ghost, is "
      "untouched and of one layer at the end, and starts the next step as clean.",
      "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>, 1,
-     MetUnder::each_culling},
+     PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
      "What a step that continues from a committed one starts with as dirty is exactly what was "
      "dirty, touched by a ghost or in contact with its own component until then, and is not "
      "untouched and of the common layer of its component now.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
-     MetUnder::each_culling},
+     PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
      "At a new start that is verified, dirty is what touches something of S or is not of the "
      "common layer of its component; under view-auto, which looks and asks for no layers, all of "
      "that is dirty.",
-     "layers", each_step<new_start_is_the_oracles_layers>, 1, MetUnder::each_culling},
+     "layers", each_step<new_start_is_the_oracles_layers>, 1, PremiseScope::each_culling},
     {"L9_AllPositiveAtTheStartReleases", "L9",
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
      "is clean, whatever came before.",
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
-     MetUnder::each_culling},
+     PremiseScope::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
      "What starts as dirty after a step without views is what that step left in doubt, less what "
      "is untouched and of the common layer now: after a first step of closed components what is "
      "dirty by L9 at a verified start; of components with ghosts, all were in doubt.",
      "pair set, triangles touched by ghosts, layers",
-     each_step<steps_without_views_are_in_the_account>, 1, MetUnder::each_that_chooses_views},
+     each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };
 
 }  // namespace
@@ -187,13 +187,13 @@ Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
 // that the oracle did not find clean at the start of any step since. This is computed from the
 // oracle alone.
 TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
-  TriangleFlags held = facts.touched(s);
+  TriangleFlags is_held = facts.touched(s);
   const auto p = facts.known_from(s);
-  if (!p || !facts.has_views(*p)) return held;
+  if (!p || !facts.has_views(*p)) return is_held;
   const TriangleFlags before = touched_until(facts, *p);
   const TriangleFlags clean = may_be_clean(facts, s, before);
-  for (std::size_t t = 0; t < held.size(); ++t) held[t] |= before[t] && !clean[t];
-  return held;
+  for (std::size_t t = 0; t < is_held.size(); ++t) is_held[t] |= before[t] && !clean[t];
+  return is_held;
 }
 
 // An apex must not jump between two steps. If both steps had views, both have apexes; otherwise
@@ -214,11 +214,11 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
     return not_met();
   }
   if (!facts.is_trusted(s)) return not_met();
-  const TriangleFlags held = touched_until(facts, *p);
-  if (std::find(held.begin(), held.end(), 1) == held.end()) return not_met();
-  const TriangleFlags clean = may_be_clean(facts, s, held);
-  for (std::size_t t = 0; t < held.size(); ++t) {
-    if (held[t] && !clean[t] && facts.result(s).doubts[t] == 0) {
+  const TriangleFlags is_held = touched_until(facts, *p);
+  if (std::find(is_held.begin(), is_held.end(), 1) == is_held.end()) return not_met();
+  const TriangleFlags clean = may_be_clean(facts, s, is_held);
+  for (std::size_t t = 0; t < is_held.size(); ++t) {
+    if (is_held[t] && !clean[t] && facts.result(s).doubts[t] == 0) {
       return fmt::format("triangle {} was touched, is not clean, and left Vv", t);
     }
   }

@@ -80,13 +80,13 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
 Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
   return each_sample(
       facts, s, [](const ExactView& view, ViewSign sign, Random& random) -> std::string {
-        const auto wanted = static_cast<int>(sign);
-        if (wanted == 0) return {};
+        const auto sign_number = static_cast<int>(sign);
+        if (sign_number == 0) return {};
         const std::array<ExactPoint, 4> places = {view.corner(0), view.corner(1), view.corner(2),
                                                   view.inner_point(any_weights(random))};
         for (const auto& x : places) {
-          if (view.by_region(x).sign() != wanted) {
-            return fmt::format("called {}, but a value has sign {}", wanted,
+          if (view.by_region(x).sign() != sign_number) {
+            return fmt::format("called {}, but a value has sign {}", sign_number,
                                view.by_region(x).sign());
           }
         }
@@ -282,12 +282,12 @@ std::string what_is_not_free(CaseFacts& facts, std::size_t s, std::size_t compon
   return {};
 }
 
-template <bool closed>
+template <bool is_closed>
 Observation all_positive_is_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   bool premise_held = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
-    if (is_cycle(facts, c) != closed || !facts.is_free_by_view(s, c)) continue;
+    if (is_cycle(facts, c) != is_closed || !facts.is_free_by_view(s, c)) continue;
     premise_held = true;
     const std::string wrong = what_is_not_free(facts, s, c);
     if (!wrong.empty()) return fmt::format("component {}: {}", c, wrong);

@@ -16,12 +16,12 @@ using detector::MovingPoint;
 using detector::Separation;
 
 // The query of a family of contacts, asked for a distance.
-AskedQuery asked_of(const std::string& family, std::uint64_t seed, std::uint64_t index,
-                    const Separation& distance = {}) {
+QueryTask asked_of(const std::string& family, std::uint64_t seed, std::uint64_t index,
+                   const Separation& distance = {}) {
   return {find_family("query-" + family)->query(seed, index).query, {}, distance};
 }
 
-void scale(AskedQuery& q, int exponent) {
+void scale(QueryTask& q, int exponent) {
   for (double* c : numbers_of(q.query)) *c = std::ldexp(*c, exponent);
   for (double* d : {&q.within->first, &q.within->second}) *d = std::ldexp(*d, exponent);
 }
@@ -42,10 +42,10 @@ WholeVector whole_vector(Random& random) {
                                                           {1, 4, 8, 9},
                                                           {6, 6, 7, 11}}};
   const auto& of = lengths[static_cast<std::size_t>(random.below(8))];
-  const int turned = random.below(3);
+  const int rotation = random.below(3);
   WholeVector v{{}, static_cast<double>(of[3])};
   for (int k = 0; k < 3; ++k) {
-    const int c = of[static_cast<std::size_t>((k + turned) % 3)];
+    const int c = of[static_cast<std::size_t>((k + rotation) % 3)];
     v.w[static_cast<std::size_t>(k)] = random.one_in(2) ? c : -c;
   }
   return v;
@@ -79,13 +79,13 @@ class Touch {
   void at(double time) { time_ = time; }
 
   // Each point has a velocity of its own.
-  AskedQuery moving_freely(int reach) {
-    return moved([&](std::size_t) { return integer_point(random_, reach); });
+  QueryTask moving_freely(int reach) {
+    return with_motion([&](std::size_t) { return integer_point(random_, reach); });
   }
   // The groups go towards each other, and each point along the planes of the slab besides.
-  AskedQuery approaching() {
+  QueryTask approaching() {
     const double speed = random_.between(1, 3);
-    return moved([&](std::size_t i) {
+    return with_motion([&](std::size_t i) {
       const Point toward = speed * across_.w;
       const bool is_first = query_.query.in_first_group(static_cast<int>(i));
       return (random_.one_in(2) ? tangent() : Point{}) + (is_first ? 1 : -1) * toward;
@@ -93,16 +93,16 @@ class Touch {
   }
   // The distance does not change at the time of the touch, to first order. If `rigid`, each group
   // keeps its shape.
-  AskedQuery sliding(bool rigid) {
+  QueryTask sliding(bool rigid) {
     const Point drift = integer_point(random_, 3);
     const std::array<Point, 2> own = {tangent(), tangent()};
-    return moved([&](std::size_t i) {
+    return with_motion([&](std::size_t i) {
       const bool is_first = query_.query.in_first_group(static_cast<int>(i));
       return drift + (rigid ? own[is_first ? 0 : 1] : tangent());
     });
   }
-  AskedQuery at_rest() {
-    return moved([](std::size_t) { return Point{}; });
+  QueryTask at_rest() {
+    return with_motion([](std::size_t) { return Point{}; });
   }
 
  private:
@@ -139,12 +139,12 @@ class Touch {
     if (kind == 3)
       from = {along_, Point{} + -1 * along_, Point{} + random_.between(-3, 3) * along_};
     if (kind == 4) from = {};  // a point
-    const auto turned = static_cast<std::size_t>(random_.below(3));
-    for (std::size_t i = 0; i < 3; ++i) at_[1 + (i + turned) % 3] = foot + from[i];
+    const auto rotation = static_cast<std::size_t>(random_.below(3));
+    for (std::size_t i = 0; i < 3; ++i) at_[1 + (i + rotation) % 3] = foot + from[i];
   }
 
   template <class Velocity>
-  AskedQuery moved(const Velocity& velocity_of) {
+  QueryTask with_motion(const Velocity& velocity_of) {
     for (std::size_t i = 0; i < 4; ++i) {
       const Point velocity = velocity_of(i);
       query_.query.points[i] = {at_[i] + -time_ * velocity, at_[i] + (1 - time_) * velocity};
@@ -158,10 +158,10 @@ class Touch {
   double time_;
   Point along_{};
   std::array<Point, 4> at_{};
-  AskedQuery query_;
+  QueryTask query_;
 };
 
-AskedQuery any_touch(Random& random, std::uint64_t index) {
+QueryTask any_touch(Random& random, std::uint64_t index) {
   Touch touch(random, index, Touch::Feet::anywhere);
   const int kind = random.below(4);
   if (kind == 0) return touch.moving_freely(8);
@@ -170,7 +170,7 @@ AskedQuery any_touch(Random& random, std::uint64_t index) {
 }
 
 // Multiples of 2^-30.
-AskedQuery in_a_cube(std::uint64_t seed, std::uint64_t index) {
+QueryTask in_a_cube(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   const int halvings = random.below(8);
   return asked_of("generic", seed, index, {std::ldexp(random.unit(), -halvings), 0});
@@ -185,16 +185,16 @@ Separation small_distance(Random& random) {
   return {kind == 0 ? whole : kind == 1 ? std::sqrt(whole) : whole / 8, 0};
 }
 
-AskedQuery of_small_integers(std::uint64_t seed, std::uint64_t index) {
+QueryTask of_small_integers(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   return asked_of("small-int", seed, index, small_distance(random));
 }
 
 // Parallel at one end of the step, at both, or throughout, at any distance; the ends of half of
 // them come close.
-AskedQuery parallel_edges(std::uint64_t seed, std::uint64_t index) {
+QueryTask parallel_edges(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  AskedQuery q;
+  QueryTask q;
   q.query.first_group = 2;
   const Point way = integer_point(random, 3);
   for (std::size_t i = 0; i < 4; i += 2) {
@@ -209,46 +209,46 @@ AskedQuery parallel_edges(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-AskedQuery feet_at_ends(std::uint64_t seed, std::uint64_t index) {
+QueryTask feet_at_ends(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::at_ends);
   return random.one_in(2) ? touch.approaching() : touch.moving_freely(6);
 }
 
 // An edge or a face that is a segment or a point at one time of the step, or throughout.
-AskedQuery collapsing(std::uint64_t seed, std::uint64_t index) {
+QueryTask collapsing(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  AskedQuery q = asked_of("small-int", seed, index, small_distance(random));
+  QueryTask q = asked_of("small-int", seed, index, small_distance(random));
   auto& x = q.query.points;
   const auto group = static_cast<std::size_t>(q.query.first_group);
-  const MovingPoint& kept = x[group];
+  const MovingPoint& point = x[group];
   const int where = random.below(4), first = random.one_in(2) ? static_cast<int>(group) + 1 : 3;
   for (auto i = static_cast<std::size_t>(first); i < 4; ++i) {
-    if (where == 0) x[i].t0 = kept.t0;
-    if (where == 1) x[i].t1 = kept.t1;
-    if (where == 2) x[i] = kept;
+    if (where == 0) x[i].t0 = point.t0;
+    if (where == 1) x[i].t1 = point.t1;
+    if (where == 2) x[i] = point;
     // In the middle: the way from the kept point turns about.
-    if (where == 3) x[i].t1 = kept.t1 + (kept.t0 + -1 * x[i].t0);
+    if (where == 3) x[i].t1 = point.t1 + (point.t0 + -1 * x[i].t0);
   }
   return q;
 }
 
 // The cross product of two edges vanishes when the distance is d for the first time, or so.
-AskedQuery no_normal(std::uint64_t seed, std::uint64_t index) {
+QueryTask no_normal(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::of_collapsed);
   return random.one_in(3) ? touch.moving_freely(4) : touch.approaching();
 }
 
-AskedQuery tangent(std::uint64_t seed, std::uint64_t index) {
+QueryTask tangent(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
   return touch.sliding(random.one_in(2));
 }
 
-AskedQuery at_rest(std::uint64_t seed, std::uint64_t index) {
+QueryTask at_rest(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  AskedQuery q = Touch(random, index, Touch::Feet::anywhere).at_rest();
+  QueryTask q = Touch(random, index, Touch::Feet::anywhere).at_rest();
   if (random.one_in(3)) {
     const int exponent = random.between(-1074, -40);
     q.within->second = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
@@ -257,15 +257,15 @@ AskedQuery at_rest(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-AskedQuery no_distance(std::uint64_t seed, std::uint64_t index) {
+QueryTask no_distance(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr std::array from = {"constructed", "small-int", "ulp", "generic"};
   return asked_of(one_of(random, from), seed, index);
 }
 
-AskedQuery huge_distance(std::uint64_t seed, std::uint64_t index) {
+QueryTask huge_distance(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  AskedQuery q = asked_of(random.one_in(2) ? "small-int" : "exponents", seed, index);
+  QueryTask q = asked_of(random.one_in(2) ? "small-int" : "exponents", seed, index);
   const int exponent = random.between(3, 1022);
   q.within->first = std::ldexp(1 + random.unit(), exponent);
   if (random.one_in(2)) q.within->second = q.within->first;
@@ -273,14 +273,14 @@ AskedQuery huge_distance(std::uint64_t seed, std::uint64_t index) {
 }
 
 // The smallest numbers: in the coordinates and d, or in one of them.
-AskedQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
+QueryTask of_denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr int least_exponent = -1074;
   if (random.one_in(3)) {
     const int exponent = random.one_in(2) ? least_exponent : -2;
     return asked_of("denormals", seed, index, {std::ldexp(random.between(0, 9), exponent), 0});
   }
-  AskedQuery q = any_touch(random, index);
+  QueryTask q = any_touch(random, index);
   if (random.one_in(3)) {
     q.within->second = std::ldexp(random.between(0, 3), least_exponent);
     return q;
@@ -290,10 +290,10 @@ AskedQuery of_denormals(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-AskedQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
+QueryTask all_doubles(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   if (random.one_in(2)) {
-    AskedQuery q = any_touch(random, index);
+    QueryTask q = any_touch(random, index);
     scale(q, random.between(-1070, 1000));
     return q;
   }
@@ -306,9 +306,9 @@ AskedQuery all_doubles(std::uint64_t seed, std::uint64_t index) {
 }
 
 // d, or one coordinate, a few units in the last place beside an exact touch.
-AskedQuery beside(std::uint64_t seed, std::uint64_t index) {
+QueryTask beside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  AskedQuery q = any_touch(random, index);
+  QueryTask q = any_touch(random, index);
   const int bits = random.between(49, 56);
   const double ulp = std::ldexp(random.one_in(2) ? 1 : -1, -bits);
   if (random.one_in(2)) {
@@ -324,19 +324,19 @@ AskedQuery beside(std::uint64_t seed, std::uint64_t index) {
 }
 
 // They are within d for a short time only.
-AskedQuery just_inside(std::uint64_t seed, std::uint64_t index) {
+QueryTask just_inside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
-  AskedQuery q = touch.sliding(random.one_in(2));
+  QueryTask q = touch.sliding(random.one_in(2));
   q.within->second = std::ldexp(1, -random.between(10, 100));
   return q;
 }
 
-AskedQuery starting_at_d(std::uint64_t seed, std::uint64_t index) {
+QueryTask starting_at_d(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);
   touch.at(0);
-  AskedQuery q = random.one_in(2) ? touch.moving_freely(6) : touch.sliding(random.one_in(2));
+  QueryTask q = random.one_in(2) ? touch.moving_freely(6) : touch.sliding(random.one_in(2));
   if (random.one_in(4)) {
     q.within->second = -std::ldexp(1, -random.between(20, 1074));
     q.met_at.reset();

@@ -12,10 +12,10 @@
 namespace assay::properties {
 
 const Family* find_family(std::string_view name) {
-  for (const auto known :
+  for (const auto list :
        {families(), question_families(), size_families(), counted_families(), query_families()}) {
-    const auto found = std::ranges::find(known, name, &Family::name);
-    if (found != known.end()) return &*found;
+    const auto place = std::ranges::find(list, name, &Family::name);
+    if (place != list.end()) return &*place;
   }
   return nullptr;
 }
@@ -86,14 +86,14 @@ Query small_integers(Random& random, std::uint64_t index) {
   return q;
 }
 
-AskedQuery small_int(std::uint64_t seed, std::uint64_t index) {
+QueryTask small_int(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   return {small_integers(random, index)};
 }
 
 // Constructs a contact at a dyadic time: the two hulls are drawn through one point there, and the
 // velocities are free. All numbers are small dyadics, so the contact is exact.
-AskedQuery constructed(std::uint64_t seed, std::uint64_t index) {
+QueryTask constructed(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   constexpr int integer_reach = 4, fastest = 8;
@@ -131,7 +131,7 @@ AskedQuery constructed(std::uint64_t seed, std::uint64_t index) {
 
 // Changes one to three coordinates of an exact contact or a small-integer query to a neighbouring
 // double. A coordinate 0 is changed by one unit of the last place of 1.
-AskedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
+QueryTask ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
   for (int changes = random.between(1, 3); changes > 0; --changes) {
@@ -141,10 +141,10 @@ AskedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-AskedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
+QueryTask far_from_origin(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
-  AskedQuery made =
-      random.below(2) == 0 ? constructed(seed, index) : AskedQuery{small_integers(random, index)};
+  QueryTask task =
+      random.below(2) == 0 ? constructed(seed, index) : QueryTask{small_integers(random, index)};
   // Up to 2^50 integers stay exact. The eighths and smaller parts of a constructed contact may be
   // rounded.
   std::array<double, 3> offset;
@@ -153,13 +153,13 @@ AskedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
     const double far = std::ldexp(random.below(2) == 0 ? 1 : -1, exponent);
     c = far + random.below(1000);
   }
-  const auto numbers = numbers_of(made.query);
+  const auto numbers = numbers_of(task.query);
   for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i] += offset[i % 3];
-  made.met_at.reset();
-  return made;
+  task.met_at.reset();
+  return task;
 }
 
-AskedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
+QueryTask mixed_scales(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   const bool by_point = random.below(2) == 0;
@@ -175,7 +175,7 @@ AskedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-AskedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
+QueryTask dyadics(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   for (double* c : numbers_of(q)) {
@@ -186,7 +186,7 @@ AskedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
 }
 
 // Makes the smallest numbers, alone or among small integers.
-AskedQuery denormals(std::uint64_t seed, std::uint64_t index) {
+QueryTask denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   constexpr int subnormal_exponent = -1074;
@@ -202,7 +202,7 @@ AskedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-AskedQuery exponents(std::uint64_t seed, std::uint64_t index) {
+QueryTask exponents(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   const bool small = random.below(2) == 0;
@@ -214,7 +214,7 @@ AskedQuery exponents(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-AskedQuery generic(std::uint64_t seed, std::uint64_t index) {
+QueryTask generic(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   for (double* c : numbers_of(q)) *c = random.full_mantissa();
@@ -224,7 +224,7 @@ AskedQuery generic(std::uint64_t seed, std::uint64_t index) {
 // The first group lands on the second one where the step ends: both are at one level there, or at
 // any angle; or some units of the last place beyond, or short of it. Some pass within the step, and
 // some leave. One in six is generic.
-AskedQuery everyday(std::uint64_t seed, std::uint64_t index) {
+QueryTask everyday(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
   const auto first_group = static_cast<std::size_t>(q.first_group);
@@ -419,7 +419,7 @@ void make_extreme(Random& random, std::span<MovingPoint> points) {
   if (random.one_in(16)) roots_next_to_one(random, points);
 }
 
-AskedQuery extreme_contact(std::uint64_t seed, std::uint64_t index) {
+QueryTask extreme_contact(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query query;
   query.first_group = index % 2 == 0 ? 1 : 2;

@@ -41,20 +41,20 @@ bool is_dear_query_family(std::string_view name);
 // Most are degenerate, because doubles settle the others: few mantissas, many zeros, points that
 // coincide or stay, everything in one plane or on one line, roots next to 1 that many bits tell
 // apart (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
-AskedQuery extreme_contact(std::uint64_t seed, std::uint64_t index);
+QueryTask extreme_contact(std::uint64_t seed, std::uint64_t index);
 // The points of such a query.
 void make_extreme(Random& random, std::span<detector::MovingPoint> points);
 
 // The query as a case. Its place is drawn too, because even and odd places are of two kinds.
-template <AskedQuery (*query)(std::uint64_t seed, std::uint64_t index)>
-GeneratedCase case_of_drawn(Random& random, std::string id) {
+template <QueryTask (*query)(std::uint64_t seed, std::uint64_t index)>
+RandomCase case_of_drawn(Random& random, std::string id) {
   const std::uint64_t seed = random.next();
   const std::uint64_t index = random.next();
   return {case_of_query(query(seed, index).query, std::move(id)), {}};
 }
 
 // A row of such a family.
-template <AskedQuery (*query)(std::uint64_t seed, std::uint64_t index)>
+template <QueryTask (*query)(std::uint64_t seed, std::uint64_t index)>
 constexpr Family family_of(std::string_view name, std::string_view about, int one_in) {
   return {name, about, false, true, case_of_drawn<query>, 0, query, one_in};
 }

@@ -30,71 +30,71 @@ MethodAnswer answer_of(bool is_met, const detector::TimeEnclosure& first, Rung r
   return answer;
 }
 
-MethodAnswer oracle_yes_no(const AskedQuery& asked) { return oracle_answer(asked, Want::yes_no); }
+MethodAnswer oracle_yes_no(const QueryTask& task) { return oracle_answer(task, Want::yes_no); }
 
-MethodAnswer algebraic_kernel(const AskedQuery& asked) {
-  const auto first = oracle::first_time_by_kernel(asked.query);
+MethodAnswer algebraic_kernel(const QueryTask& task) {
+  const auto first = oracle::first_time_by_kernel(task.query);
   return {first ? Decision::yes : Decision::no, first};
 }
 
 template <Arithmetic arithmetic, Want want = Want::yes_no>
-MethodAnswer by_detector(const AskedQuery& asked) {
-  const double d = asked.within ? asked.within->first : 0;
-  const auto answer = d == 0 ? detector::test_contact(asked.query, want, arithmetic)
-                             : detector::test_near(asked.query, d, want);
+MethodAnswer by_detector(const QueryTask& task) {
+  const double d = task.within ? task.within->first : 0;
+  const auto answer = d == 0 ? detector::test_contact(task.query, want, arithmetic)
+                             : detector::test_near(task.query, d, want);
   return answer_of(answer.contact, answer.time, answer.rung, want);
 }
 
-MethodAnswer detector_integers(const AskedQuery& asked) {
-  const auto answer = detector::exact_contact(asked.query);
+MethodAnswer detector_integers(const QueryTask& task) {
+  const auto answer = detector::exact_contact(task.query);
   return answer_of(answer.contact, answer.time, answer.rung, Want::first_time);
 }
 
-oracle::DistanceVerdict ask_distance_referee(const AskedQuery& asked,
+oracle::DistanceVerdict ask_distance_referee(const QueryTask& task,
                                              const oracle::DistanceRefereeOptions& options) {
-  const auto& x = asked.query.points;
-  if (asked.query.first_group == 2)
-    return oracle::distance_referee(detector::EdgeEdge{{x[0], x[1]}, {x[2], x[3]}}, *asked.within,
+  const auto& x = task.query.points;
+  if (task.query.first_group == 2)
+    return oracle::distance_referee(detector::EdgeEdge{{x[0], x[1]}, {x[2], x[3]}}, *task.within,
                                     options);
-  return oracle::distance_referee(detector::VertexFace{x[0], {x[1], x[2], x[3]}}, *asked.within,
+  return oracle::distance_referee(detector::VertexFace{x[0], {x[1], x[2], x[3]}}, *task.within,
                                   options);
 }
 
 // Of a distance no time is asked for, so that any bracket of it will do.
-MethodAnswer referee(const AskedQuery& asked) {
-  if (!asked.within) return {oracle::referee(asked.query)};
-  return {ask_distance_referee(asked, {.bits = 0}).within};
+MethodAnswer referee(const QueryTask& task) {
+  if (!task.within) return {oracle::referee(task.query)};
+  return {ask_distance_referee(task, {.bits = 0}).within};
 }
 
 // The limits are small, because a query that is not settled soon is mostly a touch, which no
 // amount of work settles.
-MethodAnswer second_referee(const AskedQuery& asked) {
-  return {oracle::referee(asked.query, {60, 100})};
+MethodAnswer second_referee(const QueryTask& task) {
+  return {oracle::referee(task.query, {60, 100})};
 }
 
-MethodAnswer distance_referee(const AskedQuery& asked) {
-  const auto verdict = ask_distance_referee(asked, {});
+MethodAnswer distance_referee(const QueryTask& task) {
+  const auto verdict = ask_distance_referee(task, {});
   return {.decision = verdict.within, .proof = verdict};
 }
 
 // What comes within 0 is in contact.
-MethodAnswer contact_at_no_distance(const AskedQuery& asked) {
-  if (asked.within->first != -asked.within->second) return {};
-  return oracle_answer({asked.query}, Want::first_time);
+MethodAnswer contact_at_no_distance(const QueryTask& task) {
+  if (task.within->first != -task.within->second) return {};
+  return oracle_answer({task.query}, Want::first_time);
 }
 
 // The least distance is the least double that the features come within.
-MethodAnswer least_distance(const AskedQuery& asked) {
-  const double least = oracle::least_distance(asked.query);
+MethodAnswer least_distance(const QueryTask& task) {
+  const double least = oracle::least_distance(task.query);
   const auto is_within = [&](double distance) {
-    return oracle::first_time_within(asked.query, {distance, 0}, Want::yes_no).near;
+    return oracle::first_time_within(task.query, {distance, 0}, Want::yes_no).near;
   };
   if (std::isfinite(least) && !is_within(least))
     throw std::logic_error("farther apart than the least distance");
   if (least > 0 && is_within(std::nextafter(least, 0.0)))
     throw std::logic_error("nearer than the least distance");
   // The sum is rounded, so only what lies beyond the rounding tells.
-  const double sum = asked.within->first + asked.within->second;
+  const double sum = task.within->first + task.within->second;
   if (least > std::nextafter(sum, std::numeric_limits<double>::infinity())) return {Decision::no};
   if (std::isfinite(sum) && least < std::nextafter(sum, 0.0)) return {Decision::yes};
   return {};
@@ -144,20 +144,20 @@ constexpr QueryMethod methods[] = {
 
 }  // namespace
 
-MethodAnswer oracle_answer(const AskedQuery& asked, Want want) {
-  if (asked.within) {
-    const auto answer = oracle::first_time_within(asked.query, *asked.within, want);
+MethodAnswer oracle_answer(const QueryTask& task, Want want) {
+  if (task.within) {
+    const auto answer = oracle::first_time_within(task.query, *task.within, want);
     return answer_of(answer.near, answer.first, answer.rung, want);
   }
-  const auto answer = oracle::contact_of(asked.query, want);
+  const auto answer = oracle::contact_of(task.query, want);
   return answer_of(answer.contact, answer.first, answer.rung, want);
 }
 
 std::span<const QueryMethod> query_methods() { return methods; }
 const QueryMethod* method_of(std::string_view word) {
-  const auto found = std::ranges::find_if(
+  const auto place = std::ranges::find_if(
       methods, [&](const QueryMethod& method) { return method.word && method.word == word; });
-  return found == std::end(methods) ? nullptr : found;
+  return place == std::end(methods) ? nullptr : place;
 }
 
 namespace {
@@ -172,14 +172,14 @@ std::string text(const oracle::RationalTime& t) {
   return fmt::format("{}/{}", t.numerator, t.denominator);
 }
 
-std::string text(const MethodAnswer& answer, const AskedQuery& asked) {
+std::string text(const MethodAnswer& answer, const QueryTask& task) {
   const auto& proof = answer.proof;
-  const std::string met = asked.within ? "near" : "contact";
+  const std::string relation = task.within ? "near" : "contact";
   if (answer.decision == Decision::open)
     return proof ? "cannot tell, not near up to " + text(proof->after) : "cannot tell";
-  if (answer.decision == Decision::no) return asked.within ? "never near" : "no contact";
+  if (answer.decision == Decision::no) return task.within ? "never near" : "no contact";
   if (proof) return fmt::format("near in ({}, {}]", text(proof->after), text(proof->by));
-  return answer.first ? met + " at " + text(*answer.first) : met;
+  return answer.first ? relation + " at " + text(*answer.first) : relation;
 }
 
 // Whether the first time is 0, as the referee has proved.
@@ -202,65 +202,64 @@ bool misses(const MethodAnswer& answer, double met_at) {
           oracle::compare(answer.proof->after, met_at) >= 0);
 }
 
-std::optional<std::string> not_as_known(const AskedQuery& asked) {
-  const auto& known = asked.known;
-  if (!known) return {};
+std::optional<std::string> not_as_known(const QueryTask& task) {
+  const auto& truth = task.truth;
+  if (!truth) return {};
   for (const auto want : {Want::yes_no, Want::first_time}) {
-    const auto answer = oracle_answer(asked, want);
-    if (answer.decision != known->decision || (answer.first && answer.first != known->first))
-      return fmt::format("`{}`: not the answer or time that is known", asked.name);
+    const auto answer = oracle_answer(task, want);
+    if (answer.decision != truth->decision || (answer.first && answer.first != truth->first))
+      return fmt::format("`{}`: not the answer or time that is known", task.name);
     const auto name_of = [](int rung) {
       return method_of("oracle")->rungs[static_cast<std::size_t>(rung)];
     };
-    if (answer.rung != known->rung)
-      return fmt::format("`{}`: rung {} decided, {} must", asked.name, name_of(answer.rung),
-                         name_of(known->rung));
+    if (answer.rung != truth->rung)
+      return fmt::format("`{}`: rung {} decided, {} must", task.name, name_of(answer.rung),
+                         name_of(truth->rung));
   }
   return {};
 }
 
-std::optional<std::string> first_contradiction(const AskedQuery& asked, std::uint64_t pick,
+std::optional<std::string> first_contradiction(const QueryTask& task, std::uint64_t pick,
                                                QueryTally& tally,
                                                std::span<const QueryMethod> methods) {
-  const MethodAnswer of_oracle = oracle_answer(asked, Want::first_time);
+  const MethodAnswer of_oracle = oracle_answer(task, Want::first_time);
   tally.contacts += of_oracle.decision == Decision::yes ? 1 : 0;
   tally.rungs.add(static_cast<oracle::Rung>(of_oracle.rung));
   const auto oracle_text = [&] {
-    return "oracle: " + text(of_oracle, asked) +
-           (asked.met_at ? fmt::format("; made to meet at {:a}", *asked.met_at) : "");
+    return "oracle: " + text(of_oracle, task) +
+           (task.met_at ? fmt::format("; made to meet at {:a}", *task.met_at) : "");
   };
-  if (contradicts(of_oracle, of_oracle, asked)) return oracle_text();
-  const auto checks = asked.within ? QueryChecks::distances : QueryChecks::contacts;
+  if (contradicts(of_oracle, of_oracle, task)) return oracle_text();
+  const auto checks = task.within ? QueryChecks::distances : QueryChecks::contacts;
   bool open = false;
   for (const QueryMethod& method : methods) {
     if (method.checks != checks || pick % static_cast<std::uint64_t>(method.one_in) != 0) continue;
-    const MethodAnswer answer = method.answer(asked);
+    const MethodAnswer answer = method.answer(task);
     open = open || (method.is_referee && answer.decision == Decision::open);
-    if (contradicts(answer, of_oracle, asked))
-      return fmt::format("{}: {}; {}", method.name, text(answer, asked), oracle_text());
+    if (contradicts(answer, of_oracle, task))
+      return fmt::format("{}: {}; {}", method.name, text(answer, task), oracle_text());
   }
   tally.open += open ? 1 : 0;
-  return not_as_known(asked);
+  return not_as_known(task);
 }
 
 }  // namespace
 
-bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle,
-                 const AskedQuery& asked) {
+bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle, const QueryTask& task) {
   const bool are_decided =
       answer.decision != Decision::open && of_oracle.decision != Decision::open;
   return (are_decided && answer.decision != of_oracle.decision) ||
          (answer.first && of_oracle.first && answer.first != of_oracle.first) ||
          (answer.proof && of_oracle.first && is_outside(*of_oracle.first, *answer.proof)) ||
-         (asked.met_at && misses(answer, *asked.met_at));
+         (task.met_at && misses(answer, *task.met_at));
 }
 
-std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
-                                       QueryTally& tally, std::span<const QueryMethod> methods) {
+std::optional<std::string> check_query(const QueryTask& task, std::uint64_t pick, QueryTally& tally,
+                                       std::span<const QueryMethod> methods) {
   ++tally.queries;
   std::optional<std::string> wrong;
   try {
-    wrong = first_contradiction(asked, pick, tally, methods);
+    wrong = first_contradiction(task, pick, tally, methods);
   } catch (const std::exception& thrown) {
     wrong = fmt::format("a method threw: {}", thrown.what());
   }
@@ -274,25 +273,25 @@ std::string exact_text(const MovingPoint& path) {
                      y[2]);
 }
 
-std::string exact_text(const AskedQuery& asked) {
-  std::string out = asked.name.empty() ? "" : asked.name + "\n";
-  if (const auto& d = asked.within)
+std::string exact_text(const QueryTask& task) {
+  std::string out = task.name.empty() ? "" : task.name + "\n";
+  if (const auto& d = task.within)
     out += fmt::format("distance {:a} + {:a}\n", d->first, d->second);
-  out += asked.query.first_group == 1 ? "vertex-face: vertex, then three corners\n"
-                                      : "edge-edge: two ends, then two ends\n";
-  for (const auto& path : asked.query.points) out += "  " + exact_text(path) + "\n";
+  out += task.query.first_group == 1 ? "vertex-face: vertex, then three corners\n"
+                                     : "edge-edge: two ends, then two ends\n";
+  for (const auto& path : task.query.points) out += "  " + exact_text(path) + "\n";
   return out;
 }
 
-std::string answers_text(const AskedQuery& asked) {
-  const auto of_oracle = text(oracle_answer(asked, Want::first_time), asked);
-  if (asked.within)
+std::string answers_text(const QueryTask& task) {
+  const auto of_oracle = text(oracle_answer(task, Want::first_time), task);
+  if (task.within)
     return fmt::format("oracle: {}\nleast distance: {:a}\n", of_oracle,
-                       oracle::least_distance(asked.query));
+                       oracle::least_distance(task.query));
   std::string out = fmt::format("oracle, timed: {}\n", of_oracle);
   for (const QueryMethod& method : query_methods()) {
     if (method.checks == QueryChecks::contacts)
-      out += fmt::format("{}: {}\n", method.name, text(method.answer(asked), asked));
+      out += fmt::format("{}: {}\n", method.name, text(method.answer(task), task));
   }
   return out;
 }

@@ -29,14 +29,14 @@ struct MethodAnswer {
 };
 
 // A query, what is asked of it, and what is known of the answer.
-struct AskedQuery {
+struct QueryTask {
   Query query;
   std::optional<double> met_at = {};  // a time at which the answer is yes, where one is known
   // Whether, and when first, the features come within this distance. Absent: whether they meet.
   std::optional<detector::Separation> within = {};
   // Of a query that is listed: its name, and the answer that the oracle must give by this rung.
   std::string name = {};
-  std::optional<MethodAnswer> known = {};
+  std::optional<MethodAnswer> truth = {};
 };
 
 // The queries of the self-test that a method must answer as the oracle does.
@@ -44,7 +44,7 @@ enum class QueryChecks : std::uint8_t { nothing, contacts, distances };
 
 struct QueryMethod {
   const char* name;
-  MethodAnswer (*answer)(const AskedQuery& asked);
+  MethodAnswer (*answer)(const QueryTask& task);
   QueryChecks checks = QueryChecks::nothing;
   int one_in = 1;              // of so many of these queries one is put to the method
   bool is_referee = false;     // leaves open what it cannot prove
@@ -57,7 +57,7 @@ struct QueryMethod {
 };
 
 // The oracle's answer, with the first time if that is wanted.
-MethodAnswer oracle_answer(const AskedQuery& asked, detector::Want want);
+MethodAnswer oracle_answer(const QueryTask& task, detector::Want want);
 
 // All methods. The self-test holds against the oracle's timed answer: the oracle asked for yes or
 // no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no, and
@@ -89,20 +89,18 @@ ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, rungs)
 // bit or within what is proved, a time that is known is not missed, and a listed query has its
 // known answer by its rung. Returns what contradicts, or nothing. The dearest part is the algebraic
 // kernel.
-std::optional<std::string> check_query(const AskedQuery& asked, std::uint64_t pick,
-                                       QueryTally& tally,
+std::optional<std::string> check_query(const QueryTask& task, std::uint64_t pick, QueryTally& tally,
                                        std::span<const QueryMethod> methods = query_methods());
 
 // Whether the answer contradicts that of the oracle, or the time that is known. One that is open
 // does too, if it proves that the first time is elsewhere.
-bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle,
-                 const AskedQuery& asked);
+bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle, const QueryTask& task);
 
 // The question, the kind and all coordinates as hexadecimal doubles, one point a line.
-std::string exact_text(const AskedQuery& asked);
+std::string exact_text(const QueryTask& task);
 std::string exact_text(const detector::MovingPoint& path);
 // "contact at [0x1p-1, 0x1p-1]": the answers of the oracle and of all methods, one a line. Of a
 // distance: that of the oracle, and the least distance.
-std::string answers_text(const AskedQuery& asked);
+std::string answers_text(const QueryTask& task);
 
 }  // namespace assay::properties

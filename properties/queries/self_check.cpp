@@ -39,40 +39,40 @@ FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& opt
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t indices = family.indices(options.queries);
   std::atomic<std::uint64_t> next = 0;
-  std::atomic<bool> stopped = false;
+  std::atomic<bool> is_stopped = false;
   std::mutex mutex;
   FamilyResult result;
-  std::uint64_t done = 0;
-  const auto merge = [&](FamilyResult& found, std::uint64_t count) {
+  std::uint64_t done_count = 0;
+  const auto merge = [&](FamilyResult& addend, std::uint64_t count) {
     const std::lock_guard lock(mutex);
-    result.tally += found.tally;
-    auto& kept = result.failures;
-    std::ranges::move(found.failures, std::back_inserter(kept));
-    std::ranges::sort(kept, {}, &SelfTestFailure::index);
-    if (kept.size() > failures_kept) kept.resize(failures_kept);
-    done += count;
-    if (progress) progress(done);
+    result.tally += addend.tally;
+    auto& failures = result.failures;
+    std::ranges::move(addend.failures, std::back_inserter(failures));
+    std::ranges::sort(failures, {}, &SelfTestFailure::index);
+    if (failures.size() > failures_kept) failures.resize(failures_kept);
+    done_count += count;
+    if (progress) progress(done_count);
   };
   in_threads(options.jobs, [&] {
-    while (!stopped) {
+    while (!is_stopped) {
       const std::uint64_t begin = next.fetch_add(indices_at_once);
       if (begin >= indices) return;
-      FamilyResult found;
+      FamilyResult result_of_part;
       const std::uint64_t end = std::min(begin + indices_at_once, indices);
       std::uint64_t index = begin;
-      for (; index < end && !stopped; ++index) {
+      for (; index < end && !is_stopped; ++index) {
         if (options.stop && options.stop()) {
-          stopped = true;
+          is_stopped = true;
           break;
         }
-        auto wrong = family.check(options.seed, index, found.tally);
+        auto wrong = family.check(options.seed, index, result_of_part.tally);
         if (!wrong) continue;
-        found.failures.push_back({index, std::move(*wrong)});
+        result_of_part.failures.push_back({index, std::move(*wrong)});
       }
-      merge(found, index - begin);
+      merge(result_of_part, index - begin);
     }
   });
-  result.complete = done == indices;
+  result.complete = done_count == indices;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
@@ -97,10 +97,10 @@ namespace {
 // queries do not. The detector tests every pair.
 
 detector::StepResult detect(const SmallStep& step) {
-  auto made = detector::Detector::create(
+  auto creation = detector::Detector::create(
       step.triangles, step.x_t0,
       {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
-  return made.value().step(step.x_t0, step.x_t1, {});
+  return creation.value().step(step.x_t0, step.x_t1, {});
 }
 
 oracle::StepJudgement judge(const SmallStep& step) {
@@ -108,10 +108,10 @@ oracle::StepJudgement judge(const SmallStep& step) {
 }
 
 std::optional<std::string> check_step(const SmallStep& step, QueryTally& tally) {
-  const auto judged = judge(step);
-  tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
-  tally.rungs += judged.rungs;
-  if (compare(detect(step), judged, claims_of({})).outcome == Outcome::holds) return {};
+  const auto judgement = judge(step);
+  tally.contacts += judgement.answer == detector::Answer::collision ? 1 : 0;
+  tally.rungs += judgement.rungs;
+  if (compare(detect(step), judgement, claims_of({})).outcome == Outcome::holds) return {};
   return "pairs or times of the oracle's step and the detector's differ";
 }
 
@@ -147,14 +147,14 @@ SmallStep everyday_step(std::uint64_t seed, std::uint64_t index) {
 
 std::uint64_t SelfTestFamily::indices(std::uint64_t queries) const {
   if (one_in > 0) return (queries + one_in - 1) / one_in;
-  return queries >= from ? listed : 0;
+  return queries >= from ? list_size : 0;
 }
 
 std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64_t index,
                                                  QueryTally& tally) const {
   if (!step) {
-    const auto asked = query(seed, index);
-    return asked ? check_query(*asked, Random(~seed, index).next(), tally) : std::nullopt;
+    const auto task = query(seed, index);
+    return task ? check_query(*task, Random(~seed, index).next(), tally) : std::nullopt;
   }
   ++tally.queries;
   std::optional<std::string> wrong;
@@ -169,14 +169,14 @@ std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64
 
 std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const {
   if (step) return step_text(step(seed, index));
-  const auto asked = query(seed, index);
-  return asked ? exact_text(*asked) + answers_text(*asked)
-               : "no query at this place: an equal one stands elsewhere\n";
+  const auto task = query(seed, index);
+  return task ? exact_text(*task) + answers_text(*task)
+              : "no query at this place: an equal one stands elsewhere\n";
 }
 
-Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus) {
+Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus) {
   const auto& rungs = method_of("oracle")->rungs;
-  std::vector<AskedQuery> list;
+  std::vector<QueryTask> list;
   const auto folder = corpus / "queries" / "named";
   BOOST_OUTCOME_TRY(files, corpus::case_files(folder));
   if (files.empty()) return corpus::problem_in(folder, "no named query");
@@ -193,7 +193,7 @@ Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& cor
     const bool is_met = step.answer == detector::Answer::collision;
     list.push_back({.query = *query,
                     .name = c.about,
-                    .known = MethodAnswer{is_met ? detector::Decision::yes : detector::Decision::no,
+                    .truth = MethodAnswer{is_met ? detector::Decision::yes : detector::Decision::no,
                                           step.first_time, static_cast<int>(rung)}});
   }
   return list;
@@ -202,16 +202,16 @@ Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& cor
 Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::path& corpus) {
   using enum WorldMotion;
   std::vector<SelfTestFamily> all;
-  const auto listed = [&](const char* name, const char* about, std::uint64_t count,
-                          std::uint64_t from, auto at) {
+  const auto family_of_list = [&](const char* name, const char* about, std::uint64_t count,
+                                  std::uint64_t from, auto at) {
     all.push_back(
         {name, about, count, from, 0, [at](std::uint64_t, std::uint64_t i) { return at(i); }});
   };
   const auto world = [&](const char* name, const char* about, const SmallWorld& of,
                          std::uint64_t from) {
-    listed(name, about, of.places(), from, [of](std::uint64_t place) {
+    family_of_list(name, about, of.places(), from, [of](std::uint64_t place) {
       const auto query = of.at(place);
-      return query ? std::optional(AskedQuery{*query}) : std::nullopt;
+      return query ? std::optional(QueryTask{*query}) : std::nullopt;
     });
   };
   const auto random = [&](std::string_view name, const Family& family, int one_in) {
@@ -221,11 +221,11 @@ Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::
   const auto steps = [&](const char* name, const char* about, auto step) {
     all.push_back({name, about, 0, 0, 20, {}, step});
   };
-  BOOST_OUTCOME_TRY(named, named_queries(corpus));
-  listed("rungs", "named queries, each with the rung that must decide it", named.size(), 0,
-         [named](std::uint64_t i) {
-           return i < named.size() ? std::optional(named[i]) : std::nullopt;
-         });
+  BOOST_OUTCOME_TRY(queries, named_queries(corpus));
+  family_of_list("rungs", "named queries, each with the rung that must decide it", queries.size(),
+                 0, [queries](std::uint64_t i) {
+                   return i < queries.size() ? std::optional(queries[i]) : std::nullopt;
+                 });
   world("line-3", "all queries on {-1,0,1}", {3, 1, every_point_moves}, 0);
   world("plane-2", "all queries on {0,1}^2", {2, 2, every_point_moves}, 0);
   world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", {3, 2, one_point_moves}, 0);
@@ -249,7 +249,7 @@ using Paths = SmallWorld::Paths;
 
 // The least arrangement of the points of a query: they are sorted within each group, and the
 // lesser edge stands first.
-Paths sorted(Paths p, int first_group) {
+Paths sort_paths(Paths p, int first_group) {
   std::sort(p.begin() + first_group, p.end());
   if (first_group == 2) {
     if (p[1] < p[0]) std::swap(p[0], p[1]);
@@ -295,10 +295,10 @@ std::optional<SmallWorld::Arranged> SmallWorld::arranged_at(std::uint64_t place)
   const int end = digit();
   const auto mover = static_cast<int>(place);  // 0 vertex, 1 corner of the face, 2 end of an edge
   query.first_group = mover == 2 ? 2 : 1;
-  Path& moved = query.paths[mover == 1 ? 1 : 0];
-  query.mover_first = end != moved[0];
+  Path& moving_path = query.paths[mover == 1 ? 1 : 0];
+  query.mover_first = end != moving_path[0];
   if (mover == 1 && !query.mover_first) return {};  // at rest: it is counted where the vertex moves
-  moved[1] = end;
+  moving_path[1] = end;
   return query;
 }
 
@@ -310,15 +310,15 @@ bool SmallWorld::is_least_of_its_class(const Arranged& query) const {
   const bool in_order =
       query.mover_first
           ? (query.first_group == 1 ? corner_moves || p[1] <= p[2] : true) && p[2] <= p[3]
-          : p == sorted(p, query.first_group);
+          : p == sort_paths(p, query.first_group);
   if (!in_order) return false;
-  const Paths own = sorted(p, query.first_group);
+  const Paths own = sort_paths(p, query.first_group);
   return std::all_of(symmetries_.begin(), symmetries_.end(), [&](const std::vector<int>& image) {
     Paths other;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t e = 0; e < 2; ++e) other[i][e] = image[static_cast<std::size_t>(p[i][e])];
     }
-    return own <= sorted(other, query.first_group);
+    return own <= sort_paths(other, query.first_group);
   });
 }
 

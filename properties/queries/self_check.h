@@ -21,9 +21,9 @@ struct SelfTestFamily {
   std::string name, about;
   // All of a listed family are checked, if at least `from` random small-integer queries are asked
   // for; of a random one, one for each `one_in` of them.
-  std::uint64_t listed = 0, from = 0, one_in = 0;
+  std::uint64_t list_size = 0, from = 0, one_in = 0;
   // The query of a case; nothing for some indices of a small world, which hold no case.
-  std::function<std::optional<AskedQuery>(std::uint64_t seed, std::uint64_t index)> query;
+  std::function<std::optional<QueryTask>(std::uint64_t seed, std::uint64_t index)> query;
   // A family of whole steps has this in its place.
   SmallStep (*step)(std::uint64_t seed, std::uint64_t index) = nullptr;
 
@@ -39,7 +39,7 @@ struct SelfTestFamily {
 // The named queries of a corpus, each with its answer, its first time, and the rung of the oracle
 // that must decide it. The rung is checked because a rung that left its share to the next one would
 // still answer rightly, only more slowly. Fails if there is none, or if a file cannot be read.
-Expected<std::vector<AskedQuery>> named_queries(const std::filesystem::path& corpus);
+Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus);
 
 // All families, the cheap and most telling ones first: the named queries of the corpus, small
 // worlds, whole small steps, random queries, then the larger worlds (only if many queries are asked
@@ -67,7 +67,7 @@ struct FamilyResult {
 
 // `progress` is told how many indices of the family are done, from one thread at a time.
 FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
-                        const std::function<void(std::uint64_t done)>& progress);
+                        const std::function<void(std::uint64_t done_count)>& progress);
 
 // A case of the self-test, found by its name "family:seed:index"; nothing if there is none.
 struct SelfTestCase {

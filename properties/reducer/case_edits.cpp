@@ -58,11 +58,11 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
   ghosts.triangles = oracle::ghost_triangles(loops, vertices);
   ghosts.apexes.resize(before.frames.size());
   for (const auto& loop : loops) {
-    const auto known =
+    const auto place =
         std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
     for (std::size_t f = 0; f < before.frames.size(); ++f) {
-      if (known != loop.end()) {
-        ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*known))]);
+      if (place != loop.end()) {
+        ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*place))]);
         continue;
       }
       detector::Point mean = {0, 0, 0};
@@ -95,16 +95,16 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   for (const auto& corners : triangles) {
     for (const auto v : corners) number[at(v)] = 0;
   }
-  std::vector<Eigen::Index> kept;
+  std::vector<Eigen::Index> rows;
   for (std::size_t v = 0; v < vertices; ++v) {
     if (number[v] < 0) continue;
-    number[v] = static_cast<std::int32_t>(kept.size());
-    kept.push_back(static_cast<Eigen::Index>(v));
+    number[v] = static_cast<std::int32_t>(rows.size());
+    rows.push_back(static_cast<Eigen::Index>(v));
   }
   for (const auto& frame : c.frames) {
-    detector::Positions x(static_cast<Eigen::Index>(kept.size()), 3);
-    for (std::size_t v = 0; v < kept.size(); ++v) {
-      x.row(static_cast<Eigen::Index>(v)) = frame.row(kept[v]);
+    detector::Positions x(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      x.row(static_cast<Eigen::Index>(v)) = frame.row(rows[v]);
     }
     result.frames.push_back(std::move(x));
   }
@@ -112,14 +112,14 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
     for (Eigen::Index i = 0; i < matrix.size(); ++i) {
       auto& v = matrix.data()[i];
       const auto old = at(v);
-      v = old < vertices ? number[old] : static_cast<std::int32_t>(old - vertices + kept.size());
+      v = old < vertices ? number[old] : static_cast<std::int32_t>(old - vertices + rows.size());
     }
   };
   renumber(result.triangles);
   if (c.counted) {
     NewVertices renumbered;
     for (const auto end : target) renumbered.number.push_back(number[at(end)]);
-    for (const auto old : kept) renumbered.was.push_back(static_cast<std::int32_t>(old));
+    for (const auto old : rows) renumbered.was.push_back(static_cast<std::int32_t>(old));
     result.counted = {carried_over(c.counted->pairs, c.triangles, result.triangles, renumbered),
                       {}};
   }
@@ -145,11 +145,11 @@ bool is_valid(const Case& c) {
     const auto frames = static_cast<std::int32_t>(c.frames.size());
     if (step.from < 0 || step.to < 0 || step.from >= frames || step.to >= frames) return false;
   }
-  std::set<Corners> seen;
+  std::set<Corners> corner_sets;
   for (const auto& corners : triangles_of(c)) {
-    const auto key = sorted(corners);
+    const auto key = as_set(corners);
     if (key[0] < 0 || key[2] >= vertices || key[0] == key[1] || key[1] == key[2]) return false;
-    if (!seen.insert(key).second) return false;
+    if (!corner_sets.insert(key).second) return false;
   }
   if (c.view) {
     const auto &q0 = c.view->q0, &q1 = c.view->q1;
@@ -181,12 +181,12 @@ Case with_triangles(const Case& c, const std::vector<Corners>& triangles) {
 }
 
 Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep) {
-  std::vector<Corners> kept;
+  std::vector<Corners> triangles;
   const auto all = triangles_of(c);
   for (std::size_t t = 0; t < all.size(); ++t) {
-    if (keep[t] != 0) kept.push_back(all[t]);
+    if (keep[t] != 0) triangles.push_back(all[t]);
   }
-  return with_triangles(c, kept);
+  return with_triangles(c, triangles);
 }
 
 Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target) {
@@ -195,23 +195,23 @@ Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target) {
     while (target[at(v)] != v) v = target[at(v)];
   }
   const auto all = triangles_of(c);
-  std::vector<Corners> moved;
+  std::vector<Corners> images;
   std::map<Corners, int> surplus;  // by corners: orientations added up
   for (const auto& corners : all) {
     Corners m;
     for (std::size_t i = 0; i < 3; ++i) m[i] = end[at(corners[i])];
     if (m[0] == m[1] || m[1] == m[2] || m[2] == m[0]) continue;
-    moved.push_back(m);
-    surplus[sorted(m)] += orientation(m);
+    images.push_back(m);
+    surplus[as_set(m)] += orientation(m);
   }
-  std::vector<Corners> kept;
-  for (const auto& m : moved) {
-    auto& rest = surplus[sorted(m)];
+  std::vector<Corners> triangles;
+  for (const auto& m : images) {
+    auto& rest = surplus[as_set(m)];
     if (rest * orientation(m) <= 0) continue;
     rest -= orientation(m);
-    kept.push_back(m);
+    triangles.push_back(m);
   }
-  return rebuilt(c, kept, end);
+  return rebuilt(c, triangles, end);
 }
 
 Case close_loops(const Case& c, std::size_t corner) {
@@ -264,13 +264,13 @@ class Carrier {
     for (Eigen::Index t = 0; t < after.rows(); ++t) {
       const std::array<std::int32_t, 3> f = {after(t, 0), after(t, 1), after(t, 2)};
       for (std::size_t k = 0; k < 3; ++k) edges_.insert(ascending({f[k], f[(k + 1) % 3]}));
-      place.emplace(sorted(f), static_cast<std::int32_t>(t));
+      place.emplace(as_set(f), static_cast<std::int32_t>(t));
     }
     for (Eigen::Index t = 0; t < before.rows(); ++t) {
       std::array<std::int32_t, 3> f{};
       for (int k = 0; k < 3; ++k) f[at(k)] = number(before(t, k));
-      const auto found = place.find(sorted(f));
-      triangle_.push_back(found == place.end() ? -1 : found->second);
+      const auto entry = place.find(as_set(f));
+      triangle_.push_back(entry == place.end() ? -1 : entry->second);
     }
   }
 

@@ -35,7 +35,7 @@ corpus::Case with_triangles(const corpus::Case& c,
 
 std::vector<std::array<std::int32_t, 3>> triangles_of(const corpus::Case& c);
 
-inline std::array<std::int32_t, 3> sorted(std::array<std::int32_t, 3> corners) {
+inline std::array<std::int32_t, 3> as_set(std::array<std::int32_t, 3> corners) {
   std::sort(corners.begin(), corners.end());
   return corners;
 }

@@ -64,7 +64,7 @@ constexpr Pass escaping_passes[] = {{"escape", escape}};
 bool run(std::span<const Pass> passes, ReductionSearch& search) {
   const MeshSize before = search.size();
   for (const Pass& pass : passes) {
-    if (search.ended()) break;
+    if (search.has_ended()) break;
     search.begin_pass(pass.name);
     pass.run(search);
   }
@@ -103,7 +103,7 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
                  const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
   ReductionSearch search(failing, judge, limits, on_better);
   Reduction reduction;
-  if (search.found()) {
+  if (search.has_finding()) {
     // Steps are dropped first, because a view is made explicit for each step that remains.
     search.begin_pass("drop later steps");
     drop_later_steps(search);
@@ -124,13 +124,13 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
     }
   }
   search.begin_pass("end");
-  reduction.fixed_point = search.found() && !search.ended();
+  reduction.fixed_point = search.has_finding() && !search.has_ended();
   reduction.smallest = search.best();
   reduction.finding = search.finding();
   reduction.calls = search.calls();
   reduction.seconds = search.seconds();
   for (const auto& pass : search.statistics()) {
-    if (pass.tried + pass.accepted > 0) reduction.passes.push_back(pass);
+    if (pass.tries + pass.accepted > 0) reduction.passes.push_back(pass);
   }
   return reduction;
 }
@@ -149,7 +149,7 @@ int rank_of(const std::optional<corpus::CaseView>& view) {
   return (view->q1.empty() ? 1 : 3) + (moves(view->q0) || moves(view->q1) ? 1 : 0);
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
+std::string number(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
@@ -203,8 +203,8 @@ MeshSize size_of(const corpus::Case& c) {
 std::string size_text(const corpus::Case& c) {
   if (says_query(c)) return fmt::format("one {} query", query_word(c));
   const auto size = size_of(c);
-  return counted(size.triangles, "triangle", "triangles") + ", " +
-         counted(size.vertices, "vertex", "vertices") + ", " + counted(size.steps, "step", "steps");
+  return number(size.triangles, "triangle", "triangles") + ", " +
+         number(size.vertices, "vertex", "vertices") + ", " + number(size.steps, "step", "steps");
 }
 
 std::string size_text(const corpus::Case& before, const corpus::Case& after) {

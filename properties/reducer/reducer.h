@@ -38,7 +38,7 @@ struct ReduceLimits {
 
 struct PassStatistics {
   std::string name;
-  std::uint64_t tried = 0, accepted = 0;  // calls of the judge; smaller cases found
+  std::uint64_t tries = 0, accepted = 0;  // calls of the judge; smaller cases found
   double seconds = 0;
 };
 

@@ -95,28 +95,28 @@ ReductionSearch::ReductionSearch(const Case& failing, const Judge& judge,
   begin_pass("start");
   if (!is_valid(best_)) return;
   ++calls_;
-  ++statistics_[pass_].tried;
-  if (auto found = judge_(best_)) finding_ = std::move(*found);
-  judged_.emplace(hash_of(best_), finding_);
+  ++statistics_[pass_].tries;
+  if (auto finding = judge_(best_)) finding_ = std::move(*finding);
+  findings_.emplace(hash_of(best_), finding_);
 }
 
 double ReductionSearch::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-bool ReductionSearch::ended() const {
+bool ReductionSearch::has_ended() const {
   return calls_ >= limits_.calls || seconds() >= limits_.seconds;
 }
 
 std::optional<Finding> ReductionSearch::ask(const Case& candidate) {
-  const auto [place, is_new] = judged_.try_emplace(hash_of(candidate));
+  const auto [place, is_new] = findings_.try_emplace(hash_of(candidate));
   if (is_new) {
-    if (ended() || !is_valid(candidate)) {
-      judged_.erase(place);
+    if (has_ended() || !is_valid(candidate)) {
+      findings_.erase(place);
       return std::nullopt;
     }
     ++calls_;
-    ++statistics_[pass_].tried;
+    ++statistics_[pass_].tries;
     place->second = judge_(candidate);
   }
   return place->second && matches(*place->second) ? place->second : std::nullopt;

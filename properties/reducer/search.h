@@ -14,11 +14,11 @@ namespace assay::properties {
 
 class ReductionSearch {
  public:
-  // Judges `failing` once. found() tells whether it fails, so that there is something to reduce.
+  // Judges `failing` once. If it fails, has_finding(), and there is something to reduce.
   ReductionSearch(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
                   const OnBetter& on_better);
 
-  bool found() const { return !finding_.signature.empty(); }
+  bool has_finding() const { return !finding_.signature.empty(); }
   const corpus::Case& best() const { return best_; }
   const Finding& finding() const { return finding_; }
   const MeshSize& size() const { return size_; }
@@ -39,7 +39,7 @@ class ReductionSearch {
   void match_kind_alone(bool alone) { kind_alone_ = alone; }
 
   // A limit is reached: nothing is judged any more.
-  bool ended() const;
+  bool has_ended() const;
   std::uint64_t calls() const { return calls_; }
   double seconds() const;
 
@@ -63,7 +63,7 @@ class ReductionSearch {
 
   bool kind_alone_ = false;
   // The judged cases by the hash of their content.
-  std::unordered_map<std::uint64_t, std::optional<Finding>> judged_;
+  std::unordered_map<std::uint64_t, std::optional<Finding>> findings_;
   std::vector<PassStatistics> statistics_;
   std::size_t pass_ = 0;
   double pass_start_ = 0;
@@ -98,10 +98,10 @@ corpus::Case within(const corpus::Case& c, const Rings& rings, int ring);
 template <class Size, class TryRange>
 void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
   for (std::size_t chunk = std::max<std::size_t>(1, (size() + 1) / 2);; chunk /= 2) {
-    for (std::size_t begin = 0; begin < size() && !search.ended();) {
+    for (std::size_t begin = 0; begin < size() && !search.has_ended();) {
       if (!try_range(begin, std::min(begin + chunk, size()))) begin += chunk;
     }
-    if (chunk == 1 || search.ended()) return;
+    if (chunk == 1 || search.has_ended()) return;
   }
 }
 

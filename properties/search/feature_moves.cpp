@@ -57,16 +57,16 @@ DegeneracyAt any_degeneracy(Random& random, double time) {
   return {kind, time, random.below(4)};
 }
 
-void newton(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  const FourPoints q = query_at(made.c, *made.focus);
-  const double time = random.one_in(3) ? made.focus->time : menu_time(random, q);
+void newton(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  const FourPoints q = query_at(child.c, *child.focus);
+  const double time = random.one_in(3) ? child.focus->time : menu_time(random, q);
   std::vector<DegeneracyAt> goals = {any_degeneracy(random, time)};
   if (goals[0].kind == Degeneracy::side || random.one_in(2))
     goals.push_back({Degeneracy::coplanar, time, 0});
   if (random.one_in(2)) goals.push_back(any_degeneracy(random, time));
   const unsigned moving = goals[0].kind == Degeneracy::flat ? all_ends_move : menu_of_ends(random);
-  if (const auto moved = moved_onto(q, goals, moving)) set_query(made.c, *made.focus, *moved);
+  if (const auto query = moved_onto(q, goals, moving)) set_query(child.c, *child.focus, *query);
 }
 
 Point place_of(const MovingPoint& p, double t) { return between(p.t0, p.t1, t); }
@@ -81,9 +81,9 @@ void send(MovingPoint& p, const Point& place, double t, bool by_its_start) {
   }
 }
 
-void meet(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  set_query(made.c, *made.focus, brought_together(random, query_at(made.c, *made.focus)));
+void meet(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  set_query(child.c, *child.focus, brought_together(random, query_at(child.c, *child.focus)));
 }
 
 double neighbour(double x, int steps, Coordinates coordinates) {
@@ -116,46 +116,46 @@ void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
                                           : steps * 0x1p-52 * unit;
 }
 
-void ulps(Random& random, Candidate& made, const MoveContext& context) {
-  if (!made.focus) return;
-  FourPoints q = query_at(made.c, *made.focus);
+void ulps(Random& random, Candidate& child, const MoveContext& context) {
+  if (!child.focus) return;
+  FourPoints q = query_at(child.c, *child.focus);
   for (int changes = random.between(1, 4); changes > 0; --changes)
     step_on_lattice(random, q, context.contract.coordinates);
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // Walks on the lattice of doubles or floats as long as the exact gap shrinks.
-void walk(Random& random, Candidate& made, const MoveContext& context) {
-  if (!made.focus) return;
+void walk(Random& random, Candidate& child, const MoveContext& context) {
+  if (!child.focus) return;
   constexpr int tries = 10;
   const double d = context.contract.separation;
-  FourPoints best = query_at(made.c, *made.focus);
-  double near = nearness(gap_of(best, made.focus->time, d));
+  FourPoints best = query_at(child.c, *child.focus);
+  double near = nearness(gap_of(best, child.focus->time, d));
   for (int i = 0; i < tries; ++i) {
     FourPoints q = best;
     step_on_lattice(random, q, context.contract.coordinates);
-    const double there = nearness(gap_of(q, made.focus->time, d));
+    const double there = nearness(gap_of(q, child.focus->time, d));
     if (there < near) continue;
     near = there;
     best = q;
   }
-  set_query(made.c, *made.focus, best);
+  set_query(child.c, *child.focus, best);
 }
 
 // Rounds all coordinates to so few bits that coincidences become exact.
-void grid(Random& random, Candidate& made, const MoveContext&) {
-  const double greatest = greatest_of(made.c);
+void grid(Random& random, Candidate& child, const MoveContext&) {
+  const double greatest = greatest_of(child.c);
   if (!(greatest > 1e-300) || !(greatest < 1e300)) return;
   const int bits = random.between(2, 12);
   const double unit = std::ldexp(1.0, std::ilogb(greatest) - bits);
-  for (auto& frame : made.c.frames)
+  for (auto& frame : child.c.frames)
     frame = frame.unaryExpr([&](double x) { return unit * std::round(x / unit); }).eval();
 }
 
 // Brings the features into one plane, at rest or moving along its normal, in both frames or in one.
-void flatten(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  FourPoints q = query_at(made.c, *made.focus);
+void flatten(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  FourPoints q = query_at(child.c, *child.focus);
   const auto axis = static_cast<std::size_t>(random.below(3));
   const std::size_t copied = (axis + 1) % 3;
   const int kind = random.below(4);
@@ -169,14 +169,14 @@ void flatten(Random& random, Candidate& made, const MoveContext&) {
     if (kind != 3) p.t0[axis] = level_0;
     p.t1[axis] = kind == 1 ? level_0 : level_1;
   }
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // Brings the features into a plane that is not that of two axes, as doubles see it: F is then noise
 // of rounding, at the edge of every error bound. The features overlap in the plane throughout.
-void near_a_plane(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  FourPoints q = query_at(made.c, *made.focus);
+void near_a_plane(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  FourPoints q = query_at(child.c, *child.focus);
   const double x = random.signed_unit(), y = random.signed_unit();
   const double length = std::sqrt(x * x + y * y + 1);
   Point normal = {x / length, y / length, 1 / length};
@@ -196,7 +196,7 @@ void near_a_plane(Random& random, Candidate& made, const MoveContext&) {
     q.points[0].*end = q.first_group == 1 ? between(between(at(1), at(2), s), at(3), u)
                                           : between(at(1), between(at(2), at(3), s), 1 + u);
   }
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // The points with few bits, so that the sums and products below are exact.
@@ -212,9 +212,9 @@ FourPoints of_few_bits(FourPoints q) {
 }
 
 // Vertex and face touch without crossing, at t = s: an exact double root, as in generators/aims.
-void graze(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus || made.focus->first_group != 1) return;
-  FourPoints q = of_few_bits(query_at(made.c, *made.focus));
+void graze(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus || child.focus->first_group != 1) return;
+  FourPoints q = of_few_bits(query_at(child.c, *child.focus));
   auto& [vertex, a, b, c] = q.points;
   const double s = random.one_in(2) ? 0.5 : 0.25, share = random.between(1, 4) / 4.0;
   a.t1 = a.t0;
@@ -224,13 +224,13 @@ void graze(Random& random, Candidate& made, const MoveContext&) {
   c.t1 = c.t0 + share * w;
   vertex.t0 = middle + 2 * s * e + s * s * share * w;
   vertex.t1 = middle + (2 * s - 1) * e + s * s * share * w;
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // Two edges become parallel, or a face a segment: throughout, or at one end of the step.
-void align(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  FourPoints q = of_few_bits(query_at(made.c, *made.focus));
+void align(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  FourPoints q = of_few_bits(query_at(child.c, *child.focus));
   auto& [p0, p1, p2, p3] = q.points;
   constexpr double shares[] = {1, -1, 2, 0.5};
   const double share = one_of(random, shares);
@@ -248,50 +248,50 @@ void align(Random& random, Candidate& made, const MoveContext&) {
     p2.t1 = p2.t0;
     p3.t1 = p3.t0;
   }
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // Gives the features the paths of those of another case, in its size or in their own.
-void transplant(Random& random, Candidate& made, const MoveContext& context) {
-  if (!made.focus || !context.other || !context.other->focus) return;
+void transplant(Random& random, Candidate& child, const MoveContext& context) {
+  if (!child.focus || !context.other || !context.other->focus) return;
   const auto& other = *context.other->focus;
-  if (other.first_group != made.focus->first_group) return;
+  if (other.first_group != child.focus->first_group) return;
   FourPoints q = query_at(context.other->c, other);
   if (random.one_in(3)) {  // the ends of one, the start of the other
-    const FourPoints own = query_at(made.c, *made.focus);
+    const FourPoints own = query_at(child.c, *child.focus);
     for (std::size_t i = 0; i < 4; ++i)
       (random.one_in(2) ? q.points[i].t0 = own.points[i].t0 : q.points[i].t1 = own.points[i].t1);
   }
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
 // Brings the case to any size that the contract takes, for thresholds that are lengths.
-void resize(Random& random, Candidate& made, const Contract& contract) {
-  const double greatest = greatest_of(made.c);
+void resize(Random& random, Candidate& child, const Contract& contract) {
+  const double greatest = greatest_of(child.c);
   if (!(greatest > 0)) return;
   constexpr int widest = 60;  // in powers of two, where the contract says nothing of small lengths
   const int most = std::ilogb(contract.largest) - 1;
   const int least =
       contract.least_nonzero > 0 ? std::ilogb(contract.least_nonzero) + 2 : most - widest;
   const int exponent = random.between(std::min(least, most), most) - std::ilogb(greatest);
-  for (double* x : numbers_along(made.c)) *x = std::ldexp(*x, exponent);
+  for (double* x : numbers_along(child.c)) *x = std::ldexp(*x, exponent);
 }
 
-void scale(Random& random, Candidate& made, const MoveContext& context) {
-  made.c.view.reset();
+void scale(Random& random, Candidate& child, const MoveContext& context) {
+  child.c.view.reset();
   if (context.contract.has_range() && random.one_in(2))
-    return resize(random, made, context.contract);
+    return resize(random, child, context.contract);
   const int reach = random.one_in(3) ? 30 : 8;
   const int exponent = random.between(-reach, reach);
   const int kind = random.below(4);
-  for (double* x : numbers_along(made.c, kind == 1 ? exponent & 1 : -1))
+  for (double* x : numbers_along(child.c, kind == 1 ? exponent & 1 : -1))
     *x = kind > 1 ? *x + std::ldexp(1.0, exponent) : std::ldexp(*x, exponent);
 }
 
 // Lets points rest, or takes a step the other way.
-void rest(Random& random, Candidate& made, const MoveContext&) {
-  if (!made.focus) return;
-  FourPoints q = query_at(made.c, *made.focus);
+void rest(Random& random, Candidate& child, const MoveContext&) {
+  if (!child.focus) return;
+  FourPoints q = query_at(child.c, *child.focus);
   const int kind = random.below(6);
   for (std::size_t i = 0; i < 4; ++i) {
     auto& p = q.points[i];
@@ -303,15 +303,15 @@ void rest(Random& random, Candidate& made, const MoveContext&) {
     auto& p = one_of(random, q.points);
     p.t1 = kind == 4 ? p.t0 : one_of(random, q.points).t1;
   }
-  set_query(made.c, *made.focus, q);
+  set_query(child.c, *child.focus, q);
 }
 
-void shake(Random& random, Candidate& made, const MoveContext&) {
-  const double greatest = greatest_of(made.c);
+void shake(Random& random, Candidate& child, const MoveContext&) {
+  const double greatest = greatest_of(child.c);
   if (!(greatest < 1e300)) return;
   const double amount = std::ldexp(greatest, -random.between(0, 12));
   const bool all = random.one_in(2);
-  for (auto& frame : made.c.frames) {
+  for (auto& frame : child.c.frames) {
     for (Eigen::Index v = 0; v < frame.rows(); ++v) {
       const bool moves = all || random.one_in(4);
       for (int k = 0; k < 3; ++k) {

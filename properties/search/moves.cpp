@@ -22,7 +22,7 @@ constexpr double looked_at[] = {0, 0.5, 1};
 
 class NearestFeatures {
  public:
-  NearestFeatures(const corpus::Case& c, std::size_t step) : c_(c) { found_.step = step; }
+  NearestFeatures(const corpus::Case& c, std::size_t step) : c_(c) { focus_.step = step; }
 
   void look_at(std::int32_t a, std::int32_t b) {
     const auto corner = [&](std::int32_t t, int k) { return c_.triangles(t, k % 3); };
@@ -34,17 +34,17 @@ class NearestFeatures {
     }
   }
 
-  std::optional<Focus> found() const {
-    return nearest_ < std::numeric_limits<double>::infinity() ? std::optional(found_)
+  std::optional<Focus> focus() const {
+    return nearest_ < std::numeric_limits<double>::infinity() ? std::optional(focus_)
                                                               : std::nullopt;
   }
 
  private:
   void take(const Vertices& vertices, int first_group) {
-    auto sorted = vertices;
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return;
-    Focus candidate = found_;
+    auto ascending = vertices;
+    std::sort(ascending.begin(), ascending.end());
+    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) return;
+    Focus candidate = focus_;
     candidate.vertices = vertices;
     candidate.first_group = first_group;
     const auto query = query_at(c_, candidate);
@@ -53,12 +53,12 @@ class NearestFeatures {
       if (!(squared < nearest_)) continue;
       nearest_ = squared;
       candidate.time = t;
-      found_ = candidate;
+      focus_ = candidate;
     }
   }
 
   const corpus::Case& c_;
-  Focus found_;
+  Focus focus_;
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
@@ -141,7 +141,7 @@ std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::Ste
     const int b = (a + random.between(1, triangles - 1)) % triangles;
     nearest.look_at(a, b);
   }
-  return nearest.found();
+  return nearest.focus();
 }
 
 detector::FourPoints query_at(const corpus::Case& c, const Focus& focus) {

@@ -103,11 +103,11 @@ std::span<const Move> view_moves();
 // rest, so no triangle changes its sign, and the triangle and those of the vertex are of one sign.
 // In a clean closed mesh one of the other sign is met before (L3). The point may become a short
 // line.
-void pass_by_ray(Random& random, Candidate& made, const MoveContext& context);
+void pass_by_ray(Random& random, Candidate& child, const MoveContext& context);
 
 // The mesh once more inside itself, or around itself. The two hang together at a corner or two, so
 // they are one component, and their layers differ (L9).
-void nest(Random& random, Candidate& made, const MoveContext& context);
+void nest(Random& random, Candidate& child, const MoveContext& context);
 
 // The query with another path of its first point: so that the two features meet at a time, at a
 // corner, on an edge or inside; both are drawn from simple numbers.

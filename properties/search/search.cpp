@@ -88,11 +88,11 @@ Swarm::Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t be
 namespace {
 
 // How far the detector is off, in bits: what it may be under its contract counts too.
-double error_bits(const Examined& judged) {
+double error_bits(const CaseResults& results) {
   constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
   double bits = 0;
-  for (std::size_t i = 0; i < judged.verdicts.size(); ++i) {
-    const auto& steps = judged.verdicts[i].steps;
+  for (std::size_t i = 0; i < results.verdicts.size(); ++i) {
+    const auto& steps = results.verdicts[i].steps;
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const StepDiff& diff = steps[s];
       if (diff.answered_collision) bits = std::max(bits, alarm);
@@ -101,7 +101,7 @@ double error_bits(const Examined& judged) {
         const double off = std::abs(diff.first->detector.lo - diff.first->oracle.lo);
         if (off > 0) bits = std::max(bits, (bits_of_a_double + std::log2(off)) / 2);
       }
-      const auto& others = judged.verdicts[0].steps;
+      const auto& others = results.verdicts[0].steps;
       if (s < others.size() && others[s].answer != diff.answer) bits = std::max(bits, disagreement);
     }
   }
@@ -110,10 +110,10 @@ double error_bits(const Examined& judged) {
 
 // What the detector did in its first configuration, in a few letters: it distinguishes cases of one
 // cause that go different ways through it.
-std::string ways_of(const Examined& judged) {
+std::string ways_of(const CaseResults& results) {
   std::string ways;
-  if (judged.runs.empty()) return ways;
-  for (const auto& step : judged.runs[0].steps) {
+  if (results.runs.empty()) return ways;
+  for (const auto& step : results.runs[0].steps) {
     ways += step.answer == detector::Answer::collision ? 'c' : 'f';
     if (step.view_positive > 0) ways += 'P';
     if (step.view_negative > 0) ways += 'N';
@@ -131,8 +131,8 @@ bool is_same(const corpus::Case& a, const corpus::Case& b) {
          (!a.view || (a.view->q0 == b.view->q0 && a.view->q1 == b.view->q1));
 }
 
-struct Scored {
-  Candidate found;
+struct Entry {
+  Candidate child;
   std::string cause, cell;
   double score = 0;
   bool is_within_a_component = false;
@@ -144,31 +144,31 @@ std::string word_of_hardest(const Gap& gap) {
   return name_of(static_cast<Hardness>(least - gap.share.begin()));
 }
 
-std::optional<Scored> scored(const Examined& judged, const SearchSpace& space, Random& random) {
-  const auto& c = judged.c;
-  const auto focus = focus_of(c, judged.truth, space.contract, random);
+std::optional<Entry> entry_of(const CaseResults& one, const SearchSpace& space, Random& random) {
+  const auto& c = one.c;
+  const auto focus = focus_of(c, one.truth, space.contract, random);
   if (!focus) return std::nullopt;
   const double separation = space.contract.separation;
   const Gap gap = gap_of(query_at(c, *focus), focus->time, separation);
-  Scored scored{{c, focus}, "no contact", "", nearness(gap) + error_bits(judged)};
+  Entry entry{{c, focus}, "no contact", "", nearness(gap) + error_bits(one)};
   if (focus->contact) {
     const auto step = corpus::steps_of(c)[focus->step];
     const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
     const auto& contact = *focus->contact;
-    scored.cause =
+    entry.cause =
         text_of(says_query(c) ? cause_of_query(c.triangles, motion, contact, separation > 0)
                               : cause_of(c.triangles, motion, contact, separation > 0));
   }
   if (space.gives_views && focus->contact && !says_query(c)) {
-    scored.is_within_a_component = is_within_a_component(c, *focus);
-    if (scored.is_within_a_component) scored.alike = seen_alike(c, *focus);
+    entry.is_within_a_component = is_within_a_component(c, *focus);
+    if (entry.is_within_a_component) entry.alike = seen_alike(c, *focus);
   }
   constexpr double bits_of_sight = 24, steps_of_sight = 8;
-  scored.score += bits_of_sight * scored.alike;
-  scored.cell = fmt::format("{}; {}; {}; {}; {}; {}", scored.cause, focus->first_group,
-                            word_of_hardest(gap), ways_of(judged), scored.is_within_a_component,
-                            std::floor(steps_of_sight * scored.alike));
-  return scored;
+  entry.score += bits_of_sight * entry.alike;
+  entry.cell = fmt::format("{}; {}; {}; {}; {}; {}", entry.cause, focus->first_group,
+                           word_of_hardest(gap), ways_of(one), entry.is_within_a_component,
+                           std::floor(steps_of_sight * entry.alike));
+  return entry;
 }
 
 // The best case of each cell: of a cause, a kind of features, what is hardest, how the detector
@@ -176,7 +176,7 @@ std::optional<Scored> scored(const Examined& judged, const SearchSpace& space, R
 class Archive {
  public:
   // Of two equally good cases the later stays, so that the search drifts.
-  void offer(Scored&& one) {
+  void offer(Entry&& one) {
     causes_.insert(one.cause);
     const auto [place, is_new] = cells_.try_emplace(one.cell, cases_.size());
     if (is_new) {
@@ -189,17 +189,17 @@ class Archive {
   }
   // Null if there is none of this kind.
   const Candidate* draw(Random& random, Parents parents = Parents::any) const {
-    if (parents == Parents::any) return cases_.empty() ? nullptr : &one_of(random, cases_).found;
+    if (parents == Parents::any) return cases_.empty() ? nullptr : &one_of(random, cases_).child;
     // What is alike is rare, so half of the draws are of it.
     const bool is_alike = parents == Parents::alike || (!alike_.empty() && random.one_in(2));
     const auto& places = is_alike ? alike_ : within_;
-    return places.empty() ? nullptr : &cases_[one_of(random, places)].found;
+    return places.empty() ? nullptr : &cases_[one_of(random, places)].child;
   }
   std::set<std::string> take_causes() { return std::move(causes_); }
 
  private:
   std::map<std::string, std::size_t> cells_;
-  std::vector<Scored> cases_;
+  std::vector<Entry> cases_;
   std::vector<std::size_t> within_, alike_;  // places of such cases
   std::set<std::string> causes_;
 };
@@ -214,19 +214,19 @@ class LaneSearch {
       if (stop && stop()) return std::move(result_);
       constexpr std::uint64_t together = 8, cases_of_a_swarm = 32, most_idle = 20;
       if (renew_ || of_swarm_ >= cases_of_a_swarm) {
-        swarm_ = Swarm(lane_.id, space_, drawn_);
+        swarm_ = Swarm(lane_.id, space_, draws_);
         of_swarm_ = 0;
       }
       std::vector<corpus::Case> batch;
-      const auto wanted = std::min(together, lane_.cases - result_.cases);
-      while (batch.size() < wanted) {
+      const auto count = std::min(together, lane_.cases - result_.cases);
+      while (batch.size() < count) {
         auto one = next_case();
         if (!one) break;
         batch.push_back(std::move(*one));
       }
       idle_ = batch.empty() ? idle_ + 1 : 0;
       // Of a swarm that led to too few cases nothing more is expected.
-      renew_ = batch.size() < wanted;
+      renew_ = batch.size() < count;
       of_swarm_ += batch.size();
       if (idle_ > most_idle) break;  // the contract takes none
       for (const auto& one : examine(std::move(batch))) take(one);
@@ -242,14 +242,14 @@ class LaneSearch {
   std::optional<corpus::Case> next_case() {
     constexpr int most_attempts = 200;
     for (int attempts = 0; attempts < most_attempts; ++attempts) {
-      const auto id = fmt::format("{}:{}", lane_.id, ++drawn_);
+      const auto id = fmt::format("{}:{}", lane_.id, ++draws_);
       Random random(id);
-      corpus::Case made = draw(random, id);
-      made.id = id;
-      if (made.frames.size() < 2 || !is_finite(made)) continue;  // moves may overflow
-      if (made.triangles.rows() > swarm_.most_triangles || made.frames.size() > swarm_.most_frames)
+      corpus::Case raw = draw(random, id);
+      raw.id = id;
+      if (raw.frames.size() < 2 || !is_finite(raw)) continue;  // moves may overflow
+      if (raw.triangles.rows() > swarm_.most_triangles || raw.frames.size() > swarm_.most_frames)
         continue;
-      if (auto seen = contracted(made, space_.contract)) return seen;
+      if (auto contracted_case = contract_case(raw, space_.contract)) return contracted_case;
     }
     return std::nullopt;
   }
@@ -257,74 +257,75 @@ class LaneSearch {
   corpus::Case draw(Random& random, const std::string& id) const {
     const Candidate* parent =
         random.one_in(swarm_.fresh_one_in) ? nullptr : archive_.draw(random, swarm_.parents);
-    return parent ? moved(random, *parent) : fresh(random, id);
+    return parent ? mutate(random, *parent) : fresh(random, id);
   }
 
   corpus::Case fresh(Random& random, const std::string& id) const {
     const bool is_on_a_ray = is_of_culling(swarm_.theme) && random.one_in(2);
     const bool is_nested = is_on_a_ray && random.one_in(2);
-    Candidate made;
-    made.c = one_of(random, swarm_.sources)
-                 ->draw(random, id, swarm_.most_triangles / (is_nested ? 2 : 1));
-    if (made.c.frames.size() < 2) return made.c;
-    made.c = space_.bring(std::move(made.c));
+    Candidate child;
+    child.c = one_of(random, swarm_.sources)
+                  ->draw(random, id, swarm_.most_triangles / (is_nested ? 2 : 1));
+    if (child.c.frames.size() < 2) return child.c;
+    child.c = space_.bring(std::move(child.c));
     const MoveContext context{space_.contract};
-    if (is_nested) nest(random, made, context);
+    if (is_nested) nest(random, child, context);
     if (is_on_a_ray) {
-      pass_by_ray(random, made, context);
-      return made.c;
+      pass_by_ray(random, child, context);
+      return child.c;
     }
     // Under such a contract most fresh cases that are taken are in no contact.
     const bool leaves_contacts_out = space_.contract.start != StartRule::any;
-    if (!random.one_in(leaves_contacts_out ? 2 : 4)) return made.c;
-    made.focus = focus_of(made.c, {}, space_.contract, random);
-    moves()[0].make(random, made, context);
-    if (space_.contract.has_range() && random.one_in(3)) moves()[1].make(random, made, context);
-    return made.c;
+    if (!random.one_in(leaves_contacts_out ? 2 : 4)) return child.c;
+    child.focus = focus_of(child.c, {}, space_.contract, random);
+    moves()[0].make(random, child, context);
+    if (space_.contract.has_range() && random.one_in(3)) moves()[1].make(random, child, context);
+    return child.c;
   }
 
-  corpus::Case moved(Random& random, const Candidate& parent) const {
-    Candidate made = parent;
-    made.c.expected = {};
+  corpus::Case mutate(Random& random, const Candidate& parent) const {
+    Candidate child = parent;
+    child.c.expected = {};
     const MoveContext context{space_.contract, archive_.draw(random)};
     do {
       const Move& move = *one_of(random, swarm_.moves);
-      if (move.kind == MoveKind::features || !says_query(made.c)) move.make(random, made, context);
-    } while (random.one_in(2) && is_finite(made.c));
-    if (is_same(made.c, parent.c)) made.c.frames.clear();
-    return made.c;
+      if (move.kind == MoveKind::features || !says_query(child.c))
+        move.make(random, child, context);
+    } while (random.one_in(2) && is_finite(child.c));
+    if (is_same(child.c, parent.c)) child.c.frames.clear();
+    return child.c;
   }
 
-  void take(const Examined& judged) {
-    const corpus::Case& c = judged.c;
+  void take(const CaseResults& results) {
+    const corpus::Case& c = results.c;
     ++result_.cases;
     bool is_defect = false;
-    for (std::size_t i = 0; i < judged.verdicts.size(); ++i) {
-      const auto& failure = judged.verdicts[i].failure;
+    for (std::size_t i = 0; i < results.verdicts.size(); ++i) {
+      const auto& failure = results.verdicts[i].failure;
       if (!failure) continue;
       is_defect = true;
-      if (met_.emplace(i, failure->signature()).second)
-        result_.found.push_back({c, i, *failure, judged.runs[i], result_.cases});
+      if (signatures_.emplace(i, failure->signature()).second)
+        result_.finds.push_back({c, i, *failure, results.runs[i], result_.cases});
     }
     result_.defects += is_defect ? 1 : 0;
     // What has no verdict would let later cases depend on how fast the machine is.
     const auto is_open = [](const Verdict& trial) {
       return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
     };
-    if (std::any_of(judged.verdicts.begin(), judged.verdicts.end(), is_open)) {
+    if (std::any_of(results.verdicts.begin(), results.verdicts.end(), is_open)) {
       ++result_.open;
       return;
     }
     Random random(c.id + ":focus");
-    if (auto one = scored(judged, space_, random)) archive_.offer(std::move(*one));
+    if (auto one = entry_of(results, space_, random)) archive_.offer(std::move(*one));
   }
 
   const SearchLane& lane_;
   const SearchSpace& space_;
   Swarm swarm_;
   Archive archive_;
-  std::set<std::pair<std::size_t, std::string>> met_;
-  std::uint64_t drawn_ = 0;
+  std::set<std::pair<std::size_t, std::string>> signatures_;
+  std::uint64_t draws_ = 0;
   std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
   bool renew_ = false;
   std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case

@@ -21,7 +21,7 @@
 namespace assay::properties {
 
 // Examines some cases, each as the contract has it.
-using ExamineCases = std::function<std::vector<Examined>(std::vector<corpus::Case>)>;
+using ExamineCases = std::function<std::vector<CaseResults>(std::vector<corpus::Case>)>;
 
 // Where fresh cases come from. A case of at most so many triangles is wanted; a larger one is not
 // taken.
@@ -51,7 +51,7 @@ struct SearchLane {
   std::uint64_t cases = 0;  // so many are asked
 };
 
-struct FoundDefect {
+struct SearchDefect {
   corpus::Case c;  // its id is that of the lane and the number of the case
   std::size_t configuration = 0;
   Failure failure;
@@ -60,12 +60,12 @@ struct FoundDefect {
 };
 
 struct LaneResult {
-  bool complete = false;           // it was not stopped
-  std::uint64_t cases = 0;         // asked
-  std::uint64_t defects = 0;       // cases on which some configuration fails
-  std::uint64_t open = 0;          // cases on which some configuration has no verdict
-  std::vector<FoundDefect> found;  // the first of each signature and configuration
-  std::set<std::string> causes;    // of the cases that the archive holds
+  bool complete = false;            // it was not stopped
+  std::uint64_t cases = 0;          // asked
+  std::uint64_t defects = 0;        // cases on which some configuration fails
+  std::uint64_t open = 0;           // cases on which some configuration has no verdict
+  std::vector<SearchDefect> finds;  // the first of each signature and configuration
+  std::set<std::string> causes;     // of the cases that the archive holds
 };
 
 // A lane of which the contract takes no case ends early. `stop` is asked between batches of cases.
@@ -109,7 +109,7 @@ struct Swarm {
 // The sources of fresh cases: the families of the strata, their queries as meshes of few
 // triangles and as queries, hard cases by construction, and the curated cases.
 
-struct SourcesAsked {
+struct SourceChoice {
   bool meshes = true, queries = false;
   std::filesystem::path curated{};  // folder of the curated cases; empty: none
   // Leaves a curated case out. A fault that a case was made for is found by it without any search.
@@ -117,7 +117,7 @@ struct SourcesAsked {
 };
 
 // They may be drawn from in several threads. A curated case is read when it is first drawn.
-std::vector<CaseSource> case_sources(const SourcesAsked& asked);
+std::vector<CaseSource> case_sources(const SourceChoice& choice);
 
 // The four points of a query as a closed mesh: a corner and the face across it, or two edges across
 // each other, are its only features that do not share a vertex.

@@ -78,8 +78,8 @@ CaseSource source_of(const corpus::HardFamily& family) {
 
 class CuratedCases {
  public:
-  explicit CuratedCases(const SourcesAsked& asked) : leaves_out_(asked.leaves_out) {
-    if (const auto files = corpus::case_files(asked.curated)) files_ = files.value();
+  explicit CuratedCases(const SourceChoice& choice) : leaves_out_(choice.leaves_out) {
+    if (const auto files = corpus::case_files(choice.curated)) files_ = files.value();
   }
   bool empty() const { return files_.empty(); }
 
@@ -97,7 +97,7 @@ class CuratedCases {
   // A case without frames is none that is taken.
   corpus::Case at(std::size_t i) {
     const std::lock_guard lock(mutex_);
-    const auto [place, is_new] = read_.try_emplace(i);
+    const auto [place, is_new] = cases_.try_emplace(i);
     if (is_new) {
       auto c = corpus::read_case(files_[i]);
       const bool is_refused = c && c.value().expected.answer == detector::Answer::error;
@@ -115,19 +115,19 @@ class CuratedCases {
   std::function<bool(const corpus::Case&)> leaves_out_;
   std::vector<std::filesystem::path> files_;
   std::mutex mutex_;
-  std::map<std::size_t, corpus::Case> read_;
+  std::map<std::size_t, corpus::Case> cases_;
 };
 
 }  // namespace
 
-std::vector<CaseSource> case_sources(const SourcesAsked& asked) {
+std::vector<CaseSource> case_sources(const SourceChoice& choice) {
   std::vector<CaseSource> sources;
-  if (asked.meshes) {
+  if (choice.meshes) {
     for (const auto& family : families()) sources.push_back(source_of(family));
     for (const auto& queries : query_families()) sources.push_back(meshes_of(queries));
     for (const auto& hard : corpus::hard_families()) sources.push_back(source_of(hard));
-    const auto curated = std::make_shared<CuratedCases>(asked);
-    if (!asked.curated.empty() && !curated->empty()) {
+    const auto curated = std::make_shared<CuratedCases>(choice);
+    if (!choice.curated.empty() && !curated->empty()) {
       sources.push_back(
           {"curated", weight_of_a_kind / 2,
            [curated](Random& random, const std::string& id, Eigen::Index most_triangles) {
@@ -135,7 +135,7 @@ std::vector<CaseSource> case_sources(const SourcesAsked& asked) {
            }});
     }
   }
-  if (asked.queries) {
+  if (choice.queries) {
     for (const auto& queries : query_families()) sources.push_back(source_of(queries));
   }
   return sources;
@@ -177,8 +177,8 @@ corpus::Case two_triangles(const detector::FourPoints& query, Random& random, st
   if (!(size > 0)) size = 1;
   const double unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
   c.frames.assign(2, detector::Positions(vertices, 3));
-  const auto put = [&](int v, const detector::MovingPoint& p) { set_path(c, {}, v, p); };
-  for (int v = 0; v < 4; ++v) put(v, query.points[static_cast<std::size_t>(v)]);
+  const auto set_point = [&](int v, const detector::MovingPoint& p) { set_path(c, {}, v, p); };
+  for (int v = 0; v < 4; ++v) set_point(v, query.points[static_cast<std::size_t>(v)]);
   // A corner beside a point of its own feature, on the side away from the other feature.
   const auto corner = [&](std::size_t beside, double away) {
     detector::MovingPoint p = query.points[beside];
@@ -190,9 +190,9 @@ corpus::Case two_triangles(const detector::FourPoints& query, Random& random, st
     return p;
   };
   const auto four = corner(is_vertex_face ? 0 : 1, 1);
-  put(4, four);
+  set_point(4, four);
   const auto five = corner(is_vertex_face ? 0 : 3, is_vertex_face ? 1 : -1);
-  put(5, five);
+  set_point(5, five);
   return c;
 }
 

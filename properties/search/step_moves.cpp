@@ -60,13 +60,13 @@ void split_step(corpus::Case& c, std::size_t place, double share, bool has_first
 // Another past of the step in focus: the same step, after other steps, from another place, in two
 // parts. What a detector carries from step to step is then different.
 constexpr std::size_t most_frames = 6, most_steps = 8;
-void past(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
+void past(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
   if (c.counted || c.ghosts) return;
   auto script = corpus::steps_of(c);
   if (c.frames.size() >= most_frames || script.size() >= most_steps) return;
-  const auto place = made.focus
-                         ? made.focus->step
+  const auto place = child.focus
+                         ? child.focus->step
                          : static_cast<std::size_t>(random.below(static_cast<int>(script.size())));
   const auto step = script[place];
   const auto here = script.begin() + static_cast<std::ptrdiff_t>(place);
@@ -91,7 +91,7 @@ void past(Random& random, Candidate& made, const MoveContext&) {
       const auto dropped = static_cast<std::size_t>(random.below(static_cast<int>(script.size())));
       if (dropped == place) return;
       script.erase(script.begin() + static_cast<std::ptrdiff_t>(dropped));
-      if (made.focus && dropped < place) --made.focus->step;
+      if (child.focus && dropped < place) --child.focus->step;
       c.script = script;
       return;
     }
@@ -102,11 +102,11 @@ void past(Random& random, Candidate& made, const MoveContext&) {
       const double share = one_of(random, shares);
       const bool has_first_part = random.one_in(2);
       split_step(c, place, share, has_first_part);
-      if (!made.focus) return;
-      double& time = made.focus->time;
+      if (!child.focus) return;
+      double& time = child.focus->time;
       const bool is_in_first = time <= share;
-      if (is_in_first && !has_first_part) return made.focus.reset();
-      made.focus->step += has_first_part && !is_in_first ? 1 : 0;
+      if (is_in_first && !has_first_part) return child.focus.reset();
+      child.focus->step += has_first_part && !is_in_first ? 1 : 0;
       time = is_in_first ? time / share : (time - share) / (1 - share);
       return;
     }
@@ -123,7 +123,7 @@ void past(Random& random, Candidate& made, const MoveContext&) {
       insert_frame(c, step.from, there);
       c.script.insert(c.script.begin() + static_cast<std::ptrdiff_t>(place),
                       {step.from, random.one_in(4) ? step.from : step.from + 1, true});
-      if (made.focus) ++made.focus->step;
+      if (child.focus) ++child.focus->step;
       return;
     }
     default:  // a step is looked at and not taken
@@ -132,12 +132,12 @@ void past(Random& random, Candidate& made, const MoveContext&) {
       return;
   }
   c.script = script;
-  if (made.focus) made.focus->step += before;
+  if (child.focus) child.focus->step += before;
 }
 
 // One more step: on, or back.
-void more_steps(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
+void more_steps(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
   if (c.frames.size() >= most_frames || c.counted || c.ghosts) return;
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
   const bool by_script = !c.script.empty();
@@ -156,14 +156,14 @@ void more_steps(Random& random, Candidate& made, const MoveContext&) {
 }
 
 // Lets a vertex go through a ghost, or an edge through the side of one, or touch it at a time.
-void onto_ghost(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
+void onto_ghost(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
   if (c.ghosts) return;
   const auto loops = oracle::boundary_loops(c.triangles);
   if (loops.empty()) return;
   const auto& loop = one_of(random, loops);
   const auto script = corpus::steps_of(c);
-  const auto step = made.focus ? script[made.focus->step] : one_of(random, script);
+  const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   const auto& from = c.frames[detector::at(step.from)];
   const auto& to = c.frames[detector::at(step.to)];
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(loop.size())));

@@ -35,8 +35,8 @@ void see_from(corpus::Case& c, const Row& q0, const Row& q1, const Row& way, boo
 }
 
 // A view primitive near the features, or the middle, or none.
-void view(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
+void view(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
   c.view.reset();
   if (c.ghosts || random.one_in(4)) return;
   const auto& first = c.frames.front();
@@ -55,17 +55,17 @@ void view(Random& random, Candidate& made, const MoveContext&) {
 // Newton steps of a view primitive and a triangle onto degeneracies of the view polynomial, which
 // is F of an end of the primitive and the three corners: it is zero where the triangle has no
 // sign. So a sign that holds at the ends of a step alone comes about, and one that is zero once.
-void look_aside(Random& random, Candidate& made, const MoveContext& context) {
-  auto& c = made.c;
+void look_aside(Random& random, Candidate& child, const MoveContext& context) {
+  auto& c = child.c;
   if (c.ghosts || c.triangles.rows() == 0) return;
-  if (!c.view) view(random, made, context);
+  if (!c.view) view(random, child, context);
   if (!c.view) return;
   const auto script = corpus::steps_of(c);
-  const auto step = made.focus ? script[made.focus->step] : one_of(random, script);
+  const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   const auto from = detector::at(step.from), to = detector::at(step.to);
   auto triangle = random.below(static_cast<int>(c.triangles.rows()));
-  if (made.focus && made.focus->contact && random.one_in(2)) {
-    const auto& pair = made.focus->contact->pair;
+  if (child.focus && child.focus->contact && random.one_in(2)) {
+    const auto& pair = child.focus->contact->pair;
     triangle = random.one_in(2) ? pair.a : pair.b;
   }
   const detector::SteppedMesh motion{c.frames[from], c.frames[to]};
@@ -83,12 +83,12 @@ void look_aside(Random& random, Candidate& made, const MoveContext& context) {
   if (random.one_in(3)) goals.push_back({Degeneracy::coplanar, one_of(random, times), 0});
   // The primitive, a corner, or both; what is at rest stays there in half of the cases.
   const unsigned masks[] = {0x01, 0x10, 0x11, 0xe0, 0xf0, 0x20, 0xff, 0xee};
-  const auto moved = moved_onto(points, goals, one_of(random, masks));
-  if (!moved) return;
-  q[from] = moved->points[0].t0;
-  q[to] = moved->points[0].t1;
+  const auto points_moved = moved_onto(points, goals, one_of(random, masks));
+  if (!points_moved) return;
+  q[from] = points_moved->points[0].t0;
+  q[to] = points_moved->points[0].t1;
   for (int k = 0; k < 3; ++k)
-    set_path(c, step, c.triangles(triangle, k), moved->points[detector::at(k + 1)]);
+    set_path(c, step, c.triangles(triangle, k), points_moved->points[detector::at(k + 1)]);
 }
 
 struct Side {
@@ -129,15 +129,15 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
 // away, or which it faces, at both ends of the step and at some places between; one that moves is
 // behind it in each frame. What meets nevertheless, meets because a triangle turns on the way, or
 // because a ghost is touched (L4, L11).
-void face_away(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
-  if (c.ghosts || !made.focus || c.triangles.rows() == 0) return;
-  const auto step = corpus::steps_of(c)[made.focus->step];
-  const auto [a, b] = pair_in_focus(c, *made.focus);
+void face_away(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
+  if (c.ghosts || !child.focus || c.triangles.rows() == 0) return;
+  const auto step = corpus::steps_of(c)[child.focus->step];
+  const auto [a, b] = pair_in_focus(c, *child.focus);
   std::vector<std::int32_t> triangles = {a, b};
   const int kind = random.below(4);
   if (kind < 2) {
-    for (const auto& pair : made.focus->pairs) triangles.insert(triangles.end(), {pair.a, pair.b});
+    for (const auto& pair : child.focus->pairs) triangles.insert(triangles.end(), {pair.a, pair.b});
   } else if (kind == 2) {
     triangles.resize(static_cast<std::size_t>(c.triangles.rows()));
     std::iota(triangles.begin(), triangles.end(), 0);
@@ -229,12 +229,12 @@ std::optional<Ray> any_ray(Random& random, const corpus::Case& c, const detector
 
 // Moves the view primitive into the plane of one of the triangles that meet first, at a time, as
 // doubles see it: the sign of the triangle is then one of rounding errors.
-void put_into_a_plane(Random& random, Candidate& made) {
-  auto& c = made.c;
-  const auto step = corpus::steps_of(c)[made.focus->step];
+void put_into_a_plane(Random& random, Candidate& child) {
+  auto& c = child.c;
+  const auto step = corpus::steps_of(c)[child.focus->step];
   const auto& x0 = c.frames[detector::at(step.from)];
   const auto& x1 = c.frames[detector::at(step.to)];
-  const auto& pair = one_of(random, made.focus->pairs);
+  const auto& pair = one_of(random, child.focus->pairs);
   const auto t = random.one_in(2) ? pair.a : pair.b;
   constexpr double times[] = {0, 0, 1, 1, 0.5, 0.25};
   const double time = one_of(random, times);
@@ -256,28 +256,28 @@ void put_into_a_plane(Random& random, Candidate& made) {
 }
 
 // Of some view primitives that from which what meets first is seen the most alike.
-void gaze(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
-  if (c.ghosts || !made.focus || made.focus->pairs.empty()) return;
-  const auto step = corpus::steps_of(c)[made.focus->step];
+void gaze(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
+  if (c.ghosts || !child.focus || child.focus->pairs.empty()) return;
+  const auto step = corpus::steps_of(c)[child.focus->step];
   const auto& x = c.frames[detector::at(step.from)];
-  const Row place = x.row(made.focus->vertices[0]);
+  const Row place = x.row(child.focus->vertices[0]);
   const double size = (x.rowwise() - place).cwiseAbs().maxCoeff();
   if (!(size > 0)) return;
-  const auto drawn = [&](double reach) { return Row(reach * any_row(random)); };
+  const auto draw = [&](double reach) { return Row(reach * any_row(random)); };
   const bool is_line = !random.one_in(3), moves = random.one_in(4);
   auto best = c.view;
-  const bool is_within = is_within_a_component(c, *made.focus);
-  const auto alike_now = [&] { return is_within ? seen_alike(c, *made.focus) : 0; };
+  const bool is_within = is_within_a_component(c, *child.focus);
+  const auto alike_now = [&] { return is_within ? seen_alike(c, *child.focus) : 0; };
   double most = best ? alike_now() : 0;
   constexpr int tries = 16;
   for (int i = 0; i < tries; ++i) {
     const double reach = std::ldexp(size, random.between(-4, 2));
     const bool goes_on = best && !best->q1.empty() == is_line && random.one_in(2);
     const auto& old = goes_on ? best->q0.front() : detector::Point{};
-    const Row q = (goes_on ? Row(old[0], old[1], old[2]) : place) + drawn(reach);
-    const Row end = q + drawn(std::ldexp(size, random.between(-3, 2)));
-    const Row way = moves ? drawn(reach) : Row(Row::Zero());
+    const Row q = (goes_on ? Row(old[0], old[1], old[2]) : place) + draw(reach);
+    const Row end = q + draw(std::ldexp(size, random.between(-3, 2)));
+    const Row way = moves ? draw(reach) : Row(Row::Zero());
     see_from(c, q, end, way, is_line);
     const double alike = alike_now();
     if (alike < most) continue;
@@ -285,7 +285,7 @@ void gaze(Random& random, Candidate& made, const MoveContext&) {
     best = c.view;
   }
   c.view = best;
-  if (best && random.one_in(3)) put_into_a_plane(random, made);
+  if (best && random.one_in(3)) put_into_a_plane(random, child);
 }
 
 constexpr Move of_views[] = {
@@ -303,21 +303,21 @@ constexpr Move of_views[] = {
 
 std::span<const Move> view_moves() { return of_views; }
 
-void pass_by_ray(Random& random, Candidate& made, const MoveContext&) {
-  auto& c = made.c;
+void pass_by_ray(Random& random, Candidate& child, const MoveContext&) {
+  auto& c = child.c;
   if (c.ghosts || c.counted || c.triangles.rows() < 2) return;
   const auto script = corpus::steps_of(c);
-  const auto step = made.focus ? script[made.focus->step] : one_of(random, script);
+  const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   if (step.from == step.to) return;
   const auto& x = c.frames[detector::at(step.from)];
   const auto component =
       detector::make_topology(c.triangles, c.frames.front().rows()).component_of_triangle;
   std::optional<Ray> best;
-  constexpr int most_tries = 100, wanted = 3;
-  for (int tries = 0, seen = 0; tries < most_tries && seen < wanted; ++tries) {
+  constexpr int most_tries = 100, enough = 3;
+  for (int tries = 0, hits = 0; tries < most_tries && hits < enough; ++tries) {
     const auto ray = any_ray(random, c, x, component);
     if (!ray) continue;
-    ++seen;
+    ++hits;
     if (!best || ray->way.norm() < best->way.norm()) best = ray;
   }
   if (!best) return;
@@ -337,7 +337,7 @@ void pass_by_ray(Random& random, Candidate& made, const MoveContext&) {
     const Row end = q + std::ldexp(1.0, -random.between(1, 20)) * best->way;
     c.view->q1.assign(c.frames.size(), {end[0], end[1], end[2]});
   }
-  made.focus.reset();
+  child.focus.reset();
 }
 
 }  // namespace assay::properties

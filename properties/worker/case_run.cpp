@@ -17,7 +17,7 @@ using detector::Detector;
 CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, Detector detector)
     : case_(&c), script_(corpus::steps_of(c)), detector_(std::move(detector)) {
   for (std::size_t s = 0; s < script_.size(); ++s) {
-    given_.push_back(given_view(corpus::view_of_step(c, s), options.culling));
+    views_.push_back(given_view(corpus::view_of_step(c, s), options.culling));
   }
 }
 
@@ -27,19 +27,19 @@ detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
                                                 const detector::StopFunction& stop) {
   detector::Options of_case = options;
   of_case.counted = corpus::counted_of(c);
-  auto made = detector::assemble(c.triangles, c.frames.front(), of_case,
-                                 stages ? *std::move(stages) : standard_stages(options), stop);
-  if (!made) return std::move(made.error());
-  return CasePlayer(c, options, std::move(made.value()));
+  auto creation = detector::assemble(c.triangles, c.frames.front(), of_case,
+                                     stages ? *std::move(stages) : standard_stages(options), stop);
+  if (!creation) return std::move(creation.error());
+  return CasePlayer(c, options, std::move(creation.value()));
 }
 
 detector::StepResult CasePlayer::play(std::size_t s, const detector::StopFunction& stop) {
   if (!script_[s].commit) return look(s, stop);
-  return detector_.step(x_t0(s), x_t1(s), given_[s], stop);
+  return detector_.step(x_t0(s), x_t1(s), views_[s], stop);
 }
 
 detector::StepResult CasePlayer::look(std::size_t s, const detector::StopFunction& stop) {
-  return detector_.evaluate(x_t0(s), x_t1(s), given_[s], stop);
+  return detector_.evaluate(x_t0(s), x_t1(s), views_[s], stop);
 }
 
 using detector::StepResult;
@@ -130,14 +130,14 @@ bool same_result(const StepResult& a, const StepResult& b) {
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
   CaseRun run;
   RunClock clock(configuration.is_timed);
-  auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
-  if (!made) return {RunEnd::refused, made.error().message, {}};
+  auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
+  if (!player) return {RunEnd::refused, player.error().message, {}};
   clock.created();
-  for (std::size_t s = 0; s < made.value().steps(); ++s) {
-    if (configuration.asks_limits) run.limits.push_back(limit_of(made.value(), s));
+  for (std::size_t s = 0; s < player.value().steps(); ++s) {
+    if (configuration.asks_limits) run.limits.push_back(limit_of(player.value(), s));
     clock.begin();
-    run.steps.push_back(run_step(made.value(), s));
-    clock.answered();
+    run.steps.push_back(run_step(player.value(), s));
+    clock.end_step();
     const auto& result = run.steps.back();
     if (result.problem) note_error(run, s, result.problem->message);
     // Only lack of memory ends a step here without an answer.
@@ -152,23 +152,23 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed) {
   constexpr int most_stops = 8;
-  auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
+  auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
   auto beside = CasePlayer::make(c, configuration.options, stages_of(configuration));
   std::vector<StepResult> results;
-  for (std::size_t s = 0; s < made.value().steps(); ++s) {
+  for (std::size_t s = 0; s < player.value().steps(); ++s) {
     std::vector<StepResult> after_stops;
     for (int stop_at = 1; stop_at <= most_stops; ++stop_at) {
-      int asked = 0;
-      const auto stop = [&] { return ++asked == stop_at; };
-      const auto stopped = made.value().look(s, stop);
-      if (stopped.answer != detector::Answer::undecided) break;
-      after_stops.push_back(made.value().look(s));
+      int questions = 0;
+      const auto stop = [&] { return ++questions == stop_at; };
+      const auto answer = player.value().look(s, stop);
+      if (answer.answer != detector::Answer::undecided) break;
+      after_stops.push_back(player.value().look(s));
     }
     const auto meanwhile = [&] {
       beside.value().look(s);
       return false;
     };
-    results.push_back(made.value().play(s, meanwhile));
+    results.push_back(player.value().play(s, meanwhile));
     const auto differs = [&](const StepResult& disturbed) {
       return !same_answers(without_marking_counts({disturbed}),
                            without_marking_counts({undisturbed[s]}));
@@ -234,7 +234,7 @@ void RunClock::created() {
   if (is_on_) times_.create = lap();
 }
 
-void RunClock::answered() {
+void RunClock::end_step() {
   if (is_on_) times_.steps.push_back(lap());
 }
 

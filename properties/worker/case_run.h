@@ -102,7 +102,7 @@ struct CaseRun {
   // The last lines that a plug-in printed since the run before this one was heard
   // (isolation.h). Of cases that were sent together they may be of a later one.
   // Nothing with isolation none.
-  std::string printed = {};
+  std::string output = {};
 };
 
 // Runs the case in this process, so that whatever the detector does to the process, it does to the
@@ -147,7 +147,7 @@ class RunClock {
   explicit RunClock(bool is_on);
   void created();
   void begin();     // a step begins
-  void answered();  // the step that began last has its answer
+  void end_step();  // the step that began last has its answer
   std::optional<RunTimes> take();
 
  private:
@@ -163,12 +163,12 @@ class RunClock {
 // The primitive that the case states for the step (corpus::view_of_step), as the detector takes
 // it; none if the case states none, or if the culling uses no views. It is inline because
 // tests/mutation links the detector alone.
-inline std::vector<detector::ViewPrimitive> given_view(
-    std::optional<detector::ViewPrimitive> stated, detector::Culling culling) {
-  if (!stated || !uses_views(culling)) return {};
+inline std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> view,
+                                                       detector::Culling culling) {
+  if (!view || !uses_views(culling)) return {};
   // A segment serves as a point by its first end.
-  if (culling == detector::Culling::view_point) stated->q1 = stated->q0;
-  return {*stated};
+  if (culling == detector::Culling::view_point) view->q1 = view->q0;
+  return {*view};
 }
 
 class CasePlayer {
@@ -205,7 +205,7 @@ class CasePlayer {
   std::vector<corpus::CaseStep> script_;
   // The view primitives given, by step. They are computed beforehand, so that whoever times a step
   // times the detector alone.
-  std::vector<std::vector<detector::ViewPrimitive>> given_;
+  std::vector<std::vector<detector::ViewPrimitive>> views_;
   detector::Detector detector_;
 };
 

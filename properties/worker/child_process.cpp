@@ -39,13 +39,13 @@ ChildEnd end_of(int status) {
 enum class State { runs, ended, not_ours };
 
 State state_of(pid_t id) {
-  siginfo_t seen = {};
-  int got;
+  siginfo_t info = {};
+  int pid_or_error;
   do {
-    got = ::waitid(P_PID, static_cast<id_t>(id), &seen, WEXITED | WNOHANG | WNOWAIT);
-  } while (got < 0 && errno == EINTR);
-  if (got < 0) return State::not_ours;
-  return seen.si_pid == 0 ? State::runs : State::ended;
+    pid_or_error = ::waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOHANG | WNOWAIT);
+  } while (pid_or_error < 0 && errno == EINTR);
+  if (pid_or_error < 0) return State::not_ours;
+  return info.si_pid == 0 ? State::runs : State::ended;
 }
 
 }  // namespace
@@ -136,10 +136,10 @@ constexpr char threw = '\1', ran_out_of_memory = '\2';
 
 void write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
-    const auto written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // no memory is left for it
-    text.remove_prefix(static_cast<std::size_t>(written));
+    const auto count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) ::_exit(1);  // no memory is left for it
+    text.remove_prefix(static_cast<std::size_t>(count));
   }
 }
 
@@ -169,9 +169,9 @@ void live_with_the_host() {
 std::string said_in(int file) {
   std::string text;
   std::array<char, 4096> buffer;
-  for (ssize_t got = 1; got > 0; text.append(buffer.data(), static_cast<std::size_t>(got))) {
-    got = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(text.size()));
-    if (got < 0) got = 0;
+  for (ssize_t count = 1; count > 0; text.append(buffer.data(), static_cast<std::size_t>(count))) {
+    count = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(text.size()));
+    if (count < 0) count = 0;
   }
   return text;
 }
@@ -195,11 +195,11 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   }
   CopyRun run;
   run.end = end_of_child(copy);
-  run.said = said_in(file);
+  run.output = said_in(file);
   ::close(file);
-  if (run.said.ends_with(ran_out_of_memory)) throw std::bad_alloc();
-  if (const auto at = run.said.find(threw); at != std::string::npos)
-    throw std::runtime_error(run.said.substr(at + 1));
+  if (run.output.ends_with(ran_out_of_memory)) throw std::bad_alloc();
+  if (const auto at = run.output.find(threw); at != std::string::npos)
+    throw std::runtime_error(run.output.substr(at + 1));
   return run;
 }
 
@@ -221,11 +221,11 @@ double ProcessorTime::seconds() const { return own_seconds() - begin_ + of_other
 
 double ProcessorTime::lap() {
   const double now = own_seconds();
-  const double used = now - begin_ + of_others_;
+  const double seconds = now - begin_ + of_others_;
   begin_ = now;
   of_others_before_.reset();
   of_others_ = 0;
-  return used;
+  return seconds;
 }
 
 ProcessTree ProcessorTime::look() {
@@ -242,7 +242,7 @@ namespace {
 struct Row {
   pid_t id = 0, parent = 0, group = 0;
   char state = 0;
-  unsigned long used = 0, used_in_system = 0;              // in ticks, by itself
+  unsigned long ticks = 0, used_in_system = 0;             // in ticks, by itself
   unsigned long waited_for = 0, waited_for_in_system = 0;  // in ticks, by children that ended
   long threads = 0;
 };
@@ -260,11 +260,11 @@ std::optional<Row> read_row(const std::string& path) {
   if (!after_name) return std::nullopt;
   Row row;
   constexpr int fields = 8;
-  const int got = std::sscanf(
+  const int count = std::sscanf(
       after_name + 1, " %c %d %d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %lu %lu %*d %*d %ld",
-      &row.state, &row.parent, &row.group, &row.used, &row.used_in_system, &row.waited_for,
+      &row.state, &row.parent, &row.group, &row.ticks, &row.used_in_system, &row.waited_for,
       &row.waited_for_in_system, &row.threads);
-  if (got != fields) return std::nullopt;
+  if (count != fields) return std::nullopt;
   return row;
 }
 
@@ -294,9 +294,9 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
                        [&](const Row& member) { return member.id == row.parent; });
   };
   // A child may stand before its parent, because numbers are used again.
-  for (bool found = true; found;) {
+  for (bool has_more = true; has_more;) {
     const auto rest = std::stable_partition(all.begin(), all.end(), belongs);
-    found = rest != all.begin();
+    has_more = rest != all.begin();
     tree.insert(tree.end(), all.begin(), rest);
     all.erase(all.begin(), rest);
   }
@@ -320,13 +320,13 @@ ProcessTree look_at(pid_t root, pid_t apart) {
   unsigned long ticks = 0;
   for (const auto& member : tree) {
     ticks += member.waited_for + member.waited_for_in_system;
-    if (member.id != root && member.id != apart) ticks += member.used + member.used_in_system;
+    if (member.id != root && member.id != apart) ticks += member.ticks + member.used_in_system;
   }
-  ProcessTree seen;
-  seen.descendant_seconds =
+  ProcessTree next;
+  next.descendant_seconds =
       static_cast<double>(ticks) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  seen.is_asleep = !tree.empty() && std::all_of(tree.begin(), tree.end(), all_wait);
-  return seen;
+  next.is_asleep = !tree.empty() && std::all_of(tree.begin(), tree.end(), all_wait);
+  return next;
 }
 
 namespace {
@@ -355,15 +355,15 @@ WorkerWatch::WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugi
 }
 
 void WorkerWatch::begin() {
-  used_ = watched_ = asleep_ = 0;
+  seconds_ = watched_ = asleep_ = 0;
   end_ = End::none;
   plan_next_look(Clock::now(), first_wait(limit_));
 }
 
 double WorkerWatch::next_case() {
-  const double used = time_.lap();
+  const double seconds = time_.lap();
   begin();
-  return used;
+  return seconds;
 }
 
 void WorkerWatch::plan_next_look(Clock::time_point now, double seconds) {
@@ -387,15 +387,15 @@ void WorkerWatch::look(Clock::time_point now) {
       std::min(seconds_between(last_look_, now), 2 * seconds_between(last_look_, next_look_));
   const bool is_first = watched_ == 0;
   const ProcessTree tree = time_.look();
-  const double used = time_.seconds();
+  const double seconds = time_.seconds();
   watched_ += since;
   // Threads that wait with a time-out wake up now and then and go to sleep again, so a little use
   // of the processor still counts as sleep. A process that gets no processor is seen as runnable,
   // not as asleep.
   constexpr double idle_share = .01;
-  if (!is_first && tree.is_asleep && used - used_ <= idle_share * since) asleep_ += since;
-  used_ = used;
-  if (used_ >= limit_) {
+  if (!is_first && tree.is_asleep && seconds - seconds_ <= idle_share * since) asleep_ += since;
+  seconds_ = seconds;
+  if (seconds_ >= limit_) {
     end_ = End::used_up;
   } else if (asleep_ >= asleep_limit * limit_) {
     end_ = End::asleep;
@@ -405,7 +405,7 @@ void WorkerWatch::look(Clock::time_point now) {
     end_ = End::ended;
   }
   const double processors = std::max(1u, std::thread::hardware_concurrency());
-  const double earliest = std::max((limit_ - used_) / processors, limit_ / 100);
+  const double earliest = std::max((limit_ - seconds_) / processors, limit_ / 100);
   plan_next_look(now, std::min(earliest, longest_wait(limit_)));
 }
 

@@ -81,8 +81,8 @@ class ChildProcess {
 };
 
 struct CopyRun {
-  std::string said;  // all that the work said, also if it crashed afterwards
-  ChildEnd end;      // exited with code 0, if the work returned
+  std::string output;  // all that the work said, also if it crashed afterwards
+  ChildEnd end;        // exited with code 0, if the work returned
 };
 
 // Tells the text to the process that the copy was made of. What was said is kept if the copy
@@ -199,7 +199,7 @@ class WorkerWatch {
   double limit_;
   ProcessorTime time_;
   Clock::time_point last_look_, next_look_;
-  double used_ = 0;     // processor seconds at the last look
+  double seconds_ = 0;  // processor seconds at the last look
   double watched_ = 0;  // seconds of wall clock until the last look
   double asleep_ = 0;   // seconds of these in which it slept
   End end_ = End::none;

@@ -23,12 +23,12 @@ constexpr std::string_view name_begins = "assay-held-";
 
 // Opens and locks a folder of this user. -1 if it is none, or if a process holds it.
 int hold(const std::filesystem::path& folder) {
-  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  struct stat seen;
-  if (opened >= 0 && ::fstat(opened, &seen) == 0 && seen.st_uid == ::geteuid() &&
-      ::flock(opened, LOCK_EX | LOCK_NB) == 0)
-    return opened;
-  if (opened >= 0) ::close(opened);
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat info;
+  if (descriptor >= 0 && ::fstat(descriptor, &info) == 0 && info.st_uid == ::geteuid() &&
+      ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    return descriptor;
+  if (descriptor >= 0) ::close(descriptor);
   return -1;
 }
 
@@ -36,10 +36,10 @@ void clear_those_of_the_dead(const std::filesystem::path& parent) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(parent, error)) {
     if (!entry.path().filename().string().starts_with(name_begins)) continue;
-    const int held = hold(entry.path());
-    if (held < 0) continue;
+    const int lock = hold(entry.path());
+    if (lock < 0) continue;
     std::filesystem::remove_all(entry.path(), error);
-    ::close(held);
+    ::close(lock);
   }
 }
 
@@ -55,8 +55,8 @@ Expected<ScratchFolder> ScratchFolder::make() {
     std::string name = (parent / fmt::format("{}XXXXXX", name_begins)).string();
     if (!::mkdtemp(name.data())) error = {errno, std::generic_category()};
     if (const int lock = error ? -1 : hold(name); lock >= 0) {
-      ScratchFolder made(name, lock);
-      if (std::filesystem::exists(name)) return made;
+      ScratchFolder folder_made(name, lock);
+      if (std::filesystem::exists(name)) return folder_made;
     }
   }
   return Problem{fmt::format("{}: no folder can be made for temporary files: {}", parent.string(),
@@ -96,26 +96,26 @@ PrintedFile::~PrintedFile() {
 }
 
 void PrintedFile::move_to_kept() {
-  struct stat seen = {};
-  if (::fstat(file_, &seen) != 0 || seen.st_size == 0) return;
-  const auto size = static_cast<std::size_t>(seen.st_size), last = std::min(size, longest_printed);
+  struct stat info = {};
+  if (::fstat(file_, &info) != 0 || info.st_size == 0) return;
+  const auto size = static_cast<std::size_t>(info.st_size), last = std::min(size, longest_printed);
   std::string end(last, '\0');
-  const ssize_t got = ::pread(file_, end.data(), last, static_cast<off_t>(size - last));
+  const ssize_t count = ::pread(file_, end.data(), last, static_cast<off_t>(size - last));
   (void)!::ftruncate(file_, 0);
-  kept_.append(end, 0, got > 0 ? static_cast<std::size_t>(got) : 0);
-  is_cut_ = is_cut_ || size > last || kept_.size() > longest_printed;
-  if (kept_.size() > longest_printed) kept_.erase(0, kept_.size() - longest_printed);
+  text_.append(end, 0, count > 0 ? static_cast<std::size_t>(count) : 0);
+  is_cut_ = is_cut_ || size > last || text_.size() > longest_printed;
+  if (text_.size() > longest_printed) text_.erase(0, text_.size() - longest_printed);
 }
 
 void PrintedFile::keep_short() {
   constexpr off_t long_text = 1 << 20;
-  struct stat seen = {};
-  if (::fstat(file_, &seen) == 0 && seen.st_size > long_text) move_to_kept();
+  struct stat info = {};
+  if (::fstat(file_, &info) == 0 && info.st_size > long_text) move_to_kept();
 }
 
 std::string PrintedFile::take() {
   move_to_kept();
-  std::string text = std::exchange(kept_, {});
+  std::string text = std::exchange(text_, {});
   if (std::exchange(is_cut_, false)) {
     const auto line = text.find('\n');
     text = "...\n" + (line == std::string::npos ? text : text.substr(line + 1));
@@ -153,16 +153,16 @@ int open_filter() {
 }
 
 std::string try_bubblewrap() {
-  auto printed = PrintedFile::make();
-  if (!printed) return "the system gives no file in memory";
-  auto child = start_behind_bubblewrap("true", {}, {}, {{printed->descriptor(), STDERR_FILENO}});
+  auto output = PrintedFile::make();
+  if (!output) return "the system gives no file in memory";
+  auto child = start_behind_bubblewrap("true", {}, {}, {{output->descriptor(), STDERR_FILENO}});
   if (!child) return child.error().message;
   // It takes a tenth of a second. A machine under load must not be taken for one that forbids it.
   constexpr std::chrono::minutes patience{5};
   const ChildEnd end = child.value().finish(patience);
   if (end.signal == 0 && end.code == 0) return "";
-  const std::string said = printed->take();
-  return said.empty() ? "bwrap " + end.text : said.substr(said.rfind('\n') + 1);
+  const std::string text = output->take();
+  return text.empty() ? "bwrap " + end.text : text.substr(text.rfind('\n') + 1);
 }
 
 }  // namespace

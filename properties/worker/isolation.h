@@ -81,7 +81,7 @@ class PrintedFile {
   static std::optional<PrintedFile> make();
   PrintedFile(PrintedFile&& other) noexcept
       : file_(std::exchange(other.file_, -1)),
-        kept_(std::move(other.kept_)),
+        text_(std::move(other.text_)),
         is_cut_(other.is_cut_) {}
   PrintedFile& operator=(PrintedFile&&) = delete;
   ~PrintedFile();
@@ -98,7 +98,7 @@ class PrintedFile {
   void move_to_kept();
 
   int file_;
-  std::string kept_;
+  std::string text_;
   bool is_cut_ = false;
 };
 

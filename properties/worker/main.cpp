@@ -66,11 +66,11 @@ bool limit_memory(std::uint64_t bytes) { return bytes == 0 || limit(RLIMIT_AS, b
 // are opened stays as it is. REQUIRES that this process has one thread.
 bool limit_plugin(std::uint64_t bytes) {
   constexpr rlim_t most_processes = 512;
-  struct sysinfo seen = {};
-  ::sysinfo(&seen);
+  struct sysinfo status = {};
+  ::sysinfo(&status);
   stop_being_root();
   ::signal(SIGXFSZ, SIG_IGN);
-  return limit(RLIMIT_NPROC, most_processes + seen.procs) &&
+  return limit(RLIMIT_NPROC, most_processes + status.procs) &&
          (bytes == 0 || limit(RLIMIT_FSIZE, bytes)) && limit_memory(bytes);
 }
 
@@ -82,7 +82,7 @@ void end_first_without_memory() {
   constexpr std::string_view first_of_all = "1000";
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
-  [[maybe_unused]] const auto written = ::write(file, first_of_all.data(), first_of_all.size());
+  [[maybe_unused]] const auto count = ::write(file, first_of_all.data(), first_of_all.size());
   ::close(file);
 }
 
@@ -112,7 +112,7 @@ void vary(std::uint64_t variation) {
 struct LoadedPlugin {
   const char* library;
   std::uint32_t threads = 1;
-  std::string called;  // as the user calls it
+  std::string name;  // as the user calls it
   bool asks_twice = false;
 };
 
@@ -122,14 +122,14 @@ int serve(Channel channel, const LoadedPlugin* library) {
   hello.description = {"built-in", "", claims_of({}), {}};
   std::optional<PluginHost> plugin;
   if (library) {
-    auto opened = PluginHost::open(library->library, library->threads, library->called);
-    if (opened) {
-      plugin = std::move(opened.value());
+    auto host = PluginHost::open(library->library, library->threads, library->name);
+    if (host) {
+      plugin = std::move(host.value());
       plugin->ask_twice(library->asks_twice);
       hello.description = plugin->description();
     } else {
       hello.serves = false;
-      hello.refusal = opened.error().message;
+      hello.refusal = host.error().message;
     }
   }
   if (channel.send(encode(hello)) != Transfer::done) return 0;
@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
         ::setenv("TMPDIR", words[5], 1);
         const LoadedPlugin plugin{words[4], static_cast<std::uint32_t>(*threads), words[7],
                                   *asks_twice != 0};
-        if (const auto word = python_word_of(plugin.called))
+        if (const auto word = python_word_of(plugin.name))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
         ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // what the host left open
         if (*host == 0) ::setsid();                                  // bwrap's is out of its sight

@@ -82,9 +82,9 @@ Transfer Channel::send(const std::string& message, const Patience& patience) {
   std::uint64_t length = message.size();
   std::array<char, sizeof length> head;
   std::memcpy(head.data(), &length, sizeof length);
-  std::size_t sent = 0;
-  while (sent < head.size() + message.size()) {
-    const std::size_t of_head = std::min(sent, head.size()), of_message = sent - of_head;
+  std::size_t count = 0;
+  while (count < head.size() + message.size()) {
+    const std::size_t of_head = std::min(count, head.size()), of_message = count - of_head;
     std::array<iovec, 2> parts = {
         {{head.data() + of_head, head.size() - of_head},
          {const_cast<char*>(message.data()) + of_message, message.size() - of_message}}};
@@ -93,7 +93,7 @@ Transfer Channel::send(const std::string& message, const Patience& patience) {
     whole.msg_iovlen = parts.size();
     const ssize_t now = ::sendmsg(descriptor_, &whole, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (now >= 0) {
-      sent += static_cast<std::size_t>(now);
+      count += static_cast<std::size_t>(now);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       const auto waited = wait_for(POLLOUT, patience);
       if (waited != Transfer::done) return waited;
@@ -112,14 +112,14 @@ ssize_t Channel::read_some(char* bytes, std::size_t size) {
   message.msg_iovlen = 1;
   message.msg_control = beside.data();
   message.msg_controllen = beside.size();
-  const ssize_t got = ::recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC);
-  const cmsghdr* head = got > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
+  const ssize_t count = ::recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC);
+  const cmsghdr* head = count > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
   if (head && head->cmsg_level == SOL_SOCKET && head->cmsg_type == SCM_CREDENTIALS) {
     ucred who;
     std::memcpy(&who, CMSG_DATA(head), sizeof who);
     sender_ = who.pid;
   }
-  return got;
+  return count;
 }
 
 Transfer Channel::receive(std::string& message, const Patience& patience, std::uint64_t most) {
@@ -148,8 +148,8 @@ Transfer Channel::receive(std::string& message, const Patience& patience, std::u
 
 bool Channel::is_closed() const {
   char next;
-  const ssize_t seen = ::recv(descriptor_, &next, 1, MSG_PEEK | MSG_DONTWAIT);
-  return seen == 0 || (seen < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
+  const ssize_t count = ::recv(descriptor_, &next, 1, MSG_PEEK | MSG_DONTWAIT);
+  return count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
 }
 
 }  // namespace assay::properties

@@ -56,15 +56,15 @@ template <bool reads>
 class Wire : public NamedFields<Wire<reads>> {
  public:
   Wire() = default;
-  explicit Wire(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
+  explicit Wire(const std::string& bytes) : next_(bytes.data()), rest_(bytes.size()) {}
 
   template <class T>
   void field(std::string_view, T& item) {
     pass(item);
   }
-  std::string take() { return std::move(written_); }
+  std::string take() { return std::move(bytes_); }
   // The whole message was read, and nothing is left.
-  bool complete() const { return ok_ && left_ == 0; }
+  bool complete() const { return ok_ && rest_ == 0; }
 
  private:
   template <class T>
@@ -137,24 +137,24 @@ class Wire : public NamedFields<Wire<reads>> {
   std::size_t pass_count(std::size_t of_items, std::size_t size) {
     auto count = static_cast<std::uint64_t>(of_items);
     pass_bytes(&count, sizeof count);
-    if constexpr (reads) ok_ = ok_ && count <= left_ / size;
+    if constexpr (reads) ok_ = ok_ && count <= rest_ / size;
     return ok_ ? static_cast<std::size_t>(count) : 0;
   }
   void pass_bytes(void* data, std::size_t size) {
-    ok_ = ok_ && (!reads || size <= left_);
+    ok_ = ok_ && (!reads || size <= rest_);
     if (!ok_ || size == 0) return;
     if constexpr (reads) {
       std::memcpy(data, next_, size);
       next_ += size;
-      left_ -= size;
+      rest_ -= size;
     } else {
-      written_.append(static_cast<const char*>(data), size);
+      bytes_.append(static_cast<const char*>(data), size);
     }
   }
 
-  std::string written_;
+  std::string bytes_;
   const char* next_ = nullptr;
-  std::size_t left_ = 0;
+  std::size_t rest_ = 0;
   bool ok_ = true;
 };
 
@@ -164,7 +164,7 @@ class Wire : public NamedFields<Wire<reads>> {
 // The relation that counts is the case's, and travels with it.
 template <class Archive>
 void fields(Archive& archive, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, threads, counted, separation, keeps_near] = options;
+  auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
   archive("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
           threads, "separation", separation, "keeps_near", keeps_near);
 }
@@ -179,7 +179,7 @@ template <class Archive>
 void fields(Archive& archive, CaseRun& run) {
   // The last three are the host's to say.
   auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
-         disturbances, processor_seconds, printed] = run;
+         disturbances, processor_seconds, output] = run;
   archive("end", end, "explanation", explanation, "steps", steps, "candidates", candidates,
           "limits", limits, "errors", errors, "over_capacity", over_capacity, "has_answers",
           has_answers, "times", times);

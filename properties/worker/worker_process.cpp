@@ -24,7 +24,7 @@ constexpr int attempts = 3;
 
 std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
 
-std::string broken(const std::string& rule) {
+std::string breach(const std::string& rule) {
   return fmt::format("sent a reply that is none: {}", rule);
 }
 
@@ -35,17 +35,17 @@ struct WorkerProcess::Parts {
     ChildProcess child;
     Channel channel;
     std::thread::id starter;
-    std::optional<PrintedFile> printed;
+    std::optional<PrintedFile> output;
     bool is_behind_bubblewrap = false;
 
-    std::string take_printed() { return printed ? printed->take() : ""; }
+    std::string take_printed() { return output ? output->take() : ""; }
     ChildEnd finish(std::chrono::milliseconds patience) {
       const ChildEnd end = child.finish(patience);
       return is_behind_bubblewrap ? end_behind_bubblewrap(end) : end;
     }
     // Looked at while the worker is waited for.
     std::optional<std::chrono::milliseconds> wait(WorkerWatch& watch) {
-      if (printed) printed->keep_short();
+      if (output) output->keep_short();
       return watch.patience();
     }
   };
@@ -53,7 +53,7 @@ struct WorkerProcess::Parts {
   std::filesystem::path program;
   std::optional<std::filesystem::path> plugin_library;
   WorkerLimits limits;
-  std::shared_ptr<const JudgedLibrary> judged;
+  std::shared_ptr<const JudgedLibrary> files;
   std::optional<ScratchFolder> scratch;
   std::optional<Live> live;
   PluginDescription description;
@@ -64,7 +64,7 @@ struct WorkerProcess::Parts {
   RunEnd end_of_loading = RunEnd::not_run;
   std::string printed_while_loaded;  // set if the plug-in ended while it was loaded
   std::uint64_t starts = 0, requests = 0;
-  std::uint64_t told = 0;    // disturbances that are noted in a run
+  std::uint64_t notes = 0;   // disturbances that are noted in a run
   std::uint64_t untold = 0;  // disturbances since then, which the next run will note
   int killed_under_way = 0;  // attempts at the next run that were disturbed
 
@@ -74,7 +74,7 @@ struct WorkerProcess::Parts {
     if (live && (live->channel.is_closed() || live->child.has_ended())) bury();
     for (int killed = 0; !live; ++killed) {
       end_of_loading = RunEnd::not_run;
-      if (auto started = start(); !started) return started;
+      if (auto start_result = start(); !start_result) return start_result;
       const auto greeted = greet();
       if (!greeted) {
         live.reset();
@@ -87,7 +87,7 @@ struct WorkerProcess::Parts {
         return Problem{who() + ": ended while it was loaded: " +
                        (is_outside ? every_time(*end) : end->text) + last_line_printed()};
       }
-      if (const auto same = judged ? judged->is_as_it_was() : boost::outcome_v2::success(); !same) {
+      if (const auto same = files ? files->is_as_it_was() : boost::outcome_v2::success(); !same) {
         live.reset();
         return same.error();
       }
@@ -115,9 +115,9 @@ struct WorkerProcess::Parts {
     if (!ends) return Problem{"no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
-    std::vector<PassedDescriptor> passed = {{ends->second.descriptor(), child_descriptor}};
-    if (!plugin_library) return note(ChildProcess::start(program, arguments, passed), *ends, {});
-    if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
+    std::vector<PassedDescriptor> links = {{ends->second.descriptor(), child_descriptor}};
+    if (!plugin_library) return note(ChildProcess::start(program, arguments, links), *ends, {});
+    if (!files) files = JudgedLibrary::of(*plugin_library, program);
     const std::string fault = fault_of_isolation();
     if (limits.isolation == Isolation::bubblewrap && !fault.empty())
       return Problem{
@@ -126,25 +126,25 @@ struct WorkerProcess::Parts {
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
     // A new one, so that no process finds what another one has left.
-    auto made = ScratchFolder::make();
-    if (!made) return made.error();
-    scratch = std::move(made.value());
+    auto folder = ScratchFolder::make();
+    if (!folder) return folder.error();
+    scratch = std::move(folder.value());
     if (names_python(who())) {
       if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
     }
     for (const auto& word :
-         {judged->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),
+         {files->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),
           std::to_string(limits.variation), std::to_string(int{limits.asks_twice})})
       arguments.push_back(word);
-    auto printed = PrintedFile::make();
-    if (!printed) return Problem{"no file in memory for what a plug-in prints"};
+    auto output = PrintedFile::make();
+    if (!output) return Problem{"no file in memory for what a plug-in prints"};
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-      passed.push_back({printed->descriptor(), stream});
+      links.push_back({output->descriptor(), stream});
     if (isolation == Isolation::limits)
-      return note(ChildProcess::start(program, arguments, passed), *ends, std::move(printed));
+      return note(ChildProcess::start(program, arguments, links), *ends, std::move(output));
     arguments[1] = "0";
-    return note(start_behind_bubblewrap(program, arguments, scratch->path(), passed), *ends,
-                std::move(printed));
+    return note(start_behind_bubblewrap(program, arguments, scratch->path(), links), *ends,
+                std::move(output));
   }
 
   // Why the worker is not started behind bubblewrap; empty if it is.
@@ -152,7 +152,7 @@ struct WorkerProcess::Parts {
     if (limits.isolation == Isolation::limits) return "not asked for";
     std::error_code ignored;
     for (const auto& path :
-         {program, judged->file(), std::filesystem::temp_directory_path(ignored)}) {
+         {program, files->file(), std::filesystem::temp_directory_path(ignored)}) {
       const auto real = std::filesystem::weakly_canonical(path, ignored);
       if (real.native().starts_with("/dev/"))
         return real.string() + " is hidden behind it, as all of /dev";
@@ -161,12 +161,12 @@ struct WorkerProcess::Parts {
   }
 
   Expected<void> note(Expected<ChildProcess> child, std::pair<Channel, Channel>& ends,
-                      std::optional<PrintedFile> printed) {
+                      std::optional<PrintedFile> output) {
     if (!child) return child.error();
     ++starts;
     const bool is_behind_bubblewrap = plugin_library && isolation == Isolation::bubblewrap;
     live.emplace(Live{std::move(child.value()), std::move(ends.first), std::this_thread::get_id(),
-                      std::move(printed), is_behind_bubblewrap});
+                      std::move(output), is_behind_bubblewrap});
     const Channel closed_here = std::move(ends.second);
     return boost::outcome_v2::success();
   }
@@ -200,7 +200,7 @@ struct WorkerProcess::Parts {
     return std::optional<ChildEnd>();
   }
 
-  Problem broken_hello() const { return {fmt::format("{}: {}", who(), broken("no description"))}; }
+  Problem broken_hello() const { return {fmt::format("{}: {}", who(), breach("no description"))}; }
 
   // Sends what is left to do and appends the answers, until a run ends the worker.
   void run_rest(std::span<const corpus::Case> cases, const std::vector<Configuration>& rest,
@@ -220,7 +220,7 @@ struct WorkerProcess::Parts {
       if (!is_heard) return;
       CaseRun run = std::move(reply.run);
       run.processor_seconds = watch.next_case();
-      run.printed = live->take_printed();
+      run.output = live->take_printed();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
         // The worker ends itself, because what it has left of its memory is in pieces.
@@ -251,7 +251,7 @@ struct WorkerProcess::Parts {
     // The plug-in sent something that is no reply, so it counts as one that crashed.
     CaseRun run;
     run.end = RunEnd::crashed;
-    run.explanation = broken(rule);
+    run.explanation = breach(rule);
     end_worker(watch, std::chrono::milliseconds(0), run);
     keep(std::move(run), runs);
     return false;
@@ -260,7 +260,7 @@ struct WorkerProcess::Parts {
   ChildEnd end_worker(WorkerWatch& watch, std::chrono::milliseconds patience, CaseRun& run) {
     run.processor_seconds = watch.next_case();
     ChildEnd end = live->finish(patience);
-    run.printed = live->take_printed();
+    run.output = live->take_printed();
     live.reset();
     return end;
   }
@@ -289,7 +289,7 @@ struct WorkerProcess::Parts {
 
   void keep(CaseRun run, std::vector<CaseRun>& runs) {
     run.disturbances = untold + static_cast<std::uint64_t>(killed_under_way);
-    told += run.disturbances;
+    notes += run.disturbances;
     untold = 0;
     killed_under_way = 0;
     runs.push_back(std::move(run));
@@ -319,10 +319,10 @@ std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
   std::vector<CaseRun> runs;
   while (runs.size() < cases.size() * configurations.size()) {
     // A case of which some runs are there is ended by itself.
-    const std::size_t begun = runs.size() % configurations.size();
-    const auto left = cases.subspan(runs.size() / configurations.size());
-    const auto some = left.first(begun > 0 ? 1 : std::min(most_at_once, left.size()));
-    const auto rest = configurations.subspan(begun);
+    const std::size_t place = runs.size() % configurations.size();
+    const auto queue = cases.subspan(runs.size() / configurations.size());
+    const auto some = queue.first(place > 0 ? 1 : std::min(most_at_once, queue.size()));
+    const auto rest = configurations.subspan(place);
     if (const auto ready = parts_->ensure()) {
       std::vector<Configuration> configured(rest.begin(), rest.end());
       for (auto& one : configured) one.options.threads = parts_->limits.threads;
@@ -336,7 +336,7 @@ std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
 
 Isolation WorkerProcess::isolation() const { return parts_->isolation; }
 std::uint64_t WorkerProcess::starts() const { return parts_->starts; }
-std::uint64_t WorkerProcess::disturbances() const { return parts_->told + parts_->untold; }
+std::uint64_t WorkerProcess::disturbances() const { return parts_->notes + parts_->untold; }
 
 std::filesystem::path program_folder() {
   std::error_code ignored;

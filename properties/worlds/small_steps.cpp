@@ -35,7 +35,7 @@ Faces shifted(const Faces& faces, int offset) {
   return out;
 }
 
-Faces joined(Faces a, const Faces& b) {
+Faces join(Faces a, const Faces& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
@@ -47,7 +47,7 @@ const std::vector<MeshFamily>& families() {
       {"tetrahedron", 4, tetrahedron},
       {"bipyramid", 5, bipyramid(3)},
       {"octahedron", 6, bipyramid(4)},
-      {"two tetrahedra", 8, joined(tetrahedron, shifted(tetrahedron, 4))},
+      {"two tetrahedra", 8, join(tetrahedron, shifted(tetrahedron, 4))},
       {"two tetrahedra at an edge",
        6,
        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}}},
@@ -59,7 +59,7 @@ const std::vector<MeshFamily>& families() {
       {"two triangles at a vertex", 5, {{0, 1, 2}, {0, 3, 4}}},
       {"two triangles at an edge", 4, {{0, 1, 2}, {1, 0, 3}}},
       {"three triangles at an edge", 5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}},
-      {"tetrahedron and triangle", 7, joined(tetrahedron, {{4, 5, 6}})},
+      {"tetrahedron and triangle", 7, join(tetrahedron, {{4, 5, 6}})},
   };
   return all;
 }

@@ -34,10 +34,10 @@ bool next_ascending(std::span<int> list, int end) {
 }
 
 // The number of different orders of four sorted items.
-std::uint64_t orders(const std::array<int, 4>& sorted) {
+std::uint64_t orders(const std::array<int, 4>& ascending) {
   std::uint64_t all = 24, run = 1;
   for (std::size_t i = 1; i < 4; ++i) {
-    run = sorted[i] == sorted[i - 1] ? run + 1 : 1;
+    run = ascending[i] == ascending[i - 1] ? run + 1 : 1;
     all /= run;
   }
   return all;
@@ -174,13 +174,13 @@ TetrahedronWorldResult prove(const TetrahedronWorld& world,
   const auto begin = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   std::atomic<std::size_t> next = 0, failed_block = std::numeric_limits<std::size_t>::max();
-  std::atomic<bool> stopped = false;
+  std::atomic<bool> is_stopped = false;
   std::mutex mutex;
   TetrahedronWorldResult result;
   const auto must_stop = [&] {
     if ((options.seconds > 0 && seconds() > options.seconds) || (options.stop && options.stop()))
-      stopped = true;
-    return stopped.load();
+      is_stopped = true;
+    return is_stopped.load();
   };
   const auto check = [&](std::size_t block, const TetrahedronMotion& motion,
                          TetrahedronWorldResult& own) {
@@ -198,7 +198,7 @@ TetrahedronWorldResult prove(const TetrahedronWorld& world,
     TetrahedronWorldResult own;
     for (bool through = true; through;) {
       const std::size_t block = next.fetch_add(1);
-      if (block >= motions.blocks() || stopped || block > failed_block) break;
+      if (block >= motions.blocks() || is_stopped || block > failed_block) break;
       motions.for_each(block, [&](const TetrahedronMotion& motion) {
         return through = !must_stop() && check(block, motion, own);
       });
@@ -213,7 +213,7 @@ TetrahedronWorldResult prove(const TetrahedronWorld& world,
     result.all_positive += own.all_positive;
   });
   result.all = motions.all();
-  result.complete = !stopped && !result.counterexample;
+  result.complete = !is_stopped && !result.counterexample;
   result.seconds = seconds();
   if (result.counterexample) result.counterexample->id = "tetrahedron-" + std::string(world.name);
   return result;
@@ -252,11 +252,11 @@ class Check {
   }
 
   std::optional<TetrahedronFailure> run() {
-    for (std::size_t turned = 0; turned < 2; ++turned) {
+    for (std::size_t orientation = 0; orientation < 2; ++orientation) {
       const auto make = [&](Start start, Pairs pairs) {
-        return std::move(
-            Detector::create(faces_[turned], x_t0_, {detector::Culling::view_point, start, pairs})
-                .value());
+        return std::move(Detector::create(faces_[orientation], x_t0_,
+                                          {detector::Culling::view_point, start, pairs})
+                             .value());
       };
       Detector verified = make(Start::verified, Pairs::all);
       Detector trusting = make(Start::clean, Pairs::first);
@@ -266,8 +266,8 @@ class Check {
                                 ? "detector, start verified, all pairs"
                             : clean_start_ && check_detector(trusting, Pairs::first, q)
                                 ? "detector, start clean, first pairs"
-                                : check_laws(turned, q);
-        if (wrong) return failure(turned, view.q, wrong);
+                                : check_laws(orientation, q);
+        if (wrong) return failure(orientation, view.q, wrong);
       }
     }
     for (const auto& view : motion_.views) {
@@ -285,8 +285,8 @@ class Check {
   }
 
   // The law that does not hold, or null if all hold.
-  const char* check_laws(std::size_t turned, const ViewPrimitive& q) {
-    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[turned], {&q, 1}, 1);
+  const char* check_laws(std::size_t orientation, const ViewPrimitive& q) {
+    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1}, 1);
     const auto all = [&](ViewSign sign) {
       return std::all_of(signs.begin(), signs.end(), [=](ViewSign s) { return s == sign; });
     };
@@ -306,7 +306,7 @@ class Check {
     }
     if (positive) {
       const oracle::Instant start(x_t0_);
-      if (oracle::WindingField(start, faces_[turned]).at(q.q0.t0) == 1) {
+      if (oracle::WindingField(start, faces_[orientation]).at(q.q0.t0) == 1) {
         ++counts_.all_positive;
         if (collides_) return "L5";
       }
@@ -314,15 +314,15 @@ class Check {
     return nullptr;
   }
 
-  TetrahedronFailure failure(std::size_t turned, const detector::Point& q,
+  TetrahedronFailure failure(std::size_t orientation, const detector::Point& q,
                              const char* explanation) const {
-    TetrahedronFailure failed{{}, explanation};
-    failed.c.about = std::string("does not hold: ") + explanation;
-    failed.c.source = "small world of tetrahedra";
-    failed.c.triangles = faces_[turned];
-    failed.c.frames = {x_t0_, x_t1_};
-    failed.c.view = corpus::CaseView{{q, q}, {}};
-    return failed;
+    TetrahedronFailure result{{}, explanation};
+    result.c.about = std::string("does not hold: ") + explanation;
+    result.c.source = "small world of tetrahedra";
+    result.c.triangles = faces_[orientation];
+    result.c.frames = {x_t0_, x_t1_};
+    result.c.view = corpus::CaseView{{q, q}, {}};
+    return result;
   }
 
   const TetrahedronMotion& motion_;

@@ -10,15 +10,15 @@ namespace assay::reports {
 using Json = nlohmann::ordered_json;
 
 const char* BenchRow::outcome() const {
-  if (!measured) return "no data";
-  if (!wanted) return "-";
-  const double x = measured->value, bound = wanted->bound;
-  return (wanted->is_most ? x <= bound : x >= bound) ? "holds" : "fails";
+  if (!estimate) return "no data";
+  if (!goal) return "-";
+  const double x = estimate->value, bound = goal->bound;
+  return (goal->is_most ? x <= bound : x >= bound) ? "holds" : "fails";
 }
 
-void BenchReport::add(std::string label, std::string unit, Estimate measured,
-                      std::optional<Wanted> wanted, std::string note) {
-  rows.push_back({std::move(label), std::move(unit), std::move(measured), wanted, std::move(note)});
+void BenchReport::add(std::string label, std::string unit, Estimate estimate,
+                      std::optional<Goal> goal, std::string note) {
+  rows.push_back({std::move(label), std::move(unit), std::move(estimate), goal, std::move(note)});
 }
 
 void BenchReport::add_no_data(std::string label, const std::string& missing) {
@@ -29,8 +29,8 @@ void BenchReport::add_left_out(std::string label, std::string why) {
   rows.push_back({std::move(label), {}, {}, {}, std::move(why)});
 }
 
-std::string text_of(const Wanted& wanted) {
-  return fmt::format("{} {:g}", wanted.is_most ? "<=" : ">=", wanted.bound);
+std::string text_of(const Goal& goal) {
+  return fmt::format("{} {:g}", goal.is_most ? "<=" : ">=", goal.bound);
 }
 
 std::string text_of(const properties::TimesOff& off) {
@@ -57,8 +57,8 @@ std::string table_text(const std::vector<std::vector<Column>>& rows, int gap) {
 namespace {
 
 std::string measured_text(const BenchRow& row) {
-  if (!row.measured) return "-";
-  const auto& m = *row.measured;
+  if (!row.estimate) return "-";
+  const auto& m = *row.estimate;
   std::string text = fmt::format("{:.4g}", m.value);
   if (!row.unit.empty()) text += " " + row.unit;
   if (m.lo < m.hi) text += fmt::format(" [{:.4g}, {:.4g}]", m.lo, m.hi);
@@ -66,16 +66,16 @@ std::string measured_text(const BenchRow& row) {
 }
 
 std::string rows_text(const std::vector<BenchRow>& rows) {
-  std::size_t widest = 4, measured = 8;
+  std::size_t widest = 4, width_of_estimate = 8;
   for (const auto& row : rows) {
     widest = std::max(widest, row.label.size());
-    measured = std::max(measured, measured_text(row).size());
+    width_of_estimate = std::max(width_of_estimate, measured_text(row).size());
   }
   std::vector<std::vector<Column>> table;
   for (const auto& row : rows)
     table.push_back({{"what", -static_cast<int>(widest), row.label},
-                     {"measured", -static_cast<int>(measured), measured_text(row)},
-                     {"wanted", -10, row.wanted ? text_of(*row.wanted) : "-"},
+                     {"measured", -static_cast<int>(width_of_estimate), measured_text(row)},
+                     {"wanted", -10, row.goal ? text_of(*row.goal) : "-"},
                      {"outcome", 0, row.outcome()},
                      {"", 0, row.note}});
   return table_text(table, 2);
@@ -98,9 +98,9 @@ void to_json(Json& json, const Estimate& estimate) {
 Json to_json(const BenchReport& report, const std::string& version) {
   Json rows = Json::array();
   for (const auto& row : report.rows) {
-    const auto wanted = row.wanted ? std::optional(text_of(*row.wanted)) : std::nullopt;
-    rows.push_back(json_object("what", row.label, "unit", row.unit, "measured", row.measured,
-                               "wanted", wanted, "outcome", row.outcome(), "note", row.note));
+    const auto goal_text = row.goal ? std::optional(text_of(*row.goal)) : std::nullopt;
+    rows.push_back(json_object("what", row.label, "unit", row.unit, "measured", row.estimate,
+                               "wanted", goal_text, "outcome", row.outcome(), "note", row.note));
   }
   Json json = json_object("schema", "assay-bench/2", "version", version, "suite", report.suite,
                           "rows", rows);
@@ -171,7 +171,7 @@ std::string csv_of(const BenchReport& report) {
   text = "suite,what,unit,sample,value\n";
   for (const auto& row : report.rows) {
     int sample = 0;
-    for (const double value : row.measured ? row.measured->samples : std::vector<double>()) {
+    for (const double value : row.estimate ? row.estimate->samples : std::vector<double>()) {
       text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.label), quoted(row.unit),
                           ++sample, value);
     }

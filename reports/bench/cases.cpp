@@ -37,7 +37,7 @@ double mean_edge_length(const Triangles& triangles, const Positions& x) {
 std::pair<std::size_t, StepResult> first_collision(const corpus::Sequence& sequence,
                                                    const Options& options,
                                                    const std::string& name) {
-  auto detector = made(Detector::create(sequence.triangles, sequence.frames[0], options), name);
+  auto detector = take(Detector::create(sequence.triangles, sequence.frames[0], options), name);
   std::size_t step = 0;
   StepResult result;
   for (; step + 1 < sequence.frames.size(); ++step) {
@@ -75,8 +75,8 @@ corpus::Sequence around_first_contact(const corpus::Sequence& sequence) {
            sequence.frames.begin() + static_cast<std::ptrdiff_t>(end) + 1}};
 }
 
-TimedCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {
-  TimedCase out{{}, start};
+BenchCase timed_case(const std::string& id, corpus::Sequence sequence, Start start) {
+  BenchCase out{{}, start};
   out.c.id = id;
   out.c.triangles = std::move(sequence.triangles);
   out.c.frames = std::move(sequence.frames);
@@ -97,7 +97,7 @@ constexpr PublicFiles public_files[] = {
 
 }  // namespace
 
-std::vector<TimedCase> real_sequences(const BenchSettings& settings,
+std::vector<BenchCase> real_sequences(const BenchSettings& settings,
                                       std::vector<std::string>& missing) {
   // The first file that is not there is named.
   const auto is_there = [&](const std::filesystem::path& file) {
@@ -106,18 +106,18 @@ std::vector<TimedCase> real_sequences(const BenchSettings& settings,
     if (!exists) missing.push_back(file.string());
     return exists;
   };
-  std::vector<TimedCase> list;
+  std::vector<BenchCase> list;
   for (const auto& data : public_files) {
     std::vector<std::filesystem::path> files;
     for (int f = data.first; f <= data.last; ++f)
       files.emplace_back(settings.data + "/" + fmt::format(fmt::runtime(data.pattern), f));
     if (std::all_of(files.begin(), files.end(), is_there))
-      list.push_back(timed_case(data.name, made(corpus::read_sequence(files)), data.start));
+      list.push_back(timed_case(data.name, take(corpus::read_sequence(files)), data.start));
   }
   constexpr int frames = 6;
   if (const auto bunny = settings.data + "/ipc-toolkit/bunny.ply"; is_there(bunny))
     list.push_back(timed_case(
-        "bunny-bent", made(corpus::make_scene("bend", {0, frames, made(corpus::read_mesh(bunny))})),
+        "bunny-bent", take(corpus::make_scene("bend", {0, frames, take(corpus::read_mesh(bunny))})),
         Start::clean));
   return list;
 }
@@ -149,14 +149,14 @@ std::vector<CaseFamily> real_families(const BenchSettings& settings,
 
 namespace {
 
-TimedCase with_known_start(corpus::Case c) {
+BenchCase with_known_start(corpus::Case c) {
   const bool clean = properties::starts_clean(c);
   return {std::move(c), clean ? Start::clean : Start::verified};
 }
 
 CaseFamily generated_family(const properties::Family& family, const BenchSettings& settings) {
   return {std::string(family.name), "generated", settings.rounds(5), [&family, settings] {
-            std::vector<TimedCase> cases;
+            std::vector<BenchCase> cases;
             const int count = settings.rounds(60);
             for (int i = 0; i < count; ++i) {
               const auto id = fmt::format("bench:1:{}:{}", family.name, i);
@@ -172,7 +172,7 @@ CaseFamily generated_family(const properties::Family& family, const BenchSetting
 CaseFamily hard_family(const corpus::HardFamily& family, const BenchSettings& settings) {
   return {std::string(family.name), "hard", settings.rounds(5), [&family, settings] {
             constexpr Eigen::Index most_triangles = 600;
-            std::vector<TimedCase> cases;
+            std::vector<BenchCase> cases;
             const int strengths = settings.rounds(4);
             for (int s = 0; s < strengths; ++s) {
               const int strength = family.strongest * s / (strengths - 1);

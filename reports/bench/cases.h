@@ -37,9 +37,9 @@ struct UnusableData : std::runtime_error {
 
 // The value. Throws UnusableData, with this name before the problem, if there is none.
 template <class Expected>
-auto made(Expected expected, const std::string& name = "") {
-  if (!expected) throw UnusableData((name.empty() ? "" : name + ": ") + expected.error().message);
-  return std::move(expected.value());
+auto take(Expected result, const std::string& name = "") {
+  if (!result) throw UnusableData((name.empty() ? "" : name + ": ") + result.error().message);
+  return std::move(result.value());
 }
 
 // A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
@@ -56,27 +56,27 @@ std::optional<corpus::Sequence> step_at_first_contact(const std::string& scene, 
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence);
 
 // A case, and what is known of its start.
-struct TimedCase {
+struct BenchCase {
   corpus::Case c;
   detector::Start start = detector::Start::verified;
   // Subjects in this process play it with this culling, if it is stated, in place of their own.
   std::optional<detector::Culling> culling = {};
 };
-TimedCase timed_case(const std::string& id, corpus::Sequence sequence, detector::Start start);
+BenchCase timed_case(const std::string& id, corpus::Sequence sequence, detector::Start start);
 
 // The deforming meshes of the public data: rod-twist, thick-cloth, kick, and bunny-bent, the bunny
 // as scene `bend` bends it into a ring in five steps. The start is clean if the mesh is closed and
 // without contact at the first frame. Data that is not there is left out, and its first file that
 // is missing is named. Throws UnusableData for a file that is there and cannot be used, as the
 // functions below do.
-std::vector<TimedCase> real_sequences(const BenchSettings& settings,
+std::vector<BenchCase> real_sequences(const BenchSettings& settings,
                                       std::vector<std::string>& missing);
 
 struct CaseFamily {
   std::string name;
   std::string kind;                               // scene, generated, hard, real
   int rounds = 5;                                 // 0: it is judged, and not timed
-  std::function<std::vector<TimedCase>()> cases;  // made when they are run
+  std::function<std::vector<BenchCase>()> cases;  // made when they are run
 
   bool is_large() const { return kind == "scene" || kind == "real"; }
 };

@@ -76,7 +76,7 @@ properties::CaseRun run_here(const corpus::Case& c, const SweptSubject& subject,
   const auto& options = subject.configuration.options;
   std::optional<properties::CasePlayer> player;
   times.create = seconds_a_ns * plan.clock([&] {
-    player = made(properties::CasePlayer::make(c, options, subject.stages(options)), c.id);
+    player = take(properties::CasePlayer::make(c, options, subject.stages(options)), c.id);
   });
   auto& steps = *player;
   for (std::size_t s = 0; s < steps.steps(); ++s) {
@@ -121,14 +121,14 @@ std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject
     plan.tick();
     const auto& subject = subjects[i];
     auto& of = runs[i];
-    if (!of.ended.empty()) return;
+    if (!of.ending.empty()) return;
     if (of.is_once) return of.samples.push_back(*of.first->times);
     const double least = *std::min_element(first_ms.begin(), first_ms.end());
     if (of.samples.size() >= rounds_of_far_off && first_ms[i] > plan.far_off * least) return;
     auto run = subject.worker ? run_alone(*subject.worker, c, subject.configuration)
                               : run_here(c, subject, plan);
     if (run.end != properties::RunEnd::completed || !run.times) {
-      of.ended = fmt::format("{}: {}", name_of(run.end), run.explanation);
+      of.ending = fmt::format("{}: {}", name_of(run.end), run.explanation);
     } else if (of.first) {
       of.has_differing_runs |= !same_answers(run, *of.first);
       of.samples.push_back(std::move(*run.times));
@@ -160,10 +160,10 @@ std::size_t rank_of_lower_end(std::size_t n) {
 }
 
 Estimate median_of(std::vector<double> samples) {
-  std::vector<double> sorted = samples;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t n = sorted.size(), k = rank_of_lower_end(n);
-  return {(sorted[(n - 1) / 2] + sorted[n / 2]) / 2, sorted[k - 1], sorted[n - k],
+  std::vector<double> ascending = samples;
+  std::sort(ascending.begin(), ascending.end());
+  const std::size_t n = ascending.size(), k = rank_of_lower_end(n);
+  return {(ascending[(n - 1) / 2] + ascending[n / 2]) / 2, ascending[k - 1], ascending[n - k],
           std::move(samples)};
 }
 
@@ -193,11 +193,11 @@ Estimate over_draws(std::size_t items, const FigureOf& figure_of) {
   constexpr int draws = 2'000;
   constexpr double share_below = 0.025;  // of the draws lies below the interval, and as much above
   properties::Random random("percentile bootstrap");
-  std::vector<std::size_t> drawn(items);
+  std::vector<std::size_t> places(items);
   std::vector<double> figures;
   for (int d = 0; d < draws; ++d) {
-    for (auto& i : drawn) i = static_cast<std::size_t>(random.below(static_cast<int>(items)));
-    figures.push_back(figure_of(drawn));
+    for (auto& i : places) i = static_cast<std::size_t>(random.below(static_cast<int>(items)));
+    figures.push_back(figure_of(places));
   }
   return {0, quantile(figures, share_below), quantile(figures, 1 - share_below), {}};
 }
@@ -224,8 +224,8 @@ double quantile(std::vector<double> samples, double share) {
 
 Estimate bootstrap_median(std::vector<double> samples) {
   std::vector<double> values = samples;
-  auto out = over_draws(samples.size(), [&](const std::vector<std::size_t>& drawn) {
-    for (std::size_t i = 0; i < drawn.size(); ++i) values[i] = samples[drawn[i]];
+  auto out = over_draws(samples.size(), [&](const std::vector<std::size_t>& places) {
+    for (std::size_t i = 0; i < places.size(); ++i) values[i] = samples[places[i]];
     return median_in_place(values);
   });
   values = samples;

@@ -67,7 +67,7 @@ struct SweepPlan {
 struct SweptRuns {
   std::optional<properties::CaseRun> first;   // the one that is judged
   std::vector<properties::RunTimes> samples;  // of each round, without the first run
-  std::string ended;                          // how a run ended that did not complete, in words
+  std::string ending;                         // how a run ended that did not complete, in words
   bool is_once = false;  // the first run is the only one, and stands for every round
   bool has_differing_runs = false;
 

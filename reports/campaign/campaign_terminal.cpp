@@ -36,10 +36,10 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
 
 // Gives "; about 40 s left", for example, at the rate so far. Gives nothing before there is a
 // rate.
-std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
+std::string rest_text(std::uint64_t count, std::uint64_t remainder, double seconds) {
   constexpr double least_seconds = 1;
-  if (done == 0 || left == 0 || seconds < least_seconds) return "";
-  const double rest = seconds * static_cast<double>(left) / static_cast<double>(done);
+  if (count == 0 || remainder == 0 || seconds < least_seconds) return "";
+  const double rest = seconds * static_cast<double>(remainder) / static_cast<double>(count);
   constexpr double minute = 60;
   return rest < 2 * minute ? fmt::format("; about {:.0f} s left", rest)
                            : fmt::format("; about {:.0f} min left", rest / minute);
@@ -50,14 +50,14 @@ class CampaignTerminal : public properties::CampaignObserver {
   CampaignTerminal(const properties::CampaignRequest& request, std::string out)
       : request_(request), out_(std::move(out)) {}
 
-  void on_begin(std::uint64_t stored) override {
+  void on_begin(std::uint64_t before) override {
     const auto& plan = request_.plan;
-    const auto planned = properties::planned_trial_count(plan, request_.shares);
+    const auto trials = properties::planned_trial_count(plan, request_.shares);
     fmt::print("campaign {}, seed {}{}: {} trials of {} families{}, {} configurations", plan.name,
                request_.seed,
-               request_.shares > 1 ? fmt::format(", share 1/{}", request_.shares) : "", planned,
+               request_.shares > 1 ? fmt::format(", share 1/{}", request_.shares) : "", trials,
                plan.strata.size(),
-               stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
+               before ? fmt::format(" ({} are stored, {} to do)", before, trials - before) : "",
                request_.detector.configurations.size() + request_.detector.of_questions.size());
     if (request_.power) {
       fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
@@ -92,11 +92,11 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_trial(const properties::TrialProgress& state) override {
     progress_->show(
-        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}{}", state.done, state.planned,
-                    state.defects, state.undecided,
+        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}{}", state.done_trials,
+                    state.quota, state.defects, state.undecided,
                     state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
-                    rest_text(state.done - state.stored, state.planned - state.done,
-                              seconds_since(phase_began_)),
+                    rest_text(state.done_trials - state.stored_trials,
+                              state.quota - state.done_trials, seconds_since(phase_began_)),
                     advice(state)));
   }
 
@@ -107,15 +107,15 @@ class CampaignTerminal : public properties::CampaignObserver {
     std::fflush(stdout);
   }
 
-  void on_progress(const std::string& text, std::uint64_t done, std::uint64_t left) override {
-    progress_->show(text + rest_text(done, left, seconds_since(phase_began_)));
+  void on_progress(const std::string& text, std::uint64_t count, std::uint64_t remainder) override {
+    progress_->show(text + rest_text(count, remainder, seconds_since(phase_began_)));
   }
 
-  void on_failures_shrunk(const properties::KeptFailures& kept) override {
+  void on_failures_shrunk(const properties::FailureList& failures) override {
     progress_.reset();
     std::string text;
-    written_ =
-        write_failures(kept, out_,
+    status_ =
+        write_failures(failures, out_,
                        {request_.plugin ? request_.plugin->string() : "", request_.limits.isolation,
                         request_.limits.threads, part_asked_by(request_.plan)},
                        text);
@@ -124,14 +124,14 @@ class CampaignTerminal : public properties::CampaignObserver {
   }
 
   // Says whether every failing mesh could be written.
-  const Expected<void>& written() const { return written_; }
+  const Expected<void>& status() const { return status_; }
 
  private:
   // What is long in a campaign of which much is undecided is mostly the wait for those cases.
   std::string advice(const properties::TrialProgress& state) const {
     constexpr std::uint64_t share = 50;  // one in so many
     constexpr double short_limit = 1;
-    const bool waits = state.undecided > 1 && state.undecided * share > state.done &&
+    const bool waits = state.undecided > 1 && state.undecided * share > state.done_trials &&
                        request_.plan.case_seconds > short_limit;
     return waits ? fmt::format(" (each undecided one takes {:g} s: --case-seconds 1 is quicker)",
                                request_.plan.case_seconds)
@@ -142,7 +142,7 @@ class CampaignTerminal : public properties::CampaignObserver {
   const std::string out_;
   std::chrono::steady_clock::time_point phase_began_;
   std::optional<PlainProgress> progress_;
-  Expected<void> written_ = outcome::success();
+  Expected<void> status_ = outcome::success();
 };
 
 }  // namespace
@@ -221,8 +221,8 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library)};
-  const auto& named = properties::named_plans();
-  const bool is_named = std::any_of(named.begin(), named.end(),
+  const auto& plans = properties::named_plans();
+  const bool is_named = std::any_of(plans.begin(), plans.end(),
                                     [&](const auto& one) { return one.name == request.plan.name; });
   if (is_named && !detector.contract.takes_relations)
     request.plan = properties::without_relations(std::move(request.plan));
@@ -254,7 +254,7 @@ Expected<void> run_on_terminal(const properties::CampaignRequest& request, prope
   BOOST_OUTCOME_TRY(corpus, shipped_corpus());
   CampaignTerminal terminal(request, out);
   BOOST_OUTCOME_TRY(properties::run_campaign(request, corpus / "curated", store, terminal));
-  return terminal.written();
+  return terminal.status();
 }
 
 }  // namespace assay::reports

@@ -63,7 +63,7 @@ Expected<void> run_on_terminal(const properties::CampaignRequest& request, prope
 // is stored. A curated case of which only an expected fact fails is told of in its row alone.
 struct JudgedCorpus {
   std::vector<properties::JudgedSource> rows;
-  std::vector<properties::StoredFailure> failures;
+  std::vector<properties::FailureRecord> failures;
 };
 
 // Runs the curated cases and queries of the corpus `shipped`, and the scenes, which are built into

@@ -72,7 +72,7 @@ std::string disturbance_text(const RunFindings& findings) {
 // Nobody knows how close a plug-in came. Answers that differ in two forms of a case are allowed by
 // its claims.
 std::string laws_text(const RunFindings& findings) {
-  const auto wanted = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
+  const auto premises = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
   const bool built_in = findings.run.detector.built_in;
   const auto laws = properties::laws_in(findings.tally.counts, built_in);
   if (laws.empty()) return "";
@@ -89,7 +89,7 @@ std::string laws_text(const RunFindings& findings) {
                                        : 0.0;
     out += fmt::format("{:52} {:>9} {:>6.0f}% {:>7}{}\n", law->name, tally.premise, close,
                        tally.broken,
-                       properties::starved(*law, tally, wanted).empty() ? "" : "  too few");
+                       properties::starved(*law, tally, premises).empty() ? "" : "  too few");
     std::string under;
     for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
       under += fmt::format("{}{} {}", under.empty() ? "" : ", ", culling, premise);
@@ -102,11 +102,11 @@ std::string laws_text(const RunFindings& findings) {
 const char* word_of(const FaultProof& proof) {
   switch (proof.status) {
     case FaultStatus::planted:
-      return proof.found() ? "found" : proof.time_over ? "the time was over" : "NOT FOUND";
+      return proof.is_found() ? "found" : proof.time_over ? "the time was over" : "NOT FOUND";
     case FaultStatus::open:
-      return proof.found() ? "found: no longer open" : "open";
+      return proof.is_found() ? "found: no longer open" : "open";
     case FaultStatus::equivalent:
-      return proof.found() ? "FOUND, but registered as equivalent" : "survives, rightly";
+      return proof.is_found() ? "FOUND, but registered as equivalent" : "survives, rightly";
   }
   return "";
 }
@@ -115,9 +115,9 @@ std::string faults_text(const RunFindings& findings, const Json& power) {
   const auto count =
       fmt::format("{} of {} planted faults found: {}", power["found"].get<std::uint64_t>(),
                   power["planted"].get<std::uint64_t>(), found_text(power));
-  if (const auto& taken = findings.evidence.power; !taken.empty())
-    return fmt::format("{}; campaign {}, seed {}, of this build\n", count, taken[0].campaign,
-                       taken[0].seed);
+  if (const auto& hunt_power = findings.evidence.power; !hunt_power.empty())
+    return fmt::format("{}; campaign {}, seed {}, of this build\n", count, hunt_power[0].campaign,
+                       hunt_power[0].seed);
   std::string out = fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", "fault", "law", "cases",
                                 "curated", "vertices", "verdict");
   for (const auto& proof : findings.evidence.faults) {

@@ -40,7 +40,7 @@ DetectorWords detector_of(const properties::RunFindings& findings);
 // sizes, triangles, feature, and the line that replays it. Nine others are a line each, the
 // smallest meshes first, with every broken claim among them; the rest is one count. `detector` is
 // the one that failed.
-Expected<void> write_failures(const properties::KeptFailures& kept,
+Expected<void> write_failures(const properties::FailureList& failure_list,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
 

@@ -57,10 +57,10 @@ std::string trial_text(const properties::RunFindings& findings,
   return out + fmt::format("              replay: {}\n", line_to_paste(words));
 }
 
-using properties::StoredFailure;
+using properties::FailureRecord;
 
 // Writes the mesh of a failure and its smallest one, as far as they are there.
-Expected<void> write_meshes(const StoredFailure& failure, const std::filesystem::path& out) {
+Expected<void> write_meshes(const FailureRecord& failure, const std::filesystem::path& out) {
   for (const bool smallest : {false, true}) {
     const auto& text = smallest ? failure.smallest : failure.mesh;
     if (text.empty()) continue;
@@ -76,19 +76,19 @@ Expected<void> write_meshes(const StoredFailure& failure, const std::filesystem:
 }
 
 // Draws the smallest of its meshes that is there.
-Expected<void> write_picture(SceneMaker& scenes, const StoredFailure& failure,
+Expected<void> write_picture(SceneMaker& scenes, const FailureRecord& failure,
                              const std::filesystem::path& out) {
   const bool is_shrunk = !failure.smallest.empty();
-  const auto shown = corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored case");
-  if (!shown) return outcome::success();
-  return scenes.write_picture((out / failure_file(failure, is_shrunk)).string(), shown.value(),
+  const auto mesh = corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored case");
+  if (!mesh) return outcome::success();
+  return scenes.write_picture((out / failure_file(failure, is_shrunk)).string(), mesh.value(),
                               failure.configuration, failure.signature());
 }
 
 constexpr std::size_t kinds_shown = 10;
 
 // The shrunk ones first, and the least odd of these. The first of each signature stands for it.
-std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
+std::vector<FailureRecord> in_order(std::vector<FailureRecord> failures) {
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
     return properties::LeastOddFirst()(a.signature(), b.signature());
   });
@@ -97,24 +97,24 @@ std::vector<StoredFailure> in_order(std::vector<StoredFailure> failures) {
   return failures;
 }
 
-std::string smallest_size(const StoredFailure& failure) {
+std::string smallest_size(const FailureRecord& failure) {
   return size_of_mesh(failure.smallest.empty() ? failure.mesh : failure.smallest);
 }
 
-std::size_t triangles_of(const StoredFailure& failure) {
+std::size_t triangles_of(const FailureRecord& failure) {
   const auto& text = failure.smallest.empty() ? failure.mesh : failure.smallest;
   const auto c = corpus::parse_case(text, "stored case");
   return c ? static_cast<std::size_t>(c.value().triangles.rows()) : 0;
 }
 
 // The size as it was met, and the smallest where that is another one: a query has none.
-std::string sizes_text(const StoredFailure& failure) {
-  const auto met = size_of_mesh(failure.mesh), smallest = smallest_size(failure);
-  return met == smallest ? met : met + " -> " + smallest;
+std::string sizes_text(const FailureRecord& failure) {
+  const auto first_size = size_of_mesh(failure.mesh), smallest = smallest_size(failure);
+  return first_size == smallest ? first_size : first_size + " -> " + smallest;
 }
 
 // A kind of failure: one of its failures, in full.
-std::string paragraph(const StoredFailure& failure, std::uint64_t trials,
+std::string paragraph(const FailureRecord& failure, std::uint64_t trials,
                       const std::filesystem::path& out, const DetectorWords& detector) {
   const bool is_shrunk = !failure.smallest.empty();
   const auto file = failure_file(failure, is_shrunk);
@@ -128,63 +128,63 @@ std::string paragraph(const StoredFailure& failure, std::uint64_t trials,
 
 }  // namespace
 
-Expected<void> write_failures(const properties::KeptFailures& kept,
+Expected<void> write_failures(const properties::FailureList& failure_list,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text) {
-  if (kept.list.empty()) return outcome::success();
-  const auto failures = in_order(kept.list);
+  if (failure_list.list.empty()) return outcome::success();
+  const auto failures = in_order(failure_list.list);
   SceneMaker scenes(detector);
-  std::set<std::string> told;
-  std::vector<const StoredFailure*> kinds;
+  std::set<std::string> causes;
+  std::vector<const FailureRecord*> kinds;
   for (const auto& failure : failures) {
     BOOST_OUTCOME_TRY(write_meshes(failure, out));
-    if (!told.insert(failure.signature()).second) continue;
+    if (!causes.insert(failure.signature()).second) continue;
     BOOST_OUTCOME_TRY(write_picture(scenes, failure, out));
     kinds.push_back(&failure);
   }
-  const auto met = [&](const StoredFailure& failure) {
-    const auto count = kept.times_met.find(failure.signature());
-    return count == kept.times_met.end() ? 1 : count->second;
+  const auto met_text = [&](const FailureRecord& failure) {
+    const auto count = failure_list.times_met.find(failure.signature());
+    return count == failure_list.times_met.end() ? 1 : count->second;
   };
   const auto& first =
       **std::max_element(kinds.begin(), kinds.end(), [&](const auto* a, const auto* b) {
         const auto rank = [&](auto* kind) {
-          return std::pair(!kind->smallest.empty(), met(*kind));
+          return std::pair(!kind->smallest.empty(), met_text(*kind));
         };
         return rank(a) < rank(b);
       });
-  text += paragraph(first, met(first), out, detector);
+  text += paragraph(first, met_text(first), out, detector);
   std::erase(kinds, &first);
-  std::map<const StoredFailure*, std::size_t> triangles;
+  std::map<const FailureRecord*, std::size_t> triangles;
   for (const auto* kind : kinds) triangles[kind] = triangles_of(*kind);
   const auto smaller = [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; };
   std::stable_sort(kinds.begin(), kinds.end(), smaller);
   // The smallest of each claim comes first, so that no broken claim is among the rest.
-  std::set<std::string> claims = {first.broken()};
-  std::set<const StoredFailure*> first_of_a_claim;
+  std::set<std::string> claims = {first.rule()};
+  std::set<const FailureRecord*> first_of_a_claim;
   for (const auto* kind : kinds) {
-    if (claims.insert(kind->broken()).second) first_of_a_claim.insert(kind);
+    if (claims.insert(kind->rule()).second) first_of_a_claim.insert(kind);
   }
   std::stable_partition(kinds.begin(), kinds.end(),
                         [&](const auto* kind) { return first_of_a_claim.contains(kind); });
-  const auto shown = std::min(kinds.size(), kinds_shown - 1);
-  std::stable_sort(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(shown), smaller);
-  for (const auto* kind : std::span(kinds).first(shown)) {
+  const auto top = std::min(kinds.size(), kinds_shown - 1);
+  std::stable_sort(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(top), smaller);
+  for (const auto* kind : std::span(kinds).first(top)) {
     const auto configuration = kind->shown_configuration();
     text +=
         fmt::format("DEFECT {}{}, {}: {}\n", kind->signature(),
                     configuration == first.shown_configuration() ? "" : " (" + configuration + ")",
-                    kind->met_text(met(*kind)), smallest_size(*kind));
+                    kind->met_text(met_text(*kind)), smallest_size(*kind));
   }
   std::uint64_t times = 0;
-  for (const auto* kind : std::span(kinds).subspan(shown)) times += met(*kind);
+  for (const auto* kind : std::span(kinds).subspan(top)) times += met_text(*kind);
   if (times > 0)
-    text += fmt::format("and {} more kinds, met {}\n", kinds.size() - shown,
+    text += fmt::format("and {} more kinds, met {}\n", kinds.size() - top,
                         properties::times_text(times));
   if (!kinds.empty())
     text += fmt::format(
         "each with the line that replays it: {}\n",
-        line_to_paste("list failures " + shell_word(out.string()), PastedIn::this_folder));
+        line_to_paste("list failures " + shell_word(out.string()), PastePlace::this_folder));
   return outcome::success();
 }
 
@@ -204,13 +204,13 @@ std::string groups_text(const properties::RunFindings& findings, const Json& pre
 
 std::string failures_text(const properties::RunFindings& findings, const Json& predicate) {
   std::string out = groups_text(findings, predicate);
-  std::set<std::string> told;
+  std::set<std::string> explanations;
   const auto failures = in_order(findings.failures);
-  for (const auto& shown : failures) {
-    if (!told.insert(shown.signature()).second) continue;
-    out += paragraph(shown, findings.met_count(shown), findings.folder, detector_of(findings));
+  for (const auto& failure : failures) {
+    if (!explanations.insert(failure.signature()).second) continue;
+    out += paragraph(failure, findings.met_count(failure), findings.folder, detector_of(findings));
     for (const auto& other : failures) {
-      if (&other != &shown && other.signature() == shown.signature())
+      if (&other != &failure && other.signature() == failure.signature())
         out += fmt::format("  also {} ({}): {}\n", other.id(), other.shown_configuration(),
                            other.explanation);
     }

@@ -57,14 +57,14 @@ void count(JudgedSource& row, const oracle::StepJudgement& step) {
 JudgedSource check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
   JudgedSource row{.input = "curated cases", .configuration = properties::name_of(culling)};
   for (const auto& c : cases) {
-    const auto checked = properties::check_case(c, culling, jobs);
-    const auto& truth = checked.truth;
+    const auto check = properties::check_case(c, culling, jobs);
+    const auto& truth = check.truth;
     ++row.cases;
     for (const auto& step : truth) count(row, step);
     const bool has_contact = std::ranges::any_of(truth, [](auto& s) { return !s.pairs.empty(); });
     if (!truth.empty()) count_extremes(row, c, truth, has_contact);
-    row.defects += checked.failed.empty() ? 0 : 1;
-    for (const auto& line : checked.failed)
+    row.defects += check.broken_facts.empty() ? 0 : 1;
+    for (const auto& line : check.broken_facts)
       row.failed.push_back(
           {c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line});
   }
@@ -89,8 +89,8 @@ constexpr const char* row_format = "{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}
 // Judges one input after another, and prints what each comes to.
 class CorpusCheck {
  public:
-  CorpusCheck(const properties::CampaignRequest& request, JudgedCorpus& judged)
-      : request_(request), judged_(judged) {}
+  CorpusCheck(const properties::CampaignRequest& request, JudgedCorpus& result)
+      : request_(request), result_(result) {}
 
   // Runs the cases of an input through a worker, and makes a row for each configuration.
   void judge(const std::string& input, const std::vector<corpus::Case>& cases,
@@ -109,7 +109,7 @@ class CorpusCheck {
   // Adds the rows of an input. If all configurations came to the same, and to nothing that has to
   // be told, they share one line.
   void add(std::vector<JudgedSource> rows) {
-    judged_.rows.insert(judged_.rows.end(), rows.begin(), rows.end());
+    result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     const auto counts = [](const JudgedSource& row) {
       return std::tuple(row.cases, row.steps, row.collisions, row.pairs, row.defects,
                         row.open.size() + row.failed.size());
@@ -137,46 +137,46 @@ class CorpusCheck {
     const auto source = rows.front().source;
     // Ids of a source that counts as another one have its own prefix behind that one's.
     const auto id = (row_of(source).counts_as == source ? "" : row_of(source).prefix) + c.id;
-    const auto seen = properties::contracted(c, request_.detector.contract);
-    for (auto& row : rows) ++(seen ? row.cases : row.left_out);
-    if (!seen) return;  // the case is beyond the contract
+    const auto contracted_case = properties::contract_case(c, request_.detector.contract);
+    for (auto& row : rows) ++(contracted_case ? row.cases : row.left_out);
+    if (!contracted_case) return;  // the case is beyond the contract
     if (hung_ >= most_hung_cases) {
       for (auto& row : rows)
         row.open.push_back({id, "", fmt::format("not run: it hung in {} cases before", hung_)});
       return;
     }
     const auto& configurations = request_.detector.configurations;
-    const auto examined = properties::examine({.detector = request_.detector,
-                                               .configurations = configurations,
-                                               .worker = &worker,
-                                               .oracle_jobs = request_.jobs,
-                                               .needs_an_answer = true},
-                                              *seen);
-    hung_ += std::any_of(examined.runs.begin(), examined.runs.end(),
+    const auto results = properties::examine({.detector = request_.detector,
+                                              .configurations = configurations,
+                                              .worker = &worker,
+                                              .oracle_jobs = request_.jobs,
+                                              .needs_an_answer = true},
+                                             *contracted_case);
+    hung_ += std::any_of(results.runs.begin(), results.runs.end(),
                          [](const auto& run) { return run.end == properties::RunEnd::hung; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (const auto& step : examined.truth) count(rows[i], step);
-      const auto& verdict = examined.verdicts[i];
+      for (const auto& step : results.truth) count(rows[i], step);
+      const auto& verdict = results.verdicts[i];
       if (!verdict.steps.empty() && verdict.outcome != Outcome::refused)
-        count_extremes(rows[i], *seen, examined.truth,
+        count_extremes(rows[i], *contracted_case, results.truth,
                        properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds || verdict.outcome == Outcome::refused) continue;
       if (!verdict.failure) {
-        rows[i].open.push_back({id, "", "no verdict: " + examined.runs[i].explanation});
+        rows[i].open.push_back({id, "", "no verdict: " + results.runs[i].explanation});
         continue;
       }
       ++rows[i].defects;
-      auto& failure = judged_.failures.emplace_back(
-          properties::stored_failure(source, *seen, configurations[i], request_.detector,
-                                     *verdict.failure, false, examined.runs[i].printed));
+      auto& failure = result_.failures.emplace_back(
+          properties::stored_failure(source, *contracted_case, configurations[i], request_.detector,
+                                     *verdict.failure, false, results.runs[i].output));
       failure.case_id = id;
-      failure.mesh = corpus::case_text(*seen);
+      failure.mesh = corpus::case_text(*contracted_case);
       rows[i].failed.push_back({id, failure.signature(), failure.explanation});
     }
   }
 
   const properties::CampaignRequest& request_;
-  JudgedCorpus& judged_;
+  JudgedCorpus& result_;
   int hung_ = 0;  // cases in which the detector hung
 };
 
@@ -185,8 +185,8 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
   options.frames = std::max(6, scene.least_frames);
-  BOOST_OUTCOME_TRY(made, corpus::make_scene(scene.name, options));
-  auto c = timed_case(std::string(scene.name), std::move(made), detector::Start::verified).c;
+  BOOST_OUTCOME_TRY(scene_case, corpus::make_scene(scene.name, options));
+  auto c = timed_case(std::string(scene.name), std::move(scene_case), detector::Start::verified).c;
   c.about = "a scene";
   c.source = "assay scene";
   return c;
@@ -201,8 +201,8 @@ Expected<void> judge_queries(const std::filesystem::path& corpus, CorpusCheck ch
       cases.push_back(
           properties::case_of_query(one.query, fmt::format("{}-{}", name, cases.size())));
   };
-  BOOST_OUTCOME_TRY(named, properties::named_queries(corpus));
-  take(named, "named-query");
+  BOOST_OUTCOME_TRY(query_list, properties::named_queries(corpus));
+  take(query_list, "named-query");
   check.judge("named queries", cases);
   const auto file = corpus / "queries" / "example_vf.csv";
   BOOST_OUTCOME_TRY(queries, corpus::read_queries(file));
@@ -212,11 +212,11 @@ Expected<void> judge_queries(const std::filesystem::path& corpus, CorpusCheck ch
 }
 
 Expected<void> judge_shipped(const properties::CampaignRequest& request,
-                             const std::filesystem::path& corpus, JudgedCorpus& judged) {
-  if (request.detector.of_queries) return judge_queries(corpus, {request, judged});
+                             const std::filesystem::path& corpus, JudgedCorpus& result) {
+  if (request.detector.of_queries) return judge_queries(corpus, {request, result});
   BOOST_OUTCOME_TRY(files, corpus::case_files(corpus / "curated"));
   BOOST_OUTCOME_TRY(cases, read_cases(files));
-  CorpusCheck check(request, judged);
+  CorpusCheck check(request, result);
   if (request.detector.built_in) {
     std::vector<JudgedSource> rows;
     for (const auto culling : all_values<Culling>) {
@@ -231,7 +231,7 @@ Expected<void> judge_shipped(const properties::CampaignRequest& request,
     check.judge(std::string(scene.name), {c});
   }
   if (request.detector.query_claims == properties::Claims()) return outcome::success();
-  return judge_queries(corpus, {request, judged});
+  return judge_queries(corpus, {request, result});
 }
 
 using detector::Options;
@@ -240,39 +240,39 @@ using properties::SpeedFigure;
 constexpr int rounds = 9;
 
 // The time of the last step by the first options over that by the second, measured in turn.
-SpeedFigure figure_of(std::string_view name, const corpus::Sequence& steps, const Options& measured,
+SpeedFigure figure_of(std::string_view name, const corpus::Sequence& steps, const Options& options,
                       const Options& beside) {
-  const auto timed = timed_case(std::string(name), steps, detector::Start::clean);
-  const SweptSubject subjects[] = {{nullptr, {"", measured}}, {nullptr, {"", beside}}};
-  const auto runs = sweep(timed.c, subjects, {.rounds = rounds, .is_warm = true});
+  const auto bench_case = timed_case(std::string(name), steps, detector::Start::clean);
+  const SweptSubject subjects[] = {{nullptr, {"", options}}, {nullptr, {"", beside}}};
+  const auto runs = sweep(bench_case.c, subjects, {.rounds = rounds, .is_warm = true});
   const auto last = steps.frames.size() - 2;
   const Estimate ratio = ratio_of(runs[0].of_step(last), runs[1].of_step(last));
-  return {timed.c.id, ratio.value, ratio.lo, ratio.hi, ratio.samples};
+  return {bench_case.c.id, ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
 
 }  // namespace
 
 Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
                                     const std::filesystem::path& shipped) {
-  JudgedCorpus judged;
+  JudgedCorpus result;
   fmt::print(row_format, "input", "configuration", "cases", "steps", "collisions", "pairs",
              "defects");
   if (!shipped.empty()) {
-    BOOST_OUTCOME_TRY(judge_shipped(request, shipped, judged));
+    BOOST_OUTCOME_TRY(judge_shipped(request, shipped, result));
   }
   if (request.own_cases)
-    CorpusCheck(request, judged).judge(name_of(Source::own), request.own_cases->cases, Source::own);
+    CorpusCheck(request, result).judge(name_of(Source::own), request.own_cases->cases, Source::own);
   fmt::print("\n");
-  return judged;
+  return result;
 }
 
 std::vector<SpeedFigure> measure_speed() {
   fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
   std::vector<SpeedFigure> figures;
   const auto measure = [&](std::size_t figure, const corpus::Sequence& steps,
-                           const Options& measured, const Options& beside) {
+                           const Options& options, const Options& beside) {
     const auto& of =
-        figures.emplace_back(figure_of(properties::speed_figures[figure], steps, measured, beside));
+        figures.emplace_back(figure_of(properties::speed_figures[figure], steps, options, beside));
     fmt::print("{:<24} {:>9.4f} {:>19}\n", of.name, of.median,
                fmt::format("[{:.4f}, {:.4f}]", of.lo, of.hi));
     std::fflush(stdout);
@@ -298,9 +298,9 @@ Expected<std::filesystem::path> shipped_corpus() {
   const auto is_corpus = [&](const fs::path& folder) {
     return fs::is_directory(folder / "curated", error);
   };
-  if (const char* named = std::getenv("ASSAY_CORPUS"); named && *named) {
-    if (is_corpus(named)) return fs::path(named);
-    return Problem{fmt::format("ASSAY_CORPUS is {}: it holds no curated/", named)};
+  if (const char* variable = std::getenv("ASSAY_CORPUS"); variable && *variable) {
+    if (is_corpus(variable)) return fs::path(variable);
+    return Problem{fmt::format("ASSAY_CORPUS is {}: it holds no curated/", variable)};
   }
   const auto programs = properties::program_folder();
   // Installed, then as it was built.

@@ -91,7 +91,7 @@ Json inputs_json(const RunFindings& findings, Source source) {
   for (const auto& row : findings.evidence.rows_of(source)) {
     const auto facts = facts_of(row);
     Json& input = inputs.emplace_back();
-    std::istringstream words(row_of(source).shown);
+    std::istringstream words(row_of(source).shown_text);
     for (std::string word; words >> word;)
       input[word.substr(0, word.find('='))] = facts[word.substr(word.find('=') + 1)];
   }
@@ -99,17 +99,17 @@ Json inputs_json(const RunFindings& findings, Source source) {
 }
 
 template <class T>
-Json named(const char* key, const std::string& name, const T& evidence) {
+Json with_name(const char* key, const std::string& name, const T& evidence) {
   Json json = {{key, name}};
   json.update(facts_of(evidence));
   return json;
 }
 
 Json fault_json(const properties::FaultProof& proof) {
-  Json fault = named("fault", proof.fault, proof);
+  Json fault = with_name("fault", proof.fault, proof);
   const auto* registered = properties::find_fault(proof.fault);
   fault["about"] = registered ? Json(registered->about) : Json(nullptr);
-  fault["found"] = proof.found();
+  fault["found"] = proof.is_found();
   fault["found_at_random"] = proof.found_at_random();
   fault["median_cases"] = or_null(proof.median());
   return fault;
@@ -184,9 +184,9 @@ Json strata_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& stratum : findings.run.plan.strata) {
     const auto& tally = findings.tally_of(stratum);
-    const double wanted = stratum.wanted_bound;
+    const double bound = stratum.wanted_bound;
     list.push_back({{"family", stratum.family},
-                    {"planned", findings.planned(stratum)},
+                    {"planned", findings.quota(stratum)},
                     {"trials", tally.trials},
                     {"discards", tally.discards},
                     {"with_contact", tally.measures.contact_trials},
@@ -198,7 +198,7 @@ Json strata_json(const RunFindings& findings) {
                     {"measures", findings.run.detector.built_in ? Json(nullptr)
                                                                 : measures_json(tally.measures)},
                     {"risk", risk_in(stratum, findings.run)},
-                    {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
+                    {"wanted_bound", bound > 0 ? Json(bound) : Json(nullptr)},
                     {"agree", configurations_agree(findings, stratum)},
                     {"bounds", bounds_json(findings, stratum)}});
   }
@@ -239,13 +239,13 @@ Json tried_json(const RunFindings& findings) {
 
 // The canaries, the planted faults and the proved worlds.
 Json power_json(const RunFindings& findings) {
-  const auto& taken = findings.evidence.power;
+  const auto& power = findings.evidence.power;
   return {{"canaries", each(findings.evidence.canaries, facts_of<properties::Canary>)},
-          {"taken_from", taken.empty() ? Json(nullptr) : facts_of(taken.front())},
-          {"planted", findings.planted()},
-          {"found", findings.found()},
+          {"taken_from", power.empty() ? Json(nullptr) : facts_of(power.front())},
+          {"planted", findings.faults()},
+          {"found", findings.finds()},
           {"found_at_random", findings.found_at_random()},
-          {"found_by_curated_case_alone", findings.found() - findings.found_at_random()},
+          {"found_by_curated_case_alone", findings.finds() - findings.found_at_random()},
           {"faults", each(findings.evidence.faults, fault_json)},
           {"worlds", each(findings.evidence.worlds, world_json)}};
 }
@@ -263,15 +263,15 @@ Json self_test_json(const RunFindings& findings) {
 
 // How many cases the search asked, and what it found; null if the campaign has none.
 Json search_json(const RunFindings& findings) {
-  const auto planned = findings.shares_of(findings.run.plan.search);
-  if (planned == 0) return nullptr;
+  const auto cases = findings.shares_of(findings.run.plan.search);
+  if (cases == 0) return nullptr;
   const auto sum = findings.evidence.sum_of(Source::search);
-  return {{"planned", planned},
+  return {{"planned", cases},
           {"lanes", findings.evidence.rows_of(Source::search).size()},
           {"cases", sum.cases},
           {"defects", sum.defects},
           {"found", std::ranges::count(findings.kinds(), Source::search,
-                                       &properties::StoredFailure::source)},
+                                       &properties::FailureRecord::source)},
           {"causes", sum.causes}};
 }
 
@@ -279,7 +279,7 @@ Json search_json(const RunFindings& findings) {
 Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
   const bool is_issued = issued && !issued->at.empty();
-  const auto figure = [](const auto& of) { return named("what", of.name, of); };
+  const auto figure = [](const auto& of) { return with_name("what", of.name, of); };
   const auto stratum = [](const auto& of) -> Json {
     return {{"family", of.first},
             {"oracle_us", of.second.oracle_us},
@@ -309,7 +309,7 @@ Json failures_json(const RunFindings& findings) {
     const auto name = properties::failure_file(*failure, is_shrunk);
     const auto& mesh = is_shrunk ? failure->smallest : failure->mesh;
     list.push_back({{"signature", failure->signature()},
-                    {"claim", failure->broken()},
+                    {"claim", failure->rule()},
                     {"configuration", failure->shown_configuration()},
                     {"met", findings.met_count(*failure)},
                     {"flaky", failure->flaky},
@@ -337,11 +337,11 @@ Json failure_groups_json(const RunFindings& findings) {
 // The isolation that held for everything, in every run.
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
-  const auto& told = findings.evidence.isolation;
+  const auto& rows = findings.evidence.isolation;
   const auto is_behind_bubblewrap = [](const properties::PluginIsolation& run) {
     return run.got == name_of(properties::Isolation::bubblewrap);
   };
-  return text_of(!told.empty() && std::all_of(told.begin(), told.end(), is_behind_bubblewrap)
+  return text_of(!rows.empty() && std::all_of(rows.begin(), rows.end(), is_behind_bubblewrap)
                      ? properties::Isolation::bubblewrap
                      : properties::Isolation::limits);
 }
@@ -403,7 +403,7 @@ Json replay_json(const RunFindings& findings) {
 // Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
 // a folder. The result is what will be read back from the file.
 Json for_any_reader(const RunFindings& findings, Json predicate) {
-  ToldPaths(findings).tell_in(predicate);
+  RunPaths(findings).tell_in(predicate);
   return Json::parse(corpus::json_text(predicate));
 }
 
@@ -419,8 +419,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
       {"schema", certificate_schema},
       {"verdict", judgement.verdict},
       {"exit_code", judgement.exit_code},
-      {"failed_gate",
-       judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
+      {"failed_gate", judgement.failed_gate ? Json(properties::rule_of(*judgement.failed_gate).name)
+                                            : Json(nullptr)},
       {"gates", gates_json(judgement)},
       {"detector", json_of(findings.run.detector)},
       {"not_judged", fields_of_each(properties::not_judged(findings))},
@@ -440,7 +440,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
   for (const auto& row : properties::all_rows<Source>)
     if (*row.section)
       predicate[row.section] =
-          *row.shown ? inputs_json(findings, row.value) : search_json(findings);
+          *row.shown_text ? inputs_json(findings, row.value) : search_json(findings);
   predicate.update(Json{{"failures", failures_json(findings)},
                         {"failure_groups", failure_groups_json(findings)},
                         {"replay", replay_json(findings)},

@@ -27,9 +27,9 @@ using properties::RunFindings;
 
 // Whether the stores are bound to the plan. The times of the plan do not count for that.
 bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& plan) {
-  auto bound = plan;
-  bound.seconds = bound.shrink_share = bound.tetrahedron_seconds = 0;
-  return plan_text(bound) == plan_text(findings.run.plan);
+  auto json = plan;
+  json.seconds = json.shrink_share = json.tetrahedron_seconds = 0;
+  return plan_text(json) == plan_text(findings.run.plan);
 }
 
 // The subject is the library of a plug-in. For the built-in detector it is the program that holds
@@ -115,18 +115,18 @@ properties::Expected<Json> make_statement(const RunFindings& findings) {
 
 std::string statement_text(const Json& statement) { return corpus::json_text(statement, 1) + "\n"; }
 
-ToldPaths::ToldPaths(const properties::RunFindings& findings) {
-  const auto& stored = findings.evidence.issued;
-  const auto folder = stored ? stored->out : findings.folder.string();
+RunPaths::RunPaths(const properties::RunFindings& findings) {
+  const auto& issue = findings.evidence.issued;
+  const auto folder = issue ? issue->out : findings.folder.string();
   const std::filesystem::path whole = absolute_path(std::filesystem::path(folder) / "");
   if (!folder.empty() && whole != whole.root_path()) folder_ = whole.string();
-  for (const auto& path : {findings.library, stored ? stored->detector : "",
-                           stored ? stored->own_cases : "", stored ? stored->data : ""}) {
+  for (const auto& path : {findings.library, issue ? issue->detector : "",
+                           issue ? issue->own_cases : "", issue ? issue->data : ""}) {
     if (std::filesystem::path(path).is_absolute()) others_.insert({path, absolute_path(path)});
   }
 }
 
-std::string ToldPaths::told(const std::string& path) const {
+std::string RunPaths::relative(const std::string& path) const {
   const std::filesystem::path whole = absolute_path(path);
   if (whole.is_relative() || folder_.empty()) return path;
   const auto from = std::filesystem::path(folder_).parent_path();
@@ -136,7 +136,7 @@ std::string ToldPaths::told(const std::string& path) const {
                                                            : whole.filename().string();
 }
 
-void ToldPaths::tell_in(nlohmann::ordered_json& json) const {
+void RunPaths::tell_in(nlohmann::ordered_json& json) const {
   if (json.is_structured()) {
     for (auto& part : json) tell_in(part);
   } else if (json.is_string()) {
@@ -144,10 +144,10 @@ void ToldPaths::tell_in(nlohmann::ordered_json& json) const {
   }
 }
 
-void ToldPaths::tell_in(std::string& text) const {
+void RunPaths::tell_in(std::string& text) const {
   for (const auto& path : others_) {
-    replace_all(text, shell_word(path), shell_word(told(path)));
-    replace_all(text, path, told(path));
+    replace_all(text, shell_word(path), shell_word(relative(path)));
+    replace_all(text, path, relative(path));
   }
   if (!folder_.empty()) replace_all(text, folder_, "");
 }
@@ -168,7 +168,7 @@ Expected<int> issue_certificate(const properties::RunFindings& findings,
       findings_text(findings, predicate), gates_text(judgement), judgement.verdict, took,
       certificate, judged_text(predicate),
       findings.is_whole() ? "" : "verify DIR... --out DIR judges it together with other shares\n",
-      line_to_paste("verify " + shell_word(certificate), PastedIn::this_folder));
+      line_to_paste("verify " + shell_word(certificate), PastePlace::this_folder));
   return judgement.exit_code;
 }
 
@@ -177,33 +177,33 @@ Expected<int> judge_together(const std::vector<std::string>& folders, const std:
   BOOST_OUTCOME_TRY(campaign, corpus::read_bytes(properties::campaign_file(folders.front())));
   BOOST_OUTCOME_TRY(
       may_keep_run(out, {"campaign.json", "certificate.json", "junit.xml", "summary.md"}));
-  std::set<std::filesystem::path> expected, added;
+  std::set<std::filesystem::path> outputs, additions;
   for (const auto& [copy, store] : copies) {
     std::error_code ignored;
-    expected.insert(copy);
-    if (!std::filesystem::exists(copy, ignored)) added.insert(copy);
+    outputs.insert(copy);
+    if (!std::filesystem::exists(copy, ignored)) additions.insert(copy);
   }
-  BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, expected));
+  BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, outputs));
   auto findings = copied(copies, out);
   if (!findings) {
     std::error_code ignored;
-    for (const auto& copy : added) std::filesystem::remove(copy, ignored);
+    for (const auto& copy : additions) std::filesystem::remove(copy, ignored);
     return findings.error();
   }
   BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out).string(), campaign));
-  const auto& found = findings.value();
+  const auto& all = findings.value();
   // A failure of the corpus is the same in all runs, and so is the name of its file. The first has
   // the smallest mesh.
-  std::vector<properties::StoredFailure> failures;
+  std::vector<properties::FailureRecord> failures;
   std::set<std::pair<std::string, std::string>> names;
-  for (const auto& failure : found.failures) {
+  for (const auto& failure : all.failures) {
     if (names.emplace(failure.id(), failure.shown_configuration()).second)
       failures.push_back(failure);
   }
   std::string text;
-  BOOST_OUTCOME_TRY(write_failures({failures, found.times_met}, out, detector_of(found), text));
-  fmt::print("\n{} runs of campaign {}\n{}", copies.size(), found.run.plan.name, text);
-  return issue_certificate(found, campaign, "");
+  BOOST_OUTCOME_TRY(write_failures({failures, all.times_met}, out, detector_of(all), text));
+  fmt::print("\n{} runs of campaign {}\n{}", copies.size(), all.run.plan.name, text);
+  return issue_certificate(all, campaign, "");
 }
 
 }  // namespace assay::reports

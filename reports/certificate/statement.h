@@ -45,10 +45,10 @@ std::string statement_text(const nlohmann::ordered_json& statement);
 
 // Lines are for the run's own folder, as it was when the run was stored. A path is told as it goes
 // from there, or by its last name where it goes through the root.
-class ToldPaths {
+class RunPaths {
  public:
-  explicit ToldPaths(const properties::RunFindings& findings);
-  std::string told(const std::string& path) const;
+  explicit RunPaths(const properties::RunFindings& findings);
+  std::string relative(const std::string& path) const;
   // Tells all paths so in each text of `json`.
   void tell_in(nlohmann::ordered_json& json) const;
 
@@ -116,11 +116,11 @@ Expected<properties::TrialsAgain> run_certified_again(
 
 // Verdict, gates, strata, power, failures with their replay lines. Equal predicates give equal
 // bytes. `begun`: when a run without a certificate was begun; empty: not known.
-std::string summary_text(const nlohmann::ordered_json& predicate, const std::string& begun = "");
+std::string summary_text(const nlohmann::ordered_json& predicate, const std::string& begin = "");
 
 // Writes OUT/junit.xml and OUT/summary.md for CI systems. Fails if one cannot be written.
 Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
-                            const std::filesystem::path& out, const std::string& begun = "");
+                            const std::filesystem::path& out, const std::string& begin = "");
 
 // What a predicate is about, because a verdict says no more than what was claimed: "claims
 // free-sound, total; not judged: no-spurious (the contract has a margin), its elementary query;

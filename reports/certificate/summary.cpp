@@ -22,10 +22,10 @@ using Json = nlohmann::ordered_json;
 // Writes a text as words of a paragraph or of a cell of a table. What a plug-in says becomes
 // neither HTML nor a link, a picture or code.
 std::string cell(const std::string& text) {
-  static const std::map<char, std::string_view> written = {
+  static const std::map<char, std::string_view> replacements = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'\\', "\\\\"}, {'|', "\\|"},
       {'`', "\\`"},   {'*', "\\*"},  {'[', "\\["},  {']', "\\]"},   {'\n', " "}};
-  return replaced(text, written);
+  return replace(text, replacements);
 }
 std::string cell(const Json& word) { return cell(word.get<std::string>()); }
 std::uint64_t count(const Json& number) { return number.get<std::uint64_t>(); }
@@ -56,11 +56,11 @@ std::string strata_text(const Json& p) {
       undecided += count(row["undecided"]) + count(row["errors"]);
       bound = std::max(bound, row["bound"].get<double>());
     }
-    const auto& wanted = stratum["wanted_bound"];
+    const auto& goal = stratum["wanted_bound"];
     out += fmt::format("| {} | {} of {} | {} | {} | {} | {} | {:.2e} | {} |\n",
                        cell(stratum["family"]), count(stratum["trials"]), count(stratum["planned"]),
                        count(stratum["distinct"]), count(stratum["discards"]), defects, undecided,
-                       bound, wanted.is_null() ? "-" : fmt::format("{:.0e}", wanted.get<double>()));
+                       bound, goal.is_null() ? "-" : fmt::format("{:.0e}", goal.get<double>()));
   }
   return out;
 }
@@ -113,14 +113,14 @@ std::string claims_text(const Json& p) {
   const auto& configurations = p["detector"]["configurations"];
   if (p["detector"]["built_in"].get<bool>())
     return fmt::format("what each of {} configurations claims", configurations.size());
-  std::vector<std::string> judged, others;
+  std::vector<std::string> judged_texts, others;
   for (const auto& claim : configurations[0]["claims"]) {
     const auto word = claim.get<std::string>();
     std::string reason;
     for (const auto& one : p["not_judged"]) {
       if (one["claim"] == word) reason = one["reason"].get<std::string>();
     }
-    reason.empty() ? judged.push_back(word)
+    reason.empty() ? judged_texts.push_back(word)
                    : others.push_back(fmt::format("{} ({})", word, reason));
   }
   for (const auto& part : p["detector"]["unjudged_parts"])
@@ -131,9 +131,9 @@ std::string claims_text(const Json& p) {
   const auto on_queries = p["detector"]["query_claims"].get<std::vector<std::string>>();
   const bool has_both = !on_queries.empty() && !p["judged_up_to"].empty();
   return fmt::format("claims {}{}{}",
-                     judged.empty() ? "nothing that was judged" : joined(judged, ", "),
-                     has_both ? "; of its elementary query " + joined(on_queries, ", ") : "",
-                     others.empty() ? "" : "; not judged: " + joined(others, ", "));
+                     judged_texts.empty() ? "nothing that was judged" : join(judged_texts, ", "),
+                     has_both ? "; of its elementary query " + join(on_queries, ", ") : "",
+                     others.empty() ? "" : "; not judged: " + join(others, ", "));
 }
 
 // "seed 3, share 1/8", "seeds 1, 2, 3".
@@ -141,7 +141,7 @@ std::string seeds_text(const Json& parts) {
   std::vector<std::string> seeds;
   for (const auto& part : parts) seeds.push_back(cell(part["seed"].dump()));
   const auto share = parts[0]["share"].get<std::string>();
-  return fmt::format("seed{} {}{}", seeds.size() == 1 ? "" : "s", joined(seeds, ", "),
+  return fmt::format("seed{} {}{}", seeds.size() == 1 ? "" : "s", join(seeds, ", "),
                      seeds.size() > 1 || share == "1/1" ? "" : ", share " + share);
 }
 
@@ -236,15 +236,15 @@ std::string suite_text(const char* name, const Tests& tests) {
 
 }  // namespace
 
-std::string summary_text(const Json& p, const std::string& begun) {
+std::string summary_text(const Json& p, const std::string& begin) {
   const auto& power = p["power"];
   std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
   out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
   const auto& issued = p["times"]["issued"];
   if (!issued.is_null()) {
     out += fmt::format(" Issued {}.", cell(issued));
-  } else if (!begun.empty()) {
-    out += fmt::format(" Begun {}.", cell(begun));
+  } else if (!begin.empty()) {
+    out += fmt::format(" Begun {}.", cell(begin));
   }
   if (count(power["planted"]) > 0)
     out += fmt::format(" {} of {} planted faults found: {}.", count(power["found"]),
@@ -266,10 +266,10 @@ std::string summary_text(const Json& p, const std::string& begun) {
 }
 
 Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
-                            const std::string& begun) {
-  auto written = write_text_file((out / "junit.xml").string(), junit_text(predicate));
-  if (!written) return written;
-  return write_text_file((out / "summary.md").string(), summary_text(predicate, begun));
+                            const std::string& begin) {
+  auto status = write_text_file((out / "junit.xml").string(), junit_text(predicate));
+  if (!status) return status;
+  return write_text_file((out / "summary.md").string(), summary_text(predicate, begin));
 }
 
 std::string judged_text(const Json& p) {
@@ -278,7 +278,7 @@ std::string judged_text(const Json& p) {
   const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
       "{}{}; contract {}{}; campaign {}, {}{}{}", claims_text(p), sizes.empty() ? "" : "; " + sizes,
-      phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
+      phrases.empty() ? "leaves nothing out" : join(phrases, ", "),
       p["isolation"].is_null() ? ""
                                : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
       p["campaign"]["name"].get<std::string>(), seeds_text(p["campaign"]["parts"]),

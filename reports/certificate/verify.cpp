@@ -28,28 +28,28 @@ bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
 // Reports each leaf that only one side has, or that differs. A side that has nothing at this place
 // is null. Equal parts are passed over as a whole, so that no place is named in vain.
-void compare_fields(const Json* stated, const Json* computed, const Json::json_pointer& place,
+void compare_fields(const Json* theirs, const Json* ours, const Json::json_pointer& place,
                     Lines& lines) {
-  const bool has_both = stated != nullptr && computed != nullptr;
-  if (has_both && *stated == *computed) return;
-  if ((stated == nullptr || is_leaf(*stated)) && (computed == nullptr || is_leaf(*computed)))
+  const bool has_both = theirs != nullptr && ours != nullptr;
+  if (has_both && *theirs == *ours) return;
+  if ((theirs == nullptr || is_leaf(*theirs)) && (ours == nullptr || is_leaf(*ours)))
     return lines.push_back(
         fmt::format("{}: {}, {}", place.to_string(),
-                    stated ? json_text(*stated) + " is stated" : "is not stated",
-                    computed ? json_text(*computed) + " is computed" : "nothing of it is stored"));
-  if (has_both && stated->type() != computed->type()) {
-    compare_fields(stated, nullptr, place, lines);
-    compare_fields(nullptr, computed, place, lines);
+                    theirs ? json_text(*theirs) + " is stated" : "is not stated",
+                    ours ? json_text(*ours) + " is computed" : "nothing of it is stored"));
+  if (has_both && theirs->type() != ours->type()) {
+    compare_fields(theirs, nullptr, place, lines);
+    compare_fields(nullptr, ours, place, lines);
     return;
   }
   const auto part_of = [](const Json* whole, const Json::json_pointer& name) {
     return whole != nullptr && whole->contains(name) ? &whole->at(name) : nullptr;
   };
   const Json nothing = Json::object();
-  for (const auto& [name, value] : (stated == nullptr ? nothing : *stated).items())
-    compare_fields(&value, part_of(computed, Json::json_pointer() / name), place / name, lines);
-  for (const auto& [name, value] : (computed == nullptr ? nothing : *computed).items()) {
-    if (part_of(stated, Json::json_pointer() / name) == nullptr)
+  for (const auto& [name, value] : (theirs == nullptr ? nothing : *theirs).items())
+    compare_fields(&value, part_of(ours, Json::json_pointer() / name), place / name, lines);
+  for (const auto& [name, value] : (ours == nullptr ? nothing : *ours).items()) {
+    if (part_of(theirs, Json::json_pointer() / name) == nullptr)
       compare_fields(nullptr, &value, place / name, lines);
   }
 }
@@ -88,35 +88,35 @@ Expected<Json> read_certificate(const std::filesystem::path& certificate) {
   if (!std::filesystem::is_regular_file(certificate, ignored))
     return Problem{fmt::format("{}: no such file", certificate.string())};
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(certificate));
-  BOOST_OUTCOME_TRY(stated, corpus::parse_json(bytes, certificate));
-  if (!stated.is_object())
+  BOOST_OUTCOME_TRY(statement, corpus::parse_json(bytes, certificate));
+  if (!statement.is_object())
     return Problem{fmt::format("{}: is no JSON object", certificate.string())};
-  if (const auto older = other_schema(stated))
+  if (const auto older = other_schema(statement))
     return Problem{
         fmt::format("{}: of schema {}, this assay verifies {}: verify it with the assay "
                     "that issued it",
                     certificate.string(), *older, certificate_schema)};
-  return std::move(stated);
+  return std::move(statement);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& certificate) {
   return certificate.has_parent_path() ? certificate.parent_path() : ".";
 }
 
-void compare(const std::filesystem::path& certificate, const properties::Expected<Json>& made,
-             Verification& result) {
+void compare(const std::filesystem::path& certificate,
+             const properties::Expected<Json>& result_of_stores, Verification& result) {
   auto& lines = result.differences;
-  if (!made) {
-    lines.push_back(made.error().message);
+  if (!result_of_stores) {
+    lines.push_back(result_of_stores.error().message);
     return;
   }
   const auto folder = folder_of(certificate);
-  const Json& computed = made.value();
-  compare_fields(&result.statement, &computed, Json::json_pointer(), lines);
+  const Json& ours = result_of_stores.value();
+  compare_fields(&result.statement, &ours, Json::json_pointer(), lines);
   // The bytes of the file are compared as well, because a compressed certificate would be read
   // like its contents, and assay writes none.
-  if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(computed)), lines);
-  const auto& predicate = computed["predicate"];
+  if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(ours)), lines);
+  const auto& predicate = ours["predicate"];
   std::set<std::filesystem::path> looked_at = {certificate, properties::campaign_file(folder)};
   const auto look_at = [&](const std::string& name, const std::string& sha256) {
     compare_file(folder / name, sha256, lines);
@@ -143,19 +143,19 @@ using properties::BoundRun;
 // Finds the library of the plug-in and checks that it is the certified one, before any of its code
 // runs.
 Expected<std::string> certified_library(const properties::RunFindings& findings,
-                                        const std::string& named,
-                                        std::shared_ptr<const properties::JudgedLibrary>& judged) {
+                                        const std::string& word,
+                                        std::shared_ptr<const properties::JudgedLibrary>& files) {
   const auto& run = findings.run;
   if (run.detector.built_in) {
-    if (!named.empty())
+    if (!word.empty())
       return Problem{"--detector: the certificate is of the built-in detector, not of a plug-in"};
     return std::string();
   }
-  const auto library = named.empty() ? findings.library : named;
+  const auto library = word.empty() ? findings.library : word;
   if (library.empty())
     return Problem{"the stores do not say where the plug-in lies: name it by --detector"};
-  judged = properties::JudgedLibrary::of(library, properties::worker_program());
-  BOOST_OUTCOME_TRY(digest, judged->digest());
+  files = properties::JudgedLibrary::of(library, properties::worker_program());
+  BOOST_OUTCOME_TRY(digest, files->digest());
   if (digest != run.digests.plugin)
     return Problem{
         fmt::format("{}: not the library that was certified: its SHA-256 is {}, {} is "
@@ -185,9 +185,9 @@ std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder
 }
 
 std::string sent_alone(const std::filesystem::path& certificate) {
-  const auto read = read_certificate(certificate);
-  if (!read) return "";
-  if (const auto schema = read.value().find("schema"); schema != read.value().end())
+  const auto statement = read_certificate(certificate);
+  if (!statement) return "";
+  if (const auto schema = statement.value().find("schema"); schema != statement.value().end())
     return fmt::format(
         "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
         "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
@@ -201,24 +201,24 @@ std::string sent_alone(const std::filesystem::path& certificate) {
 }
 
 Verification verify_certificate(const std::filesystem::path& certificate) {
-  auto read = read_certificate(certificate);
-  if (!read) return {{read.error().message}, nullptr};
-  Verification result{{}, std::move(read.value())};
+  auto statement = read_certificate(certificate);
+  if (!statement) return {{statement.error().message}, nullptr};
+  Verification result{{}, std::move(statement.value())};
   compare(certificate, make_statement(folder_of(certificate)), result);
   return result;
 }
 
 Expected<properties::TrialsAgain> run_certified_again(
-    const std::filesystem::path& folder, const AgainRequest& asked,
+    const std::filesystem::path& folder, const AgainRequest& terms,
     const std::function<void(const properties::TrialProgress&)>& progress) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   const auto& run = findings.run;
-  std::shared_ptr<const properties::JudgedLibrary> judged;
-  BOOST_OUTCOME_TRY(library, certified_library(findings, asked.detector.library, judged));
+  std::shared_ptr<const properties::JudgedLibrary> files;
+  BOOST_OUTCOME_TRY(library, certified_library(findings, terms.detector.library, files));
   properties::CampaignRequest request;
   request.plan = run.plan;
-  request.jobs = asked.jobs;
-  const DetectorWords words{library, asked.detector.isolation, run.detector.threads,
+  request.jobs = terms.jobs;
+  const DetectorWords words{library, terms.detector.isolation, run.detector.threads,
                             part_asked_by(run.plan)};
   BOOST_OUTCOME_TRY(subject, choose_detector(words));
   static_cast<properties::Subject&>(request) = std::move(subject);
@@ -228,7 +228,7 @@ Expected<properties::TrialsAgain> run_certified_again(
     return Problem{
         fmt::format("{}: its trials cannot be run again: {}", folder.string(), difference)};
   BOOST_OUTCOME_TRY(again,
-                    properties::run_again(request, folder, asked.share, asked.seed, progress));
+                    properties::run_again(request, folder, terms.share, terms.seed, progress));
   return std::move(again);
 }
 

@@ -17,37 +17,37 @@ using properties::Outcome;
 namespace {
 
 // The outcome names only claims that were judged.
-std::string claims_text(const std::vector<std::string>& held,
+std::string claims_text(const std::vector<std::string>& held_claims,
                         const std::vector<properties::NotJudged>& not_judged) {
   if (not_judged.empty()) return "; all claims hold\n";
-  if (held.empty()) return "; no claim was judged\n";
-  return fmt::format("; {} hold{}\n", joined(held, ", "), held.size() == 1 ? "s" : "");
+  if (held_claims.empty()) return "; no claim was judged\n";
+  return fmt::format("; {} hold{}\n", join(held_claims, ", "), held_claims.size() == 1 ? "s" : "");
 }
 
 }  // namespace
 
 std::vector<ClaimResult> CheckOutcome::claim_results() const {
   using State = ClaimResult::State;
-  std::map<std::string, std::string> broken;
+  std::map<std::string, std::string> texts;
   for (const auto& [claim, step] : first_broken)
-    broken[name_of(claim)] = fmt::format("first in step {}", step + 1);
+    texts[name_of(claim)] = fmt::format("first in step {}", step + 1);
   std::vector<ClaimResult> results;
   const auto add = [&](const std::string& claim, State state, const std::string& why) {
-    const auto found = broken.find(claim);
-    if (found == broken.end()) {
+    const auto text = texts.find(claim);
+    if (text == texts.end()) {
       results.push_back({claim, state, why});
     } else {
-      results.push_back({claim, State::broken, found->second});
+      results.push_back({claim, State::broken, text->second});
     }
   };
-  for (const auto& claim : held)
+  for (const auto& claim : held_claims)
     add(claim, undecided ? State::undecided : State::holds, undecided ? "undecided" : "");
   for (const auto& [claim, reason] : not_judged) add(claim, State::not_judged, reason);
   return results;
 }
 
 std::string CheckOutcome::summary() const {
-  std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
+  std::string text = undecided || !ending.empty() ? "no collision found so far" : "no collision";
   if (!has_answers) text = "candidate pairs";
   if (collision_step) {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
@@ -60,19 +60,19 @@ std::string CheckOutcome::summary() const {
         "the oracle finds a contact at t = {} of step {}, which has no answer that "
         "can be judged",
         time_text(unanswered_time), *unanswered_step + 1);
-    if (!unanswered_error.empty() && unanswered_error != ended) text += ": " + unanswered_error;
+    if (!unanswered_error.empty() && unanswered_error != ending) text += ": " + unanswered_error;
   }
   if (unsound) {
     text += "; UNSOUND: oracle and second opinion contradict each other\n";
   } else if (defect) {
-    text += fmt::format("; DEFECT: {}\n", facts_differ     ? "the case's expected facts do not hold"
-                                          : !ended.empty() ? ended
-                                                           : "detector and oracle differ");
+    text += fmt::format("; DEFECT: {}\n", facts_differ ? "the case's expected facts do not hold"
+                                          : !ending.empty() ? ending
+                                                            : "detector and oracle differ");
   } else if (undecided) {
     text +=
-        fmt::format("; undecided: {}\n", !ended.empty()           ? ended
+        fmt::format("; undecided: {}\n", !ending.empty()          ? ending
                                          : !limit_reached.empty() ? limit_reached + " reached"
-                                         : !lost.empty()          ? "a part of the input is lost"
+                                         : !losses.empty()        ? "a part of the input is lost"
                                          : is_judged && judged_steps == 0 ? "no step was judged"
                                                                           : "a step is undecided");
   } else if (!is_judged) {
@@ -83,7 +83,7 @@ std::string CheckOutcome::summary() const {
     text += fmt::format("; no claim is broken, and the contact of step {} is missed\n",
                         *first_missed + 1);
   } else {
-    text += claims_text(held, not_judged);
+    text += claims_text(held_claims, not_judged);
   }
   for (const auto& [claim, reason] : not_judged)
     text += fmt::format("not judged: {}, for {}\n", claim, reason);
@@ -126,11 +126,11 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"arithmetic", tested["arithmetic"]},
           {"separation", answers.under_test().contract.separation},
           {"detector", tested["detector"]},
-          {"detector_ended", or_null(outcome.ended)},
+          {"detector_ended", or_null(outcome.ending)},
           {"judged", outcome.is_judged},
           {"outcome", outcome.word()},
           {"limit_reached", or_null(outcome.limit_reached)},
-          {"lost", outcome.lost},
+          {"lost", outcome.losses},
           {"peak_memory_bytes", peak_resident_bytes()},
           {"times_ms", {{"create", create_ms ? Json(*create_ms) : Json()}}},
           {"steps", std::move(steps)}};
@@ -145,7 +145,7 @@ void CheckOutcome::judge_claims(const properties::DetectorUnderTest& plugin,
                                 std::size_t steps_left_out) {
   measures.steps_left_out = steps_left_out;
   not_judged = properties::not_judged(plugin.claims, plugin.contract, measures);
-  held = words_of(without(plugin.claims, not_judged));
+  held_claims = words_of(without(plugin.claims, not_judged));
 }
 
 }  // namespace assay::reports

@@ -62,23 +62,23 @@ class CheckRun {
         const bool is_left_out = json.has_value();
         if (!is_left_out) json = run_step(s, step);
         if (question_.wants_report && !json->is_null()) steps.push_back(std::move(*json));
-        if (refused_) return Problem{*refused_};
+        if (refusal_) return Problem{*refusal_};
         if (outcome_.unsound) break;
       }
       if (has_facts() && !outcome_.undecided) check_facts();
     }
-    outcome_.limit_reached = limits_.reached();
-    outcome_.lost = steps_.lost();
+    outcome_.limit_reached = limits_.limit_text();
+    outcome_.losses = steps_.lost();
     const bool lacks_steps =
         answers_.is_recorded() && outcome_.is_judged && outcome_.judged_steps == 0;
-    outcome_.undecided |= !outcome_.lost.empty() || lacks_steps;
+    outcome_.undecided |= !outcome_.losses.empty() || lacks_steps;
     constexpr std::size_t most_told = 20;
-    for (std::size_t i = 0; i < std::min(outcome_.lost.size(), most_told); ++i)
-      say(fmt::format("lost: {}\n", outcome_.lost[i]));
-    if (outcome_.lost.size() > most_told) {
-      const auto more = fmt::format("and {} more", outcome_.lost.size() - most_told);
-      outcome_.lost.resize(most_told);
-      outcome_.lost.push_back(more);
+    for (std::size_t i = 0; i < std::min(outcome_.losses.size(), most_told); ++i)
+      say(fmt::format("lost: {}\n", outcome_.losses[i]));
+    if (outcome_.losses.size() > most_told) {
+      const auto more = fmt::format("and {} more", outcome_.losses.size() - most_told);
+      outcome_.losses.resize(most_told);
+      outcome_.losses.push_back(more);
       say(fmt::format("lost: {}\n", more));
     }
     for (const auto& line : steps_.last_remarks()) say(line + "\n");
@@ -86,7 +86,7 @@ class CheckRun {
       outcome_.judge_claims(answers_.under_test(), answers_.steps_left_out());
       for (auto& claim : answers_.beyond_reach()) outcome_.not_judged.push_back(std::move(claim));
     }
-    if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().printed));
+    if (outcome_.defect || outcome_.undecided) say(printed_text(answers_.run().output));
     if (!question_.shows_all_steps)
       say(fmt::format("{} of {} steps judged\n", outcome_.judged_steps, step_count()));
     write_ply();
@@ -134,36 +134,36 @@ class CheckRun {
 
   // Vertices that belong to no triangle, if there are any.
   std::string loose_vertices_text() const {
-    std::vector<std::uint8_t> used(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
+    std::vector<std::uint8_t> is_used(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
     const auto& triangles = steps_.triangles();
     for (Eigen::Index i = 0; i < triangles.size(); ++i)
-      used[properties::at(triangles.data()[i])] = 1;
-    const auto loose = std::count(used.begin(), used.end(), 0);
+      is_used[properties::at(triangles.data()[i])] = 1;
+    const auto loose = std::count(is_used.begin(), is_used.end(), 0);
     return loose == 0 ? "" : fmt::format(" ({} of no triangle)", loose);
   }
 
   // Lets the detector begin. Returns whether there are steps to go through.
   bool begin() {
-    const auto judged = answers_.begin();
-    if (judged.disturbances > 0)
+    const auto verdict = answers_.begin();
+    if (verdict.disturbances > 0)
       say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
-                      judged.disturbances));
+                      verdict.disturbances));
     if (answers_.is_plugin() && !answers_.is_recorded())
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n",
                       answers_.run().processor_seconds, step_count(),
                       step_count() == 1 ? "" : "s"));
-    if (judged.outcome == Outcome::holds) return true;
-    outcome_.ended = judged.explanation;
-    for (const auto claim : judged.broken) {
-      outcome_.ended +=
-          fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));
+    if (verdict.outcome == Outcome::holds) return true;
+    outcome_.ending = verdict.explanation;
+    for (const auto claim : verdict.breaches) {
+      outcome_.ending +=
+          fmt::format("{}{}", outcome_.ending.empty() ? "broken: " : "; broken: ", name_of(claim));
     }
-    say(fmt::format("the detector's run: {}\n", outcome_.ended));
-    outcome_.defect = judged.outcome == Outcome::defect;
-    outcome_.is_judged &= judged.outcome != Outcome::refused;
-    outcome_.undecided = !outcome_.defect && judged.outcome != Outcome::refused;
+    say(fmt::format("the detector's run: {}\n", outcome_.ending));
+    outcome_.defect = verdict.outcome == Outcome::defect;
+    outcome_.is_judged &= verdict.outcome != Outcome::refused;
+    outcome_.undecided = !outcome_.defect && verdict.outcome != Outcome::refused;
     // If the only broken claim is that two runs agree, there are steps to show.
-    return judged.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
+    return verdict.breaches == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
   ShownWork shown_work(std::size_t s) const {
@@ -179,9 +179,9 @@ class CheckRun {
 
   // How large each body is; null if there are none.
   nlohmann::ordered_json bodies_json() const {
-    const auto* counted = steps_.counted();
-    if (!counted || counted->body.empty()) return nullptr;
-    const auto& body = counted->body;
+    const auto* counted_pairs = steps_.counted();
+    if (!counted_pairs || counted_pairs->body.empty()) return nullptr;
+    const auto& body = counted_pairs->body;
     struct Size {
       std::size_t triangles = 0, vertices = 0;
     };
@@ -244,11 +244,11 @@ class CheckRun {
       const auto error = answers_.error_of(s);
       // The built-in detector has errors for input alone.
       if (!answers_.is_plugin()) {
-        refused_ = fmt::format("step {}: {}", shown_number, error);
+        refusal_ = fmt::format("step {}: {}", shown_number, error);
         return {};
       }
       const bool is_refused = is_over_capacity(answers_.run(), answers_.place_of(s));
-      if (outcome_.ended.empty() && !is_refused) outcome_.ended = error;
+      if (outcome_.ending.empty() && !is_refused) outcome_.ending = error;
       told_error = error;
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
@@ -269,12 +269,12 @@ class CheckRun {
     JudgedByOracle oracle;
     const detector::SteppedMesh motion{step.x_t0, step.x_t1};
     const oracle::JudgeOptions options = {question_.jobs, stop, {}, steps_.counted(), &tested_};
-    auto judged = timed(limits_, [&] {
+    auto timed_diff = answer_in(limits_, [&] {
       return properties::judge_under(answers_.under_test().contract, motion, steps_.triangles(),
                                      options);
     });
-    oracle.judgement = std::move(judged.answer);
-    oracle.milliseconds = judged.milliseconds;
+    oracle.judgement = std::move(timed_diff.answer);
+    oracle.milliseconds = timed_diff.milliseconds;
     oracle.truth = truth_of(oracle.judgement, answers_.under_test().contract, steps_.triangles());
     const detector::TrianglesView triangles(steps_.triangles());
     const auto& detector = answers_.under_test();
@@ -291,7 +291,8 @@ class CheckRun {
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     if (answers_.is_plugin()) outcome_.count(diff, result);
     ++outcome_.judged_steps;
-    for (const auto claim : diff.broken) outcome_.first_broken.emplace(claim, steps_.number_of(s));
+    for (const auto claim : diff.breaches)
+      outcome_.first_broken.emplace(claim, steps_.number_of(s));
     if (diff.answered_free && !outcome_.first_missed) outcome_.first_missed = steps_.number_of(s);
     const bool is_shown = question_.shows_all_steps || diff.outcome != Outcome::holds;
     if (is_shown)
@@ -303,8 +304,8 @@ class CheckRun {
                     json);
     if (diff.outcome == Outcome::defect) {
       print_defect(step, diff);
-      if (listener_.failed)
-        say(listener_.failed(
+      if (listener_.on_failure)
+        say(listener_.on_failure(
             {shown_number - 1, steps_, step, result, diff, answers_.under_test()}));
     }
     if (question_.second_opinion) {
@@ -322,9 +323,9 @@ class CheckRun {
     const detector::TrianglesView triangles(steps_.triangles());
     const StepContacts contacts{motion, triangles, pairs, bodies_, is_at_rest_};
     constexpr std::size_t most_named = 10;
-    if (is_shown && named_ < most_named && !pairs.empty()) {
-      say(contacts.text(most_named - named_));
-      named_ += pairs.size();
+    if (is_shown && named_pairs_ < most_named && !pairs.empty()) {
+      say(contacts.text(most_named - named_pairs_));
+      named_pairs_ += pairs.size();
     }
     if (!json.is_null()) json["contacts"] = contacts.json();
     if (is_at_rest_ && (answer != Answer::undecided || !pairs.empty()))
@@ -376,15 +377,15 @@ class CheckRun {
 
   // Keeps the mesh at the first contact of all, or else where it ends.
   void mark(const corpus::SourceStep& step, const StepContacts& contacts) {
-    if (std::any_of(marked_.begin(), marked_.end(), [](auto of) { return of != 0; })) return;
-    marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
+    if (std::any_of(is_marked_.begin(), is_marked_.end(), [](auto of) { return of != 0; })) return;
+    is_marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
     double t = 1;
     const auto marks = contacts.marks();
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const auto& [pair, time, feature] = contacts.pairs[i];
       for (const auto triangle : {pair.a, pair.b}) {
-        auto& marked = marked_[properties::at(triangle)];
-        marked = marked == StepContacts::crossing_mark ? marked : marks[i];
+        auto& is_marked = is_marked_[properties::at(triangle)];
+        is_marked = is_marked == StepContacts::crossing_mark ? is_marked : marks[i];
       }
       t = std::min(t, time.lo);
     }
@@ -393,13 +394,13 @@ class CheckRun {
 
   void write_ply() {
     if (question_.ply_file.empty()) return;
-    if (marked_.empty()) {
+    if (is_marked_.empty()) {
       shown_mesh_ = steps_.first_frame();
-      marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
+      is_marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
     }
-    const auto written =
-        corpus::write_mesh(question_.ply_file, shown_mesh_, steps_.triangles(), &marked_);
-    if (!written) outcome_.unwritten = written.error().message;
+    const auto status =
+        corpus::write_mesh(question_.ply_file, shown_mesh_, steps_.triangles(), &is_marked_);
+    if (!status) outcome_.unwritten = status.error().message;
   }
 
   static std::string error_line(const std::string& error) {
@@ -420,12 +421,12 @@ class CheckRun {
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
     const double share = *question_.second_opinion;
-    const auto [opinion, milliseconds] = timed(limits_, [&] {
+    const auto [opinion, milliseconds] = answer_in(limits_, [&] {
       const detector::SteppedMesh motion = {step.x_t0, step.x_t1};
       const oracle::SecondOpinionOptions options = {share, question_.jobs, stop, {}};
-      const auto* counted = steps_.counted();
+      const auto* counted_pairs = steps_.counted();
       const bool asks_contacts = answers_.under_test().contract.separation == 0;
-      if (asks_contacts && (!counted || counted->count_all()))
+      if (asks_contacts && (!counted_pairs || counted_pairs->count_all()))
         return oracle::second_opinion(motion, steps_.triangles(), judgement, options);
       // The other methods know neither relation nor separation, so the oracle is asked for all
       // contacts.
@@ -444,12 +445,12 @@ class CheckRun {
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
     // Nobody knows the stages of a plug-in.
     if (diff.missing.empty() || answers_.is_plugin()) return;
-    const auto& lost = diff.missing.front();
+    const auto& missing_pair = diff.missing.front();
     const std::string stage =
-        properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, lost.pair,
+        properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, missing_pair.pair,
                                     answers_.under_test().configurations.front().options);
-    say(fmt::format("  triangles {} and {}{} were lost at: {}\n", lost.pair.a, lost.pair.b,
-                    bodies_.text(lost.pair), stage));
+    say(fmt::format("  triangles {} and {}{} were lost at: {}\n", missing_pair.pair.a,
+                    missing_pair.pair.b, bodies_.text(missing_pair.pair), stage));
   }
 
   // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
@@ -461,10 +462,10 @@ class CheckRun {
 
   // A case states what is true of it, so an answer that differs is a defect.
   void check_facts() {
-    const auto checked = properties::check_case(*steps_.case_file(), question_.built_in.culling,
-                                                question_.jobs, question_.built_in.arithmetic);
-    for (const auto& line : checked.failed) say(fmt::format("expected facts: {}\n", line));
-    outcome_.facts_differ = !checked.failed.empty();
+    const auto check = properties::check_case(*steps_.case_file(), question_.built_in.culling,
+                                              question_.jobs, question_.built_in.arithmetic);
+    for (const auto& line : check.broken_facts) say(fmt::format("expected facts: {}\n", line));
+    outcome_.facts_differ = !check.broken_facts.empty();
     outcome_.defect |= outcome_.facts_differ;
   }
 
@@ -478,11 +479,11 @@ class CheckRun {
   const bool is_at_rest_;
   const properties::BodyNames bodies_;
   std::optional<std::vector<NestedBodies>> nested_;  // nothing until a step is judged
-  std::size_t named_ = 0;                            // pairs in contact, as far as they were named
+  std::size_t named_pairs_ = 0;                      // pairs in contact, as far as they were named
   // Of --ply: the mesh at its first contact, and by triangle whether it is in contact.
   detector::Positions shown_mesh_;
-  std::vector<std::uint8_t> marked_;
-  std::optional<std::string> refused_;
+  std::vector<std::uint8_t> is_marked_;
+  std::optional<std::string> refusal_;
   const detector::CountedPairs tested_;  // under the contract
   std::size_t notes_told_ = 0;
   std::set<std::string> reasons_;  // why steps were left out, as far as these were told
@@ -501,9 +502,9 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   return CheckInput{files[0], std::move(steps)};
 }
 
-corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles asked) {
-  for (const auto& frames : bodies) asked.frames.emplace_back(frames.begin(), frames.end());
-  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(asked));
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles rest) {
+  for (const auto& frames : bodies) rest.frames.emplace_back(frames.begin(), frames.end());
+  BOOST_OUTCOME_TRY(steps, corpus::steps_of_bodies(rest));
   return CheckInput{bodies[0][0], std::move(steps)};
 }
 

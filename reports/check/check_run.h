@@ -34,19 +34,19 @@ struct CheckOutcome {
   bool facts_differ = false;  // expected facts of a case file do not hold
   bool judged_by_claims = false;
   bool has_answers = true;  // false: a library of candidates alone
-  std::string ended;        // how a plug-in's run ended; empty: it went through
+  std::string ending;       // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
   std::string rest;       // of a mesh at rest, which bodies meet; empty where that is not known
   std::string unwritten;  // why a file that was asked for was not written
   std::vector<std::string> asked_again;  // what came of asking a plug-in about steps that are kept
-  std::vector<std::string> lost;         // of the input
+  std::vector<std::string> losses;       // of the input
   std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0
   std::optional<std::uint64_t>
       first_missed;  // the first contact answered free, whatever is claimed
   std::size_t judged_steps = 0;
   // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
   // plug-in does whatever it claims.
-  std::vector<std::string> held;
+  std::vector<std::string> held_claims;
   std::vector<properties::NotJudged> not_judged;
   properties::StepMeasures measures;
   std::optional<std::size_t> collision_step;  // the first step with a collision, counted from 0
@@ -82,10 +82,10 @@ nlohmann::ordered_json check_report(const std::vector<std::string>& files,
 // Takes frames of one mesh, which are read as their steps come, or reads one case file. Fails if
 // its options are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
-// The same of several meshes as bodies of one, or of frames of which not all pairs count: `asked`
+// The same of several meshes as bodies of one, or of frames of which not all pairs count: `rest`
 // has all but the files. REQUIRES a file of each.
 using BodyWords = std::vector<std::vector<std::string>>;
-corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles asked);
+corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles rest);
 
 struct CheckQuestion {
   // What the input was read from, for reports and replay lines; bodies are empty if it has none.
@@ -111,7 +111,7 @@ struct CheckQuestion {
 };
 
 // A step that breaks a claim, or differs from the oracle.
-struct FailedStep {
+struct StepFailure {
   std::uint64_t number = 0;  // in its input, from 0
   const corpus::StepSource& source;
   const corpus::SourceStep& step;
@@ -124,7 +124,7 @@ struct CheckListener {
   std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
   detector::StopFunction stop = {};                  // may be empty; what it leaves is undecided
   // What is to be done with a step that fails; the text is printed. May be empty.
-  std::function<std::string(const FailedStep&)> failed = {};
+  std::function<std::string(const StepFailure&)> on_failure = {};
 };
 
 struct CheckAnswer {

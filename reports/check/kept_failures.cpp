@@ -47,12 +47,12 @@ svg {{ width: 100%; max-width: 32rem; height: auto; }}
 
 // Marks the triangles that have a vertex of those that are marked.
 void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
-                    std::vector<std::uint8_t>& marked) {
+                    std::vector<std::uint8_t>& is_marked) {
   std::vector<std::uint8_t> near(static_cast<std::size_t>(vertices), 0);
   const auto each = [&](const auto& change) {
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
       for (int k = 0; k < 3; ++k)
-        change(marked[static_cast<std::size_t>(t)], near[properties::at(triangles(t, k))]);
+        change(is_marked[static_cast<std::size_t>(t)], near[properties::at(triangles(t, k))]);
     }
   };
   each([](std::uint8_t& triangle, std::uint8_t& vertex) { vertex |= triangle; });
@@ -63,26 +63,26 @@ void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
 // whole mesh does; else nothing.
 std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TrianglePair pair,
                                             const properties::Contract& contract, int rings) {
-  std::vector<std::uint8_t> marked(static_cast<std::size_t>(whole.triangles.rows()), 0);
-  marked[properties::at(pair.a)] = marked[properties::at(pair.b)] = 1;
+  std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(whole.triangles.rows()), 0);
+  is_marked[properties::at(pair.a)] = is_marked[properties::at(pair.b)] = 1;
   for (int ring = 0; ring < rings; ++ring)
-    add_neighbours(whole.triangles, whole.frames.front().rows(), marked);
-  auto part = properties::keep_triangles(whole, marked);
+    add_neighbours(whole.triangles, whole.frames.front().rows(), is_marked);
+  auto part = properties::keep_triangles(whole, is_marked);
   const auto number = [&](std::int32_t t) {
     return static_cast<std::int32_t>(
-        std::count(marked.begin(), marked.begin() + t, std::uint8_t{1}));
+        std::count(is_marked.begin(), is_marked.begin() + t, std::uint8_t{1}));
   };
   // Which contact counts, and when it is, may depend on more of the mesh than this.
   const auto contact_of = [&](const corpus::Case& c,
                               TrianglePair at) -> std::optional<std::string> {
-    const auto judged = properties::judge_case(c, contract);
-    const auto truth = properties::truth_of(c, judged.front(), contract);
+    const auto judgements = properties::judge_case(c, contract);
+    const auto truth = properties::truth_of(c, judgements.front(), contract);
     for (const auto& contact : truth.pairs) {
       if (contact.pair == at) return fmt::format("{} {}", contact.time.lo, contact.time.hi);
     }
     return std::nullopt;
   };
-  if (!properties::contracted(part, contract)) return std::nullopt;
+  if (!properties::contract_case(part, contract)) return std::nullopt;
   const bool shows = contact_of(part, {number(pair.a), number(pair.b)}) == contact_of(whole, pair);
   return shows ? std::optional(std::move(part)) : std::nullopt;
 }
@@ -100,7 +100,7 @@ class KeptFailures {
 
   // Keeps the step, unless many that fail in the same way are kept already. Returns what is to be
   // printed.
-  std::string keep(const FailedStep& failed);
+  std::string keep(const StepFailure& event);
 
   // Writes FOLDER/page.html: the verdict, what each claim came to, and the steps that are kept,
   // with their pictures. It is one file that asks for nothing. The report lists the steps, and the
@@ -108,58 +108,58 @@ class KeptFailures {
   void end(CheckAnswer& answer) const;
 
  private:
-  struct Kept {
+  struct KeptStep {
     std::uint64_t number = 0;  // from 1
     std::string what, size;    // "14 triangles, 12 vertices, 1 step"
     std::string folder;        // in the folder of all
     std::string again;
     std::string picture = {};             // SVG; empty: too large
     std::optional<bool> reproduced = {};  // by the plug-in; nothing: it was not asked
-    std::string asked = {};               // what came of asking it, in words
+    std::string reply = {};               // what came of asking it, in words
     std::string replay = {};              // the line that replays the smallest case; or empty
   };
 
   // Returns what is to be printed. Fails if a file cannot be written.
-  Expected<std::string> write_step(const FailedStep& failed, const properties::Failure& failure,
+  Expected<std::string> write_step(const StepFailure& event, const properties::Failure& failure,
                                    const std::string& again);
   Expected<void> write_page(const CheckOutcome& outcome) const;
   // Asks the plug-in about the case, in a process that was asked nothing before, and shrinks what
   // it fails on.
-  Expected<void> ask_plugin(const corpus::Case& c, Kept& kept) const;
+  Expected<void> ask_plugin(const corpus::Case& c, KeptStep& entry) const;
 
   const std::filesystem::path folder_;
   const Keeping& keeping_;
   const std::function<std::string(std::uint64_t)> again_;
   const std::optional<properties::Subject> plugin_;
-  std::map<std::string, int> met_;  // by signature
-  std::vector<Kept> steps_;
+  std::map<std::string, int> counts_;  // by signature
+  std::vector<KeptStep> steps_;
   std::string unwritten_;  // the first problem of a file
 };
 
-std::string KeptFailures::keep(const FailedStep& failed) {
-  if (failed.diff.broken.empty()) return "";
-  auto failure = properties::failure_of(failed.diff, failed.result, failed.detector.contract);
+std::string KeptFailures::keep(const StepFailure& event) {
+  if (event.diff.breaches.empty()) return "";
+  auto failure = properties::failure_of(event.diff, event.result, event.detector.contract);
   if (failure.pair)
-    failure.explanation += properties::BodyNames(failed.source.counted(), failed.source.triangles())
-                               .text(*failure.pair);
-  const std::string again = again_(failed.number + 1);
-  if (met_[failure.signature()]++ >= most_of_a_kind)
+    failure.explanation +=
+        properties::BodyNames(event.source.counted(), event.source.triangles()).text(*failure.pair);
+  const std::string again = again_(event.number + 1);
+  if (counts_[failure.signature()]++ >= most_of_a_kind)
     return fmt::format("  not kept, {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
                        failure.signature(), again);
-  const auto text = write_step(failed, failure, again);
+  const auto text = write_step(event, failure, again);
   if (text) return text.value();
   if (unwritten_.empty()) unwritten_ = text.error().message;
   return fmt::format("  not kept: {}\n  again: {}\n", text.error().message, again);
 }
 
-Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
+Expected<std::string> KeptFailures::write_step(const StepFailure& event,
                                                const properties::Failure& failure,
                                                const std::string& again) {
-  const auto& contract = failed.detector.contract;
-  const auto number = failed.number + 1;
-  const auto* rest = contract.rest_distance > 0 ? &failed.source.first_frame() : nullptr;
-  const auto whole = corpus::case_of_step(failed.source.triangles(), failed.source.counted(), rest,
-                                          failed.step.x_t0, failed.step.x_t1);
+  const auto& contract = event.detector.contract;
+  const auto number = event.number + 1;
+  const auto* rest = contract.rest_distance > 0 ? &event.source.first_frame() : nullptr;
+  const auto whole = corpus::case_of_step(event.source.triangles(), event.source.counted(), rest,
+                                          event.step.x_t0, event.step.x_t1);
   const auto part = [&](int rings) {
     return failure.pair ? part_that_shows(whole, *failure.pair, contract, rings) : std::nullopt;
   };
@@ -174,29 +174,29 @@ Expected<std::string> KeptFailures::write_step(const FailedStep& failed,
   name(c, fmt::format("step-{}", number));
   const auto folder = folder_ / c.id;
   BOOST_OUTCOME_TRYV(
-      export_case(folder, c, failed.detector, properties::judge_case(c, contract), failure.claim));
-  Kept kept{number, c.about, properties::size_text(c), c.id, again};
+      export_case(folder, c, event.detector, properties::judge_case(c, contract), failure.claim));
+  KeptStep entry{number, c.about, properties::size_text(c), c.id, again};
   SceneMaker scenes(std::nullopt);
   if (const auto scene = scenes.scene_of(c, "");
       scene && c.triangles.rows() <= most_shown_triangles) {
-    kept.picture = mesh_svg(*scene, failure.signature());
-    BOOST_OUTCOME_TRYV(write_text_file(folder / "case.svg", kept.picture));
+    entry.picture = mesh_svg(*scene, failure.signature());
+    BOOST_OUTCOME_TRYV(write_text_file(folder / "case.svg", entry.picture));
   }
   if (auto pair = part(0)) {
     name(*pair, "pair");
     BOOST_OUTCOME_TRYV(corpus::write_case(folder / "pair.json", *pair));
   }
   if (plugin_) {
-    BOOST_OUTCOME_TRY(ask_plugin(c, kept));
-    if (!*kept.reproduced && c.triangles.rows() < whole.triangles.rows()) {
-      BOOST_OUTCOME_TRY(ask_plugin(whole, kept));
+    BOOST_OUTCOME_TRY(ask_plugin(c, entry));
+    if (!*entry.reproduced && c.triangles.rows() < whole.triangles.rows()) {
+      BOOST_OUTCOME_TRY(ask_plugin(whole, entry));
     }
   }
-  std::string text = fmt::format("  {}\n  kept in {} ({})\n  again: {}\n", kept.what,
-                                 folder.string(), kept.size, again);
-  if (!kept.asked.empty()) text += fmt::format("  {}\n", kept.asked);
-  if (!kept.replay.empty()) text += fmt::format("  replay: {}\n", kept.replay);
-  steps_.push_back(std::move(kept));
+  std::string text = fmt::format("  {}\n  kept in {} ({})\n  again: {}\n", entry.what,
+                                 folder.string(), entry.size, again);
+  if (!entry.reply.empty()) text += fmt::format("  {}\n", entry.reply);
+  if (!entry.replay.empty()) text += fmt::format("  replay: {}\n", entry.replay);
+  steps_.push_back(std::move(entry));
   return text;
 }
 
@@ -206,17 +206,17 @@ void KeptFailures::end(CheckAnswer& answer) const {
   if (unwritten.empty())
     unwritten = unwritten_.empty() && !page ? page.error().message : unwritten_;
   auto list = nlohmann::ordered_json::array();
-  for (const auto& kept : steps_) {
-    list.push_back({{"step", kept.number},
-                    {"what", kept.what},
-                    {"folder", (folder_ / kept.folder).string()},
-                    {"again", kept.again},
+  for (const auto& entry : steps_) {
+    list.push_back({{"step", entry.number},
+                    {"what", entry.what},
+                    {"folder", (folder_ / entry.folder).string()},
+                    {"again", entry.again},
                     {"reproduced", nullptr},
-                    {"asked", kept.asked},
-                    {"replay", kept.replay}});
-    if (kept.reproduced) list.back()["reproduced"] = *kept.reproduced;
-    if (!kept.asked.empty())
-      answer.outcome.asked_again.push_back(fmt::format("step {}: {}", kept.number, kept.asked));
+                    {"asked", entry.reply},
+                    {"replay", entry.replay}});
+    if (entry.reproduced) list.back()["reproduced"] = *entry.reproduced;
+    if (!entry.reply.empty())
+      answer.outcome.asked_again.push_back(fmt::format("step {}: {}", entry.number, entry.reply));
   }
   if (!answer.report.is_null()) answer.report["kept"] = std::move(list);
 }
@@ -228,16 +228,16 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
     claims += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", claim,
                           words[static_cast<std::size_t>(state)], xml_escaped(why));
   }
-  for (const auto& kept : steps_) {
+  for (const auto& entry : steps_) {
     steps += fmt::format(
         "<h2>Step {}</h2>\n<p>{}</p>\n<p>{}: <a href=\"{}/\">{}/</a></p>\n<pre>{}</pre>\n",
-        kept.number, xml_escaped(kept.what), kept.size, kept.folder, kept.folder,
-        xml_escaped(kept.again));
-    if (!kept.asked.empty()) steps += "<p>" + xml_escaped(kept.asked) + "</p>\n";
-    if (!kept.replay.empty()) steps += "<pre>" + xml_escaped(kept.replay) + "</pre>\n";
-    steps += kept.picture + "\n";
+        entry.number, xml_escaped(entry.what), entry.size, entry.folder, entry.folder,
+        xml_escaped(entry.again));
+    if (!entry.reply.empty()) steps += "<p>" + xml_escaped(entry.reply) + "</p>\n";
+    if (!entry.replay.empty()) steps += "<pre>" + xml_escaped(entry.replay) + "</pre>\n";
+    steps += entry.picture + "\n";
   }
-  for (const auto& [kind, times] : met_) {
+  for (const auto& [kind, times] : counts_) {
     if (times > most_of_a_kind)
       steps += fmt::format("<p>{} more of this kind are not kept: {}</p>\n", times - most_of_a_kind,
                            xml_escaped(kind));
@@ -252,16 +252,16 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
                   fmt::arg("steps", steps), fmt::arg("version", version_text())));
 }
 
-Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const {
+Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) const {
   const auto& detector = plugin_->detector;
   const auto& configuration = detector.configurations.front();
-  const auto fails = [&](const corpus::Case& asked) {
+  const auto fails = [&](const corpus::Case& candidate) {
     auto worker = plugin_->process();
-    return properties::judge_of_detector(detector, configuration, worker)(asked).has_value();
+    return properties::judge_of_detector(detector, configuration, worker)(candidate).has_value();
   };
-  kept.reproduced = fails(c);
-  if (!*kept.reproduced) {
-    kept.asked =
+  entry.reproduced = fails(c);
+  if (!*entry.reproduced) {
+    entry.reply =
         "not reproduced: asked about this step alone, in a new process, the detector does not "
         "fail; "
         "what fails may need what the process did before";
@@ -274,14 +274,14 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, Kept& kept) const
                       .smallest;
   // A process that was asked much may fail where a new one does not.
   if (!fails(smallest)) smallest = c;
-  const auto file = folder_ / kept.folder / "smallest.json";
+  const auto file = folder_ / entry.folder / "smallest.json";
   smallest.id = "smallest";
   BOOST_OUTCOME_TRY(corpus::write_case(file, smallest));
-  kept.asked =
+  entry.reply =
       fmt::format("reproduced; smallest: {} ({})", file.string(), properties::size_text(smallest));
   DetectorWords words{plugin_->plugin->string(), plugin_->limits.isolation,
                       plugin_->limits.threads};
-  kept.replay = line_to_paste("replay " + shell_word(absolute_path(file)) + detector_words(words));
+  entry.replay = line_to_paste("replay " + shell_word(absolute_path(file)) + detector_words(words));
   return outcome::success();
 }
 
@@ -304,10 +304,10 @@ Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& i
     if (log.empty()) return question.again;
     return line_to_paste("replay " + shell_word(fmt::format("{}#{}", absolute_path(log), number)));
   };
-  KeptFailures kept(keeping, again, std::move(plugin));
-  listener.failed = [&](const FailedStep& failed) { return kept.keep(failed); };
+  KeptFailures failures(keeping, again, std::move(plugin));
+  listener.on_failure = [&](const StepFailure& failure) { return failures.keep(failure); };
   BOOST_OUTCOME_TRY(answer, check_mesh(question, input, worker, listener));
-  kept.end(answer);
+  failures.end(answer);
   return std::move(answer);
 }
 

@@ -99,8 +99,8 @@ class RecordedSteps : public corpus::StepSource {
     why_left_out_.clear();
     is_beyond_contract_ = false;
     if (!is_chosen_) return corpus::SourceStep{now_.x_t0, now_.x_t1};
-    BOOST_OUTCOME_TRY(read, log_.step(s));
-    now_ = std::move(read);
+    BOOST_OUTCOME_TRY(logged_step, log_.step(s));
+    now_ = std::move(logged_step);
     if (!now_.why_unknown.empty()) {
       unknown_.push_back(fmt::format("step {}: {}", now_.number + 1, now_.why_unknown));
       why_left_out_ = now_.why_unknown;
@@ -113,10 +113,10 @@ class RecordedSteps : public corpus::StepSource {
     }
     const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;
     const auto c = corpus::case_of_step(triangles(), counted(), rest, now_.x_t0, now_.x_t1);
-    if (auto seen = properties::contracted(c, contract_)) {
-      const auto script = corpus::steps_of(*seen);
-      now_.x_t0 = start_of(*seen, script.front());
-      now_.x_t1 = end_of(*seen, script.front());
+    if (auto contracted_case = properties::contract_case(c, contract_)) {
+      const auto script = corpus::steps_of(*contracted_case);
+      now_.x_t0 = start_of(*contracted_case, script.front());
+      now_.x_t1 = end_of(*contracted_case, script.front());
     } else {
       why_left_out_ = properties::why_left_out(c, contract_);
       is_beyond_contract_ = true;
@@ -155,9 +155,9 @@ class RecordedSteps : public corpus::StepSource {
   std::size_t unanswered_ = 0;
 };
 
-class Recorded : public GivenAnswers {
+class LoggedAnswers : public GivenAnswers {
  public:
-  Recorded(RecordedDetector detector, RecordedSteps& steps)
+  LoggedAnswers(RecordedDetector detector, RecordedSteps& steps)
       : GivenAnswers(std::move(detector.subject), steps),
         beyond_a_log_(std::move(detector.not_judged)),
         steps_(steps) {}
@@ -214,9 +214,9 @@ Expected<RecordedDetector> recorded_detector(const corpus::StepLog& log, const s
   properties::PluginParts parts;
   parts.candidates = claims.has(Claim::candidates);
   parts.limit = claims.has_any(properties::claims_on_limits);
-  auto read = properties::described(raw, parts);
-  if (!read) return Problem{fmt::format("{}: the detector: {}", file, read.error().message)};
-  properties::PluginDescription& description = read.value();
+  auto reading = properties::described(raw, parts);
+  if (!reading) return Problem{fmt::format("{}: the detector: {}", file, reading.error().message)};
+  properties::PluginDescription& description = reading.value();
   RecordedDetector recorded;
   const auto without = [&](Claim claim, const char* reason) {
     if (!description.claims.has(claim)) return;
@@ -289,19 +289,19 @@ Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
         fmt::format("{}: there is no whole record of step {}", name.file, *selection.step + 1)};
   auto steps =
       std::make_unique<RecordedSteps>(std::move(log), recorded.subject.description, selection);
-  auto answers = std::make_unique<Recorded>(std::move(recorded), *steps);
+  auto answers = std::make_unique<LoggedAnswers>(std::move(recorded), *steps);
   return CheckInput{name.file, std::move(steps), false, std::move(answers)};
 }
 
 std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
   using State = ClaimResult::State;
   const auto results = outcome.claim_results();
-  const auto broken = std::ranges::count(results, State::broken, &ClaimResult::state);
-  const auto held = std::ranges::count(results, State::holds, &ClaimResult::state);
+  const auto breaks = std::ranges::count(results, State::broken, &ClaimResult::state);
+  const auto holds = std::ranges::count(results, State::holds, &ClaimResult::state);
   const auto name = xml_escaped(log);
   std::string text = fmt::format(
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
-      results.size(), broken, static_cast<std::ptrdiff_t>(results.size()) - broken - held);
+      results.size(), breaks, static_cast<std::ptrdiff_t>(results.size()) - breaks - holds);
   for (const auto& [claim, state, why] : results) {
     text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, claim);
     text += state == State::holds
@@ -311,7 +311,7 @@ std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
   }
   if (!outcome.asked_again.empty())
     text += fmt::format("    <system-out>{}</system-out>\n",
-                        xml_escaped(joined(outcome.asked_again, "\n")));
+                        xml_escaped(join(outcome.asked_again, "\n")));
   return text + "  </testsuite>\n";
 }
 

@@ -19,14 +19,14 @@
 namespace assay::reports {
 
 // What came of one query; nothing if the contract does not take it, or it was not asked.
-using JudgedQuery = std::optional<properties::Examined>;
+using JudgedQuery = std::optional<properties::CaseResults>;
 
 // The first query that broke a claim in some way.
-struct BrokenQuery {
-  std::string signature;  // of the failure
-  std::uint64_t met = 0;  // how many queries had it
-  std::string query;      // "FILE query 12"
-  std::string what;       // explains it
+struct QueryFailure {
+  std::string signature;    // of the failure
+  std::uint64_t times = 0;  // how many queries had it
+  std::string query;        // "FILE query 12"
+  std::string what;         // explains it
 };
 
 class QueryDetector {
@@ -67,9 +67,9 @@ class QueryDetector {
   properties::WorkerProcess worker_, second_;
   properties::StepMeasures measures_;  // of all queries that were judged
   std::uint64_t crashes_ = 0;
-  std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
-  std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim
-  std::vector<BrokenQuery> shown_;               // one for each signature
+  std::uint64_t count_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
+  std::map<std::string, std::uint64_t> broken_counts_;  // how many queries broke each claim
+  std::vector<QueryFailure> failures_;                  // one for each signature
 };
 
 }  // namespace assay::reports

@@ -39,7 +39,7 @@ struct StepDistance {
 };
 
 // How a step is told of: by its number, or as a mesh at rest, which has no times.
-struct Shown {
+struct StepNaming {
   std::size_t number;
   bool is_at_rest;
   const properties::BodyNames& bodies;
@@ -52,8 +52,8 @@ struct Shown {
   }
 };
 
-std::string text_of(const Shown& shown, const StepDistance& step) {
-  std::string out = shown.is_at_rest ? "at rest: " : fmt::format("step {}: ", shown.number);
+std::string text_of(const StepNaming& naming, const StepDistance& step) {
+  std::string out = naming.is_at_rest ? "at rest: " : fmt::format("step {}: ", naming.number);
   if (!step.complete()) {
     out += "undecided";
     if (step.is_near()) out += fmt::format("; {} pairs near so far", step.near.pairs.size());
@@ -62,15 +62,15 @@ std::string text_of(const Shown& shown, const StepDistance& step) {
     out += "apart\n";
   } else {
     out += "near";
-    if (!shown.is_at_rest) out += " at t = " + time_text(step.near.first);
+    if (!naming.is_at_rest) out += " at t = " + time_text(step.near.first);
     out += ", " + pairs_text(step.near.pairs.size());
-    if (const auto count = step.near_at_start(); count && !shown.is_at_rest)
+    if (const auto count = step.near_at_start(); count && !naming.is_at_rest)
       out += fmt::format(", {} near at the start", count);
-    out += fmt::format("\n  first: {}\n", shown.contact(step.first()));
+    out += fmt::format("\n  first: {}\n", naming.contact(step.first()));
   }
   if (step.least.complete && step.least.where) {
     out += fmt::format("  least distance {}: {}\n", step.least.distance,
-                       shown.contact(*step.least.where));
+                       naming.contact(*step.least.where));
   } else if (step.least.complete) {
     out += "  least distance: no two triangles count, or none within the greatest double\n";
   }
@@ -98,10 +98,11 @@ Json json_of(const StepDistance& step, const properties::BodyNames& bodies) {
 // Both questions of a step. If memory fails, the step is undecided.
 StepDistance ask(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                  double separation, const oracle::DistanceOptions& options, Limits& limits) {
-  auto near = timed(limits, [&] {
+  auto near = answer_in(limits, [&] {
     return oracle::judge_distance(motion, triangles, {separation, 0}, options);
   });
-  auto least = timed(limits, [&] { return oracle::least_distance(motion, triangles, options); });
+  auto least =
+      answer_in(limits, [&] { return oracle::least_distance(motion, triangles, options); });
   return {std::move(near.answer), std::move(least.answer), near.milliseconds + least.milliseconds};
 }
 
@@ -110,7 +111,7 @@ class SeparationRun {
   SeparationRun(const CheckQuestion& question, const AskedDistance& d, CheckInput& input,
                 const CheckListener& listener)
       : question_(question),
-        asked_(d),
+        distance_(d),
         steps_(*input.steps),
         mesh_(detector::make_topology(steps_.triangles(), steps_.first_frame().rows())),
         is_at_rest_(input.is_at_rest),
@@ -141,12 +142,12 @@ class SeparationRun {
             {"files", files.empty() ? question_.files : files},
             {"triangles", mesh_.triangles.size()},
             {"components", mesh_.components.size()},
-            {"separation", asked_.offsets.empty() ? Json(asked_.separation) : Json()},
-            {"offsets", asked_.offsets.empty() ? Json() : Json(asked_.offsets)},
+            {"separation", distance_.offsets.empty() ? Json(distance_.separation) : Json()},
+            {"offsets", distance_.offsets.empty() ? Json() : Json(distance_.offsets)},
             {"outcome", undecided_   ? "undecided"
                         : near_step_ ? "near"
                                      : "apart"},
-            {"limit_reached", or_null(limits_.reached())},
+            {"limit_reached", or_null(limits_.limit_text())},
             {"least_distance", least_ ? Json(*least_) : Json()},
             {"peak_memory_bytes", peak_resident_bytes()},
             {"steps", std::move(entries_)},
@@ -155,17 +156,17 @@ class SeparationRun {
 
  private:
   std::string distance_text() const {
-    return asked_.offsets.empty() ? fmt::format("{}", asked_.separation)
-                                  : "the offsets of two bodies together";
+    return distance_.offsets.empty() ? fmt::format("{}", distance_.separation)
+                                     : "the offsets of two bodies together";
   }
 
   std::vector<double> offsets_of_vertices() const {
-    if (asked_.offsets.empty()) return {};
-    const auto* counted = steps_.counted();
+    if (distance_.offsets.empty()) return {};
+    const auto* counted_pairs = steps_.counted();
     std::vector<double> offsets(static_cast<std::size_t>(steps_.first_frame().rows()),
-                                asked_.offsets.front());
-    for (std::size_t v = 0; counted && v < counted->body.size(); ++v)
-      offsets[v] = asked_.offsets[properties::at(counted->body[v])];
+                                distance_.offsets.front());
+    for (std::size_t v = 0; counted_pairs && v < counted_pairs->body.size(); ++v)
+      offsets[v] = distance_.offsets[properties::at(counted_pairs->body[v])];
     return offsets;
   }
 
@@ -184,11 +185,11 @@ class SeparationRun {
   }
 
   Expected<void> run_step(std::size_t s) {
-    auto read = [&] {
+    auto bodies = [&] {
       const Limits::Pause pause(limits_);  // the limits are on work, and reading is none
       return steps_.step(s);
     }();
-    if (!read) return read.error();
+    if (!bodies) return bodies.error();
     Progress progress(fmt::format("step {}/{}", s + 1, steps_.count()));
     progress.phase("oracle");
     oracle::DistanceOptions options;
@@ -199,8 +200,8 @@ class SeparationRun {
       return limits_.exceeded() || (listener_.stop && listener_.stop());
     };
     options.offsets = offsets_of_vertices();
-    const auto step = ask({read.value().x_t0, read.value().x_t1}, steps_.triangles(),
-                          asked_.separation, options, limits_);
+    const auto step = ask({bodies.value().x_t0, bodies.value().x_t1}, steps_.triangles(),
+                          distance_.separation, options, limits_);
     progress.finish();
     undecided_ |= !step.complete();
     if (step.near.complete && step.is_near() && !near_step_) {
@@ -227,12 +228,12 @@ class SeparationRun {
     if (least_) text += fmt::format("; least distance {}", *least_);
     if (undecided_)
       text += fmt::format("; undecided: {} reached",
-                          limits_.reached().empty() ? "a limit" : limits_.reached());
+                          limits_.limit_text().empty() ? "a limit" : limits_.limit_text());
     return text + "\n";
   }
 
   const CheckQuestion& question_;
-  const AskedDistance asked_;
+  const AskedDistance distance_;
   corpus::StepSource& steps_;
   const detector::Topology mesh_;
   const bool is_at_rest_;

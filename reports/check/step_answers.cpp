@@ -35,12 +35,12 @@ class BuiltIn : public StepAnswers {
 
   Expected<void> make(const CheckInput& input) try {
     const detector::Stopwatch watch(create_ms_.emplace(0));
-    auto made = detector::Detector::create(input.steps->triangles(), input.steps->first_frame(),
-                                           options_, limits_.stop_function());
-    if (made) {
-      detector_ = std::move(made.value());
-    } else if (made.error().error != detector::InputError::stopped) {
-      return Problem{fmt::format("{}: {}", input.file, made.error().message)};
+    auto creation = detector::Detector::create(input.steps->triangles(), input.steps->first_frame(),
+                                               options_, limits_.stop_function());
+    if (creation) {
+      detector_ = std::move(creation.value());
+    } else if (creation.error().error != detector::InputError::stopped) {
+      return Problem{fmt::format("{}: {}", input.file, creation.error().message)};
     }
     return outcome::success();
   } catch (const std::bad_alloc&) {
@@ -66,9 +66,9 @@ class BuiltIn : public StepAnswers {
            const detector::StopFunction& stop) override try {
     begin_run(s);
     if (!detector_) return;
-    const auto given = properties::given_view(step.view, options_.culling);
-    run_.steps.front() = step.commit ? detector_->step(step.x_t0, step.x_t1, given, stop)
-                                     : detector_->evaluate(step.x_t0, step.x_t1, given, stop);
+    const auto view = properties::given_view(step.view, options_.culling);
+    run_.steps.front() = step.commit ? detector_->step(step.x_t0, step.x_t1, view, stop)
+                                     : detector_->evaluate(step.x_t0, step.x_t1, view, stop);
   } catch (const std::bad_alloc&) {
     limits_.memory_failed();
   }
@@ -100,7 +100,7 @@ class Plugin : public StepAnswers {
     return detector_json({{"library", subject_.plugin->string()},
                           {"disturbances", worker_.disturbances() + second_.disturbances()},
                           {"isolation", text_of(subject_.isolation)},
-                          {"printed", run_.printed}});
+                          {"printed", run_.output}});
   }
 
   // Runs all steps at once, because the worker carries the state of the detector from one to the
@@ -111,10 +111,10 @@ class Plugin : public StepAnswers {
     run_ = run_alone(worker_, *case_, configuration);
     std::optional<properties::CaseRun> again;
     if (claims.has(Claim::deterministic)) again = run_alone(second_, *case_, configuration);
-    auto judged =
+    auto runs =
         judge_run(*case_, run_, {}, claims, under_test().contract, again ? &*again : nullptr);
     run_.steps.resize(corpus::steps_of(*case_).size(), undecided());
-    return judged;
+    return runs;
   }
 
   void ask(std::size_t, const corpus::SourceStep&, const detector::StopFunction&) override {}
@@ -168,20 +168,20 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
     return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",
         library)};
-  auto seen = properties::contracted(*input.steps->whole(), detector.contract);
-  if (!seen) {
+  auto contracted_case = properties::contract_case(*input.steps->whole(), detector.contract);
+  if (!contracted_case) {
     return Problem{fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
                                plugin.description.name,
                                properties::why_left_out(*input.steps->whole(), detector.contract))};
   }
-  const std::size_t given = input.steps->count();
-  const auto* counted = input.steps->counted();
+  const std::size_t step_count = input.steps->count();
+  const auto* counted_pairs = input.steps->counted();
   const bool drops_relation =
-      counted && !counted->count_all() && !detector.contract.takes_relations;
-  const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
-  input.steps = corpus::steps_of_case(taken, false, input.steps->text());
+      counted_pairs && !counted_pairs->count_all() && !detector.contract.takes_relations;
+  const auto steps = std::make_shared<const corpus::Case>(std::move(*contracted_case));
+  input.steps = corpus::steps_of_case(steps, false, input.steps->text());
   return std::unique_ptr<StepAnswers>(std::make_unique<Plugin>(
-      std::move(plugin), taken, given - input.steps->count(), drops_relation));
+      std::move(plugin), steps, step_count - input.steps->count(), drops_relation));
 }
 
 void GivenAnswers::take(const std::optional<corpus::LoggedAnswer>& logged) {
@@ -265,10 +265,10 @@ std::string read_row(std::string_view line, std::size_t steps, std::size_t& step
     return fmt::format("a step from 1 to {} expected", steps);
   step = *number - 1;
   const auto word = line.substr(first + 1, second - first - 1);
-  const auto said = from_name<detector::Answer>(word);
-  if (!said) return fmt::format("'{}' is no answer: {}", word, all_names<detector::Answer>());
+  const auto value = from_name<detector::Answer>(word);
+  if (!value) return fmt::format("'{}' is no answer: {}", word, all_names<detector::Answer>());
   constexpr std::array raw = {ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR};
-  answer.answer = raw[static_cast<std::size_t>(*said)];
+  answer.answer = raw[static_cast<std::size_t>(*value)];
   const auto time = line.substr(second + 1);
   if (time.empty()) {
     answer.first_hi = 1;
@@ -303,7 +303,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
   if (rows.empty()) return Problem{fmt::format("{}: it has no row", file)};
   properties::Contract contract;
   contract.adjacency = adjacency;
-  contract.reports = properties::Reported::no_pairs;
+  contract.reports = properties::PairReporting::no_pairs;
   properties::Claims claims = {Claim::free_sound};
   claims.set(Claim::not_late, has_times);
   properties::Subject subject;

@@ -22,10 +22,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string why_text(const properties::Judgement& judgement) {
-  if (!judgement.failed)
+  if (!judgement.failed_gate)
     return judgement.verdict == "not judged" ? "no gate was judged" : "no gate fails";
-  const auto& reasons = judgement.of(*judgement.failed).reasons;
-  return fmt::format("gate \"{}\" fails: {}{}", properties::rule_of(*judgement.failed).name,
+  const auto& reasons = judgement.of(*judgement.failed_gate).reasons;
+  return fmt::format("gate \"{}\" fails: {}{}", properties::rule_of(*judgement.failed_gate).name,
                      reasons[0],
                      reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
 }
@@ -55,21 +55,21 @@ Json answer_json(const CaseScene& scene, const SceneStep& step, detector::Answer
           {"pairs", pairs_json(scene, step, pairs)}};
 }
 
-Json views_json(const CaseScene& scene, const detector::StepResult& seen) {
+Json views_json(const CaseScene& scene, const detector::StepResult& result) {
   const auto own = static_cast<std::size_t>(scene.c.triangles.rows());
   Json sets = Json::array(), ghost_sets = Json::array(), ghosts = Json::array(),
        apexes = Json::array(), primitives = Json::array();
   for (std::size_t t = 0; t < own; ++t)
-    sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+    sets.push_back(view_set_names[static_cast<std::size_t>(view_set(result, t))]);
   if (scene.surface && !scene.surface->is_closed()) {
     const auto& all = scene.surface->all().triangles;
     for (std::size_t t = own; t < all.size(); ++t) {
       ghosts.push_back(all[t]);
-      ghost_sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+      ghost_sets.push_back(view_set_names[static_cast<std::size_t>(view_set(result, t))]);
     }
-    for (const auto& apex : seen.apexes) apexes.push_back(moving_json(apex));
+    for (const auto& apex : result.apexes) apexes.push_back(moving_json(apex));
   }
-  for (const auto& primitive : seen.primitives) {
+  for (const auto& primitive : result.primitives) {
     primitives.push_back({{"q0", moving_json(primitive.q0)},
                           {"q1", primitive.is_point() ? Json() : moving_json(primitive.q1)}});
   }
@@ -88,7 +88,7 @@ Json differences_json(const CaseScene& scene, const SceneStep& step) {
   };
   add(step.truth.pairs);
   add(step.truth.left_out);
-  if (step.answered) add(step.answered->pairs);
+  if (step.answer) add(step.answer->pairs);
   Json list = Json::array();
   for (const auto& pair : pairs)
     list.push_back({{"triangles", {pair.a, pair.b}}, {"difference", step.difference(pair, scene)}});
@@ -104,16 +104,16 @@ Json candidates_json(const properties::CandidatePairs& candidates) {
 
 // By triangle; null if the case has no bodies. A detector may not have been told of them.
 Json bodies_json(const corpus::Case& c) {
-  const auto* counted = corpus::counted_of(c);
-  if (!counted || counted->body.empty()) return nullptr;
+  const auto* counted_pairs = corpus::counted_of(c);
+  if (!counted_pairs || counted_pairs->body.empty()) return nullptr;
   Json list = Json::array();
   for (Eigen::Index t = 0; t < c.triangles.rows(); ++t)
-    list.push_back(counted->body[detector::at(c.triangles(t, 0))]);
+    list.push_back(counted_pairs->body[detector::at(c.triangles(t, 0))]);
   return list;
 }
 
 // The scene of a case in `assay-report/3`: what the viewer draws (`scene` of its schema).
-Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
+Json scene_json(const CaseScene& scene, const corpus::Case& c) {
   Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
   for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
     const auto row = scene.c.triangles.row(t);
@@ -123,33 +123,32 @@ Json scene_json(const CaseScene& scene, const corpus::Case& stored) {
   for (const auto& step : scene.steps) {
     const auto& truth = step.truth;
     const auto first = truth.first ? truth.first->time : detector::TimeEnclosure{};
-    steps.push_back(
-        {{"from", step.span.from},
-         {"to", step.span.to},
-         {"commit", step.span.commit},
-         {"oracle", answer_json(scene, step, truth.answer(), first, truth.pairs)},
-         {"left_out", pairs_json(scene, step, truth.left_out)},
-         {"differences", differences_json(scene, step)},
-         {"detector", step.answered ? answer_json(scene, step, step.answered->answer,
-                                                  step.answered->first, step.answered->pairs)
-                                    : Json()},
-         {"candidates", candidates_json(step.candidates)},
-         {"views", step.has_views() ? views_json(scene, *step.answered) : Json()}});
+    steps.push_back({{"from", step.span.from},
+                     {"to", step.span.to},
+                     {"commit", step.span.commit},
+                     {"oracle", answer_json(scene, step, truth.answer(), first, truth.pairs)},
+                     {"left_out", pairs_json(scene, step, truth.left_out)},
+                     {"differences", differences_json(scene, step)},
+                     {"detector", step.answer ? answer_json(scene, step, step.answer->answer,
+                                                            step.answer->first, step.answer->pairs)
+                                              : Json()},
+                     {"candidates", candidates_json(step.candidates)},
+                     {"views", step.has_views() ? views_json(scene, *step.answer) : Json()}});
   }
   const auto pair = scene.shown_pair();
-  const auto asked = scene.asked_distance();
+  const auto range = scene.asked_distance();
   return {{"triangles", std::move(triangles)},
-          {"bodies", bodies_json(stored)},
+          {"bodies", bodies_json(c)},
           {"frames", std::move(frames)},
           {"steps", std::move(steps)},
           {"reports_pairs", scene.reports_pairs},
-          {"asked", asked.empty() ? Json() : Json(asked)},
-          {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
+          {"asked", range.empty() ? Json() : Json(range)},
+          {"ended", scene.ending.empty() ? Json() : Json(scene.ending)},
           {"shown",
            {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};
 }
 
-Json other_json(const properties::RunFindings& run, const properties::StoredFailure& failure) {
+Json other_json(const properties::RunFindings& run, const properties::FailureRecord& failure) {
   const auto file = properties::failure_file(failure, !failure.smallest.empty());
   return {{"id", failure.id()},
           {"configuration", failure.shown_configuration()},
@@ -158,7 +157,7 @@ Json other_json(const properties::RunFindings& run, const properties::StoredFail
 }
 
 // Why the mesh of a failure is not shown; empty if it was.
-std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure& failure) {
+std::string show(Json& json, SceneMaker& scenes, const properties::FailureRecord& failure) {
   const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
                                        "stored failure");
   if (!mesh) return mesh.error().message;
@@ -179,8 +178,8 @@ std::string show(Json& json, SceneMaker& scenes, const properties::StoredFailure
 Json law_statements(const Json& laws) {
   Json statements = Json::object();
   if (laws.is_null()) return statements;
-  for (const auto& met : laws.at("laws")) {
-    const auto name = met.at("law").get<std::string>();
+  for (const auto& row : laws.at("laws")) {
+    const auto name = row.at("law").get<std::string>();
     if (const auto* law = properties::law_named(name)) statements[name] = law->statement;
   }
   return statements;
@@ -212,11 +211,11 @@ Json run_json(const properties::RunFindings& findings, const properties::Judgeme
   auto laws = law_statements(predicate["laws"]);
   return {{"folder", (has_place ? findings.folder.filename() : findings.folder).string()},
           {"library",
-           findings.library.empty() ? Json() : Json(ToldPaths(findings).told(findings.library))},
+           findings.library.empty() ? Json() : Json(RunPaths(findings).relative(findings.library))},
           {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
           {"why", unverified.empty() ? why_text(judgement)
                                      : "the certificate does not verify: " + unverified},
-          {"begun", findings.begun.empty() ? Json() : Json(findings.begun)},
+          {"begun", findings.begin_time.empty() ? Json() : Json(findings.begin_time)},
           {"subject", is_certificate ? statement.at("subject") : Json()},
           {"findings", std::move(predicate)},
           {"law_statements", std::move(laws)}};
@@ -238,7 +237,7 @@ Json failure_scenes(const properties::RunFindings& findings) {
     }
     list.push_back(std::move(json));
   }
-  ToldPaths(findings).tell_in(list);
+  RunPaths(findings).tell_in(list);
   return list;
 }
 
@@ -246,9 +245,9 @@ std::string script_safe(const nlohmann::ordered_json& data) {
   const std::string text =
       data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   // In JSON these characters stand within strings only, and there \u means the same.
-  static const std::map<char, std::string_view> written = {
+  static const std::map<char, std::string_view> replacements = {
       {'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}};
-  return replaced(text, written);
+  return replace(text, replacements);
 }
 
 std::string page_text(std::string_view page, const nlohmann::ordered_json& data) {

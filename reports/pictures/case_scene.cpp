@@ -67,7 +67,7 @@ bool has_pair(const List& list, const detector::TrianglePair& pair) {
   return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.pair == pair; });
 }
 
-std::string end_text(const properties::CaseRun& run) {
+std::string ending(const properties::CaseRun& run) {
   return run.explanation.empty()
              ? properties::name_of(run.end)
              : std::string(properties::name_of(run.end)) + ": " + run.explanation;
@@ -115,9 +115,9 @@ using properties::RunEnd;
 const detector::PairContact* contact_of(const std::vector<detector::PairContact>& contacts,
                                         const std::optional<detector::TrianglePair>& pair) {
   if (!pair) return nullptr;
-  const auto found = std::find_if(contacts.begin(), contacts.end(),
+  const auto place = std::find_if(contacts.begin(), contacts.end(),
                                   [&](const auto& contact) { return contact.pair == *pair; });
-  return found == contacts.end() ? nullptr : &*found;
+  return place == contacts.end() ? nullptr : &*place;
 }
 
 std::size_t CaseScene::shown_step() const {
@@ -168,11 +168,11 @@ std::string SceneStep::difference(const detector::TrianglePair& pair,
                                   const CaseScene& scene) const {
   const auto* exact = contact_of(truth.pairs, pair);
   if (!exact && contact_of(truth.left_out, pair)) return "left out by the contract";
-  if (!diff || !answered) return "not run";
+  if (!diff || !answer) return "not run";
   if (has_pair(diff->missing_candidates, pair)) return "no candidate";
   using properties::Claim;
   const auto& claims = scene.claims;
-  const auto* reported = contact_of(answered->pairs, pair);
+  const auto* reported = contact_of(answer->pairs, pair);
   if (!exact) return claims.has(Claim::no_spurious) ? "spurious" : "no contact, not claimed";
   if (!reported) {
     const bool are_claimed = claims.has_any({Claim::all_pairs, Claim::first_pairs});
@@ -192,22 +192,22 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,
                                     const properties::Configuration& configuration,
                                     properties::WorkerProcess* worker) {
-  auto seen = properties::contracted(c, detector.contract);
-  if (!seen) return std::nullopt;
+  auto contracted_case = properties::contract_case(c, detector.contract);
+  if (!contracted_case) return std::nullopt;
   CaseScene scene;
   const properties::Exam exam{detector, {&configuration, 1}, worker};
-  properties::Examined examined;
-  examined.c = std::move(*seen);
-  examined.runs = {{RunEnd::not_run, "the detector is not at hand", {}}};
-  if (worker) run_first(exam, examined);
-  judge(exam, examined);
-  scene.c = std::move(examined.c);
-  auto& truth = examined.truth;
-  auto& judged = examined.verdicts[0];
-  const auto& run = examined.runs[0];
-  scene.failure = judged.failure;
+  properties::CaseResults results;
+  results.c = std::move(*contracted_case);
+  results.runs = {{RunEnd::not_run, "the detector is not at hand", {}}};
+  if (worker) run_first(exam, results);
+  judge(exam, results);
+  scene.c = std::move(results.c);
+  auto& truth = results.truth;
+  auto& verdict = results.verdicts[0];
+  const auto& run = results.runs[0];
+  scene.failure = verdict.failure;
   scene.contract = detector.contract;
-  if (run.end != RunEnd::completed) scene.ended = end_text(run);
+  if (run.end != RunEnd::completed) scene.ending = ending(run);
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs() && !properties::says_query(scene.c);
   scene.claims = properties::judged_claims(detector.claims_in(configuration), detector.contract);
@@ -216,13 +216,13 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
     SceneStep step{script[s], truth_of(scene.c, truth[s], detector.contract), {}, {}};
-    if (s < run.steps.size()) step.answered = run.steps[s];
+    if (s < run.steps.size()) step.answer = run.steps[s];
     if (s < run.candidates.size()) step.candidates = run.candidates[s];
-    if (s < judged.steps.size()) step.diff = std::move(judged.steps[s]);
+    if (s < verdict.steps.size()) step.diff = std::move(verdict.steps[s]);
     // Of the way that is allowed the detector answers nothing.
     if (scene.failure && scene.failure->claim == properties::Claim::commit_free &&
         scene.failure->step == s) {
-      step.answered.reset();
+      step.answer.reset();
       step.diff.reset();
     }
     scene.steps.push_back(std::move(step));
@@ -250,11 +250,11 @@ SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
 
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
                                               const std::string& configuration) {
-  properties::Configuration chosen{configuration, {}};
+  properties::Configuration choice{configuration, {}};
   if (const auto options = properties::read_options(c); detector_.built_in && options)
-    chosen.options = options.value();
-  auto scene = make_scene(c, detector_.in(chosen), chosen, worker_ ? &*worker_ : nullptr);
-  if (scene && !absent_.empty()) scene->ended = absent_;
+    choice.options = options.value();
+  auto scene = make_scene(c, detector_.in(choice), choice, worker_ ? &*worker_ : nullptr);
+  if (scene && !absent_.empty()) scene->ending = absent_;
   return scene;
 }
 

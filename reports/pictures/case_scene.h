@@ -41,14 +41,14 @@ struct CaseScene;
 
 struct SceneStep {
   corpus::CaseStep span;
-  properties::StepTruth truth;                   // under the detector's contract
-  std::optional<detector::StepResult> answered;  // by the detector; nothing if its run broke off
+  properties::StepTruth truth;                 // under the detector's contract
+  std::optional<detector::StepResult> answer;  // by the detector; nothing if its run broke off
   // How the two differ; nothing if the detector did not run.
   std::optional<properties::StepDiff> diff;
   properties::CandidatePairs candidates = {};  // only of a plug-in that gives some
 
-  // Whether `answered` has view sets to be shown.
-  bool has_views() const { return answered && !answered->doubts.empty(); }
+  // Whether `answer` has view sets to be shown.
+  bool has_views() const { return answer && !answer->doubts.empty(); }
   // What the claims and the contract make of a pair that is in contact or reported, in words:
   // "missing", "late", "early", "spurious", "no candidate" and "answered free" break a claim; "not
   // claimed", alone or behind what differs, "left out by the contract", "agrees" and "not run" do
@@ -63,7 +63,7 @@ struct CaseScene {
   properties::Claims claims;                   // that are judged under the contract
   properties::Contract contract;               // that it is judged under
   bool reports_pairs = true;                   // false: the detector says nothing of pairs
-  std::string ended;                           // how the detector's run broke off; else empty
+  std::string ending;                          // how the detector's run broke off; else empty
   std::optional<properties::Failure> failure;  // what is wrong, if the case still fails
 
   // The step and the pair that the picture is about: those of the failure, else of the first

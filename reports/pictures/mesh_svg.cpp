@@ -20,9 +20,9 @@ constexpr double width = 360, picture = 300, margin = 24, row = 18;
 constexpr std::size_t letters_in_a_row = 54;
 
 std::string escaped(const std::string& text) {
-  static const std::map<char, std::string_view> written = {
+  static const std::map<char, std::string_view> replacements = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}};
-  return replaced(text, written);
+  return replace(text, replacements);
 }
 
 // A step of a scene at the time of its contact; as a strip, also where it begins and where it ends,
@@ -33,8 +33,8 @@ class Picture {
       : scene_(scene), step_(step) {
     const auto pair = scene.shown_pair();
     exact_ = contact_of(step.truth.pairs, pair);
-    if (step.answered) answered_ = contact_of(step.answered->pairs, pair);
-    const double time = exact_ ? middle(exact_->time) : answered_ ? middle(answered_->time) : 0;
+    if (step.answer) answer_ = contact_of(step.answer->pairs, pair);
+    const double time = exact_ ? middle(exact_->time) : answer_ ? middle(answer_->time) : 0;
     pair_ = pair;
     Positions all_t0 = start_of(scene.c, step.span), all_t1 = end_of(scene.c, step.span);
     vertices_ = all_t0.rows();
@@ -44,8 +44,8 @@ class Picture {
     }
     own_ = faces_.size();
     if (scene.surface && step.has_views() && !scene.surface->is_closed()) {
-      all_t0 = detector::with_apexes(all_t0, step.answered->apexes, false);
-      all_t1 = detector::with_apexes(all_t1, step.answered->apexes, true);
+      all_t0 = detector::with_apexes(all_t0, step.answer->apexes, false);
+      all_t1 = detector::with_apexes(all_t1, step.answer->apexes, true);
       const auto& all = scene.surface->all().triangles;
       faces_.insert(faces_.end(), all.begin() + static_cast<std::ptrdiff_t>(own_), all.end());
     }
@@ -69,8 +69,8 @@ class Picture {
     }
     if (now_ > 0) out += ways();
     const bool is_of_contact = at_.size() == 1 || now_ == 1;
-    if (answered_ && is_of_contact)
-      out += mark(*answered_, "#d6336c", "fill=\"none\" stroke=\"#d6336c\"", 9);
+    if (answer_ && is_of_contact)
+      out += mark(*answer_, "#d6336c", "fill=\"none\" stroke=\"#d6336c\"", 9);
     if (exact_ && is_of_contact) out += mark(*exact_, "#111", "fill=\"#111\" stroke=\"#fff\"", 5);
     return out;
   }
@@ -78,11 +78,11 @@ class Picture {
   // "distance 0.0098, d 0.01", of the exact contact or else of the detector's; empty if nobody asks
   // for a distance.
   std::string distance_text() const {
-    const auto* contact = exact_ ? exact_ : answered_;
-    const auto asked = scene_.asked_distance();
+    const auto* contact = exact_ ? exact_ : answer_;
+    const auto range = scene_.asked_distance();
     const auto places = contact ? scene_.nearest_points(step_, *contact) : std::nullopt;
-    return asked.empty() || !places ? ""
-                                    : fmt::format("distance {:.6g}, {}", places->distance(), asked);
+    return range.empty() || !places ? ""
+                                    : fmt::format("distance {:.6g}, {}", places->distance(), range);
   }
 
  private:
@@ -113,7 +113,7 @@ class Picture {
   // points are apart, the side counts by as much as the segment between them appears in its length.
   void choose_side() {
     double most = -1;
-    const auto* contact = exact_ ? exact_ : answered_;
+    const auto* contact = exact_ ? exact_ : answer_;
     const auto places = contact ? scene_.nearest_points(step_, *contact) : std::nullopt;
     Vector apart = places ? unit(places->b) - unit(places->a) : Vector(0, 0, 0);
     const bool are_apart = apart.norm() > 0;
@@ -190,7 +190,7 @@ class Picture {
   const char* colour(std::size_t i) const {
     auto set = ViewSet::none;
     if (step_.has_views()) {
-      set = view_set(*step_.answered, i);
+      set = view_set(*step_.answer, i);
     } else if (is_shown(i)) {
       set = i == static_cast<std::size_t>(pair_->a) ? ViewSet::positive : ViewSet::negative;
     }
@@ -241,7 +241,7 @@ class Picture {
 
   const CaseScene& scene_;
   const SceneStep& step_;
-  const detector::PairContact *exact_ = nullptr, *answered_ = nullptr;
+  const detector::PairContact *exact_ = nullptr, *answer_ = nullptr;
   std::optional<detector::TrianglePair> pair_;
   std::vector<double> times_;
   std::vector<Positions> at_;  // at these times, in a unit box; apexes of ghosts stand behind
@@ -303,22 +303,22 @@ std::string mesh_svg(const CaseScene& scene, const std::string& title) {
   }
   std::string body;
   if (!scene.steps.empty()) {
-    Picture shown(scene, scene.steps[scene.shown_step()], false);
-    body = shown.body(0);
-    caption.add(shown.distance_text());
+    Picture drawing(scene, scene.steps[scene.shown_step()], false);
+    body = drawing.body(0);
+    caption.add(drawing.distance_text());
   }
   return sheet(width, picture + caption.height(), title) + body + caption.rows() + "</svg>\n";
 }
 
 std::string strip_svg(const CaseScene& scene, const std::string& title) {
-  Picture shown(scene, scene.steps[scene.shown_step()], true);
-  const auto& times = shown.times();
+  Picture drawing(scene, scene.steps[scene.shown_step()], true);
+  const auto& times = drawing.times();
   std::string out = sheet(width * static_cast<double>(times.size()), picture + 2 * row, title);
   for (std::size_t i = 0; i < times.size(); ++i) {
     Caption caption;
     caption.add(fmt::format("t = {:.6g}{}", times[i], i == 1 ? ": they meet" : ""));
     out += fmt::format("<g transform=\"translate({:.0f},0)\">\n", width * static_cast<double>(i)) +
-           shown.body(i) + caption.rows() + "</g>\n";
+           drawing.body(i) + caption.rows() + "</g>\n";
   }
   return out + "</svg>\n";
 }

@@ -44,8 +44,8 @@ constexpr const char* conversion<std::int32_t> = "triangles";
 
 // A subclass may mean something else by its elements. Masked arrays, for example, are treated in
 // Python.
-bool is_plain(const py::object& given) {
-  return Py_TYPE(given.ptr()) ==
+bool is_plain(const py::object& object) {
+  return Py_TYPE(object.ptr()) ==
          reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_);
 }
 
@@ -71,12 +71,12 @@ py::dict dict_of(const detector::StepCounts& counts) {
 }  // namespace
 
 template <class Scalar>
-RowsArgument<Scalar>::RowsArgument(const py::object& given, const char* name) {
-  if (is_plain(given)) {
-    array_ = py::reinterpret_borrow<py::array>(given);
+RowsArgument<Scalar>::RowsArgument(const py::object& object, const char* name) {
+  if (is_plain(object)) {
+    array_ = py::reinterpret_borrow<py::array>(object);
     if (is_viewable<Scalar>(array_)) return;
   }
-  array_ = converted(conversion<Scalar>, given, name);
+  array_ = converted(conversion<Scalar>, object, name);
   if (!is_viewable<Scalar>(array_)) throw py::type_error("assay.arrays gave no rows of three");
 }
 
@@ -93,8 +93,8 @@ typename RowsArgument<Scalar>::View RowsArgument<Scalar>::view() const {
 template class RowsArgument<double>;
 template class RowsArgument<std::int32_t>;
 
-QueriesArgument::QueriesArgument(const py::object& given, const char* name)
-    : array_(converted("queries", given, name)) {
+QueriesArgument::QueriesArgument(const py::object& object, const char* name)
+    : array_(converted("queries", object, name)) {
   const bool fits = holds<double>(array_) && array_.ndim() == 3 && array_.shape(1) == points &&
                     array_.shape(2) == axes &&
                     (array_.flags() & py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_) != 0;

@@ -90,7 +90,7 @@ class RowsArgument {
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
   // `name` is that of the argument, for errors. Raises TypeError and ValueError.
-  RowsArgument(const pybind11::object& given, const char* name);
+  RowsArgument(const pybind11::object& object, const char* name);
 
   // Valid as long as this object, which holds the array.
   View view() const;
@@ -107,7 +107,7 @@ class QueriesArgument {
  public:
   static constexpr std::size_t points = 4, axes = 3;
 
-  QueriesArgument(const pybind11::object& given, const char* name);
+  QueriesArgument(const pybind11::object& object, const char* name);
 
   std::size_t count() const { return static_cast<std::size_t>(array_.shape(0)); }
   detector::Point point(std::size_t query, std::size_t corner) const;
@@ -120,11 +120,11 @@ class QueriesArgument {
 template <class Number, class Element>
 pybind11::array array_of(std::vector<Element> elements) {
   static_assert(sizeof(Number) == sizeof(Element));
-  auto kept = std::make_unique<std::vector<Element>>(std::move(elements));
-  const auto* data = reinterpret_cast<const Number*>(kept->data());
-  const auto size = static_cast<pybind11::ssize_t>(kept->size());
+  auto list = std::make_unique<std::vector<Element>>(std::move(elements));
+  const auto* data = reinterpret_cast<const Number*>(list->data());
+  const auto size = static_cast<pybind11::ssize_t>(list->size());
   const pybind11::capsule owner(
-      kept.release(), [](void* vector) { delete static_cast<std::vector<Element>*>(vector); });
+      list.release(), [](void* vector) { delete static_cast<std::vector<Element>*>(vector); });
   pybind11::array_t<Number> array(size, data, owner);
   pybind11::detail::array_proxy(array.ptr())->flags &=
       ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
@@ -134,11 +134,11 @@ pybind11::array array_of(std::vector<Element> elements) {
 // Makes an array of the numbers of a matrix. The array owns the matrix.
 template <class Matrix>
 pybind11::array owning_array(Matrix matrix) {
-  auto kept = std::make_unique<Matrix>(std::move(matrix));
-  const auto* data = kept->data();
-  const pybind11::ssize_t rows = kept->rows(), columns = kept->cols();
-  const pybind11::capsule owner(kept.release(),
-                                [](void* gone) { delete static_cast<Matrix*>(gone); });
+  auto memory = std::make_unique<Matrix>(std::move(matrix));
+  const auto* data = memory->data();
+  const pybind11::ssize_t rows = memory->rows(), columns = memory->cols();
+  const pybind11::capsule owner(memory.release(),
+                                [](void* address) { delete static_cast<Matrix*>(address); });
   return pybind11::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
 }
 

@@ -56,22 +56,22 @@ class PythonDetector {
   // are used.
   PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options,
                  std::uint32_t threads)
-      : threads_(threads), detector_(made(triangles, positions, options, threads)) {}
+      : threads_(threads), detector_(make(triangles, positions, options, threads)) {}
 
   py::dict evaluate(const py::object& x_t0, const py::object& x_t1) {
-    return answered(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
+    return answer(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
       return detector_.evaluate(from, to, {}, stop);
     });
   }
 
   py::dict step(const py::object& x_t0, const py::object& x_t1) {
-    return answered(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
+    return answer(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
       return detector_.step(from, to, {}, stop);
     });
   }
 
   py::dict first_contact(const py::object& x_t0, const py::object& x_t1, double until) {
-    return answered(x_t0, x_t1, [&](const auto& from, const auto& to, const auto& stop) {
+    return answer(x_t0, x_t1, [&](const auto& from, const auto& to, const auto& stop) {
       return detector_.first_contact(from, to, until, stop);
     });
   }
@@ -111,29 +111,29 @@ class PythonDetector {
   }
 
  private:
-  static Detector made(const py::object& triangles, const py::object& positions,
+  static Detector make(const py::object& triangles, const py::object& positions,
                        const py::dict& options, std::uint32_t threads) {
     threads_in_this_process(threads);
-    corpus::Case stated;
+    corpus::Case option_case;
     for (const auto& [name, word] : options) {
       if (!py::isinstance<py::str>(word))
         throw py::type_error(py::str("{}: a word is wanted, not {!r}").format(name, word));
-      stated.options[name.cast<std::string>()] = word.cast<std::string>();
+      option_case.options[name.cast<std::string>()] = word.cast<std::string>();
     }
-    auto chosen = properties::read_options(stated);
-    if (!chosen) throw py::value_error(chosen.error().message);
-    chosen.value().threads = threads;
+    auto case_options = properties::read_options(option_case);
+    if (!case_options) throw py::value_error(case_options.error().message);
+    case_options.value().threads = threads;
     const TrianglesArgument mesh(triangles, "triangles");
     const PositionsArgument places(positions, "positions");
     auto detector = interruptible([&](const auto& stop) {
-      return Detector::create(mesh.view(), places.view(), chosen.value(), stop);
+      return Detector::create(mesh.view(), places.view(), case_options.value(), stop);
     });
     if (!detector) raise(detector.error());
     return std::move(detector.value());
   }
 
   template <class Ask>
-  py::dict answered(const py::object& x_t0, const py::object& x_t1, const Ask& ask) {
+  py::dict answer(const py::object& x_t0, const py::object& x_t1, const Ask& ask) {
     const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
     threads_in_this_process(threads_);
     const OneAtATime alone(busy_);
@@ -199,12 +199,12 @@ bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_
 template <int first_group>
 py::tuple answers(const py::object& x_t0, const py::object& x_t1, const std::string& arithmetic,
                   double separation) {
-  const auto chosen = from_name<detector::Arithmetic>(arithmetic);
-  if (!chosen) throw py::value_error("arithmetic: unknown word '" + arithmetic + "'");
+  const auto arithmetic_value = from_name<detector::Arithmetic>(arithmetic);
+  if (!arithmetic_value) throw py::value_error("arithmetic: unknown word '" + arithmetic + "'");
   const auto test = [&](const detector::FourPoints& query) {
     constexpr auto want = detector::Want::first_time;
     return separation > 0 ? detector::test_near(query, separation, want)
-                          : detector::test_contact(query, want, *chosen);
+                          : detector::test_contact(query, want, *arithmetic_value);
   };
   const QueriesArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
   if (from.count() != to.count())

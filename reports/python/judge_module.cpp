@@ -80,42 +80,42 @@ using reports::CheckQuestion;
 
 // Reads an option if its word is given. A word that is not known is a ValueError.
 template <class Parse, class Target>
-void choose(const py::dict& given, const char* name, const Parse& parse, Target& target) {
-  if (!given.contains(name) || given[name].is_none()) return;
-  const auto value = parse(given[name].template cast<std::string>());
-  if (!value) throw py::value_error(py::str("{}: unknown word {!r}").format(name, given[name]));
+void choose(const py::dict& args, const char* name, const Parse& parse, Target& target) {
+  if (!args.contains(name) || args[name].is_none()) return;
+  const auto value = parse(args[name].template cast<std::string>());
+  if (!value) throw py::value_error(py::str("{}: unknown word {!r}").format(name, args[name]));
   target = *value;
 }
 
 template <class Target>
-void take(const py::dict& given, const char* name, Target& target) {
-  if (given.contains(name) && !given[name].is_none()) target = given[name].cast<Target>();
+void take(const py::dict& args, const char* name, Target& target) {
+  if (args.contains(name) && !args[name].is_none()) target = args[name].cast<Target>();
 }
 
-CheckQuestion question_of(const py::dict& given) {
+CheckQuestion question_of(const py::dict& args) {
   CheckQuestion question;
-  choose(given, "culling", from_name<detector::Culling>, question.built_in.culling);
-  choose(given, "start", from_name<detector::Start>, question.built_in.start);
-  choose(given, "pairs", from_name<detector::Pairs>, question.built_in.pairs);
-  choose(given, "arithmetic", from_name<detector::Arithmetic>, question.built_in.arithmetic);
-  choose(given, "isolation", from_name<properties::Isolation>, question.detector.isolation);
-  choose(given, "memory", reports::memory_size, question.memory_limit);
-  take(given, "detector", question.detector.library);
-  take(given, "threads", question.threads);
-  take(given, "jobs", question.jobs);
-  take(given, "time", question.time_limit);
-  take(given, "files", question.files);
+  choose(args, "culling", from_name<detector::Culling>, question.built_in.culling);
+  choose(args, "start", from_name<detector::Start>, question.built_in.start);
+  choose(args, "pairs", from_name<detector::Pairs>, question.built_in.pairs);
+  choose(args, "arithmetic", from_name<detector::Arithmetic>, question.built_in.arithmetic);
+  choose(args, "isolation", from_name<properties::Isolation>, question.detector.isolation);
+  choose(args, "memory", reports::memory_size, question.memory_limit);
+  take(args, "detector", question.detector.library);
+  take(args, "threads", question.threads);
+  take(args, "jobs", question.jobs);
+  take(args, "time", question.time_limit);
+  take(args, "files", question.files);
   question.wants_report = true;
   return question;
 }
 
 // Which pairs count; nothing if all do.
-std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const corpus::Case& c) {
+std::optional<corpus::CaseRelation> relation_of(const py::dict& args, const corpus::Case& c) {
   corpus::CaseRelation relation;
-  take(given, "bodies", relation.pairs.body);
-  take(given, "apart", relation.pairs.apart);
-  take(given, "rings", relation.pairs.rings);
-  take(given, "rest_distance", relation.pairs.rest_distance);
+  take(args, "bodies", relation.pairs.body);
+  take(args, "apart", relation.pairs.apart);
+  take(args, "rings", relation.pairs.rings);
+  take(args, "rest_distance", relation.pairs.rest_distance);
   if (relation.pairs.body.empty() && relation.pairs.count_all()) return std::nullopt;
   if (relation.pairs.rest_distance > 0) relation.pairs.rest = corpus::points_of(c.frames[0]);
   if (const auto bad =
@@ -124,7 +124,7 @@ std::optional<corpus::CaseRelation> relation_of(const py::dict& given, const cor
   return relation;
 }
 
-CheckInput input_of(const py::object& triangles, const py::list& frames, const py::dict& given) {
+CheckInput input_of(const py::object& triangles, const py::list& frames, const py::dict& args) {
   corpus::Case c;
   c.triangles = TrianglesArgument(triangles, "triangles").view();
   for (const auto& frame : frames) {
@@ -134,13 +134,13 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
   }
   if (c.frames.empty()) throw py::value_error("a frame or more is needed");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
-  c.counted = relation_of(given, c);
+  c.counted = relation_of(args, c);
   std::vector<std::int32_t> body(static_cast<std::size_t>(c.frames[0].rows()), 0);
   if (c.counted && !c.counted->pairs.body.empty()) body = c.counted->pairs.body;
   corpus::DoubledCorners corners(c.triangles, body);
   for (const auto& x : c.frames) corners.add(x);
   bool weld = false;
-  take(given, "weld", weld);
+  take(args, "weld", weld);
   if (weld) c.triangles = corners.welded(std::move(c.triangles));
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   corpus::InputText text;
@@ -150,16 +150,16 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
 }
 
 // Returns the report as JSON, what is printed, and the exit code.
-py::tuple checked(CheckInput& input, const CheckQuestion& question, const py::dict& given,
-                  const std::string& worker, const py::object& listener) {
+py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py::dict& args,
+                      const std::string& worker, const py::object& listener) {
   std::optional<double> separation;
-  take(given, "separation", separation);
+  take(args, "separation", separation);
   std::string text;
-  const auto tell = [&](const std::string& said) {
-    text += said;
+  const auto tell = [&](const std::string& remark) {
+    text += remark;
     if (listener.is_none()) return;
     const py::gil_scoped_acquire interpreter;
-    listener(said);
+    listener(remark);
   };
   using Answer = reports::SeparationAnswer;
   const auto answer = interruptible([&](const auto& stop) -> reports::Expected<Answer> {
@@ -174,21 +174,21 @@ py::tuple checked(CheckInput& input, const CheckQuestion& question, const py::di
       text, answer.value().exit_code);
 }
 
-py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& given,
+py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& args,
                        const std::string& worker, const py::object& listener) {
-  const auto question = question_of(given);
-  auto input = input_of(triangles, frames, given);
-  return checked(input, question, given, worker, listener);
+  const auto question = question_of(args);
+  auto input = input_of(triangles, frames, args);
+  return check_input(input, question, args, worker, listener);
 }
 
 // Checks a case file, or files of frames.
-py::tuple check_files(const std::vector<std::string>& files, const py::dict& given,
+py::tuple check_files(const std::vector<std::string>& files, const py::dict& args,
                       const std::string& worker, const py::object& listener) {
-  auto question = question_of(given);
+  auto question = question_of(args);
   question.files = files;
   auto input = reports::read_check_input(files);
   if (!input) throw py::value_error(input.error().message);
-  return checked(input.value(), question, given, worker, listener);
+  return check_input(input.value(), question, args, worker, listener);
 }
 
 py::tuple mesh_and_frames(detector::Triangles& triangles,
@@ -200,10 +200,10 @@ py::tuple mesh_and_frames(detector::Triangles& triangles,
 
 // Returns the files in order, and what is said of it.
 py::tuple in_order_of_numbers(const std::vector<std::string>& files) {
-  const auto ordered = corpus::in_order_of_numbers({files.begin(), files.end()});
+  const auto order = corpus::in_order_of_numbers({files.begin(), files.end()});
   py::list paths;
-  for (const auto& file : ordered.files) paths.append(file.string());
-  return py::make_tuple(paths, ordered.remarks);
+  for (const auto& file : order.files) paths.append(file.string());
+  return py::make_tuple(paths, order.remarks);
 }
 
 // Returns the triangles, a list of the positions of each frame, and remarks.
@@ -227,11 +227,11 @@ py::tuple read_case(const std::string& file) {
 
 // What a certificate would say of the run in a folder, as JSON.
 std::string findings(const std::string& folder) {
-  const auto found = properties::read_findings(folder);
-  if (!found) throw py::value_error(found.error().message);
+  const auto result = properties::read_findings(folder);
+  if (!result) throw py::value_error(result.error().message);
   const auto judgement =
-      properties::judge(found.value(), properties::asked_of_a_run(found.value()));
-  return reports::run_json(found.value(), judgement)["findings"].dump(
+      properties::judge(result.value(), properties::asked_of_a_run(result.value()));
+  return reports::run_json(result.value(), judgement)["findings"].dump(
       -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -245,7 +245,7 @@ class Plugin {
  public:
   // `library` is a file or "python:MODULE:CLASS", and `worker` the program assay-worker.
   Plugin(const std::string& library, const std::string& worker, double seconds)
-      : subject_(opened(library, worker, seconds)), process_(subject_.process()) {}
+      : subject_(open(library, worker, seconds)), process_(subject_.process()) {}
 
   std::string name() const { return subject_.description.name; }
   std::string version() const { return subject_.description.version; }
@@ -271,7 +271,7 @@ class Plugin {
   }
 
  private:
-  static Subject opened(const std::string& library, const std::string& worker, double seconds) {
+  static Subject open(const std::string& library, const std::string& worker, double seconds) {
     properties::WorkerLimits limits;
     limits.seconds = seconds;
     auto subject = Subject::open(worker, library, properties::DetectorPart::by_library, limits);
@@ -288,8 +288,8 @@ class Plugin {
   }
 
   bool is_taken_as_it_is(const corpus::Case& c) const {
-    const auto told = contracted(c, subject_.detector.contract);
-    return told && told->frames == c.frames && corpus::steps_of(*told) == corpus::steps_of(c);
+    const auto input = contract_case(c, subject_.detector.contract);
+    return input && input->frames == c.frames && corpus::steps_of(*input) == corpus::steps_of(c);
   }
 
   // An answer as a results file has it (corpus/vectors/README.md).

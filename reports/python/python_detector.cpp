@@ -90,8 +90,8 @@ std::string folder_of_package() {
 [[noreturn]] void pass_on(py::error_already_set& error) {
   if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
   if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
-  const auto told = py::module_::import("assay.hosting").attr("tell")(error.value());
-  const auto [kind, line] = told.cast<std::pair<std::string, std::string>>();
+  const auto text = py::module_::import("assay.hosting").attr("tell")(error.value());
+  const auto [kind, line] = text.cast<std::pair<std::string, std::string>>();
   if (kind == "refused") throw plugin::Refused(line);
   if (kind == "beyond capacity") throw plugin::BeyondCapacity(line);
   throw std::runtime_error(line);
@@ -137,9 +137,9 @@ py::array_t<T> array_of(const plugin::Rows<T>& rows) {
 }
 
 template <class Row>
-std::vector<Row> rows_of(const py::object& given) {
+std::vector<Row> rows_of(const py::object& object) {
   const auto array =
-      given
+      object
           .cast<py::array_t<typename Row::value_type, py::array::c_style | py::array::forcecast>>();
   std::vector<Row> rows(static_cast<std::size_t>(array.size()) / 2);
   if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
@@ -225,20 +225,20 @@ class PythonDetector {
 
 // Makes the table without the parts that the class does not have.
 assay_detector_api made_table() {
-  assay_detector_api made = *plugin::detail::table<PythonDetector>();
+  assay_detector_api table = *plugin::detail::table<PythonDetector>();
   try {
     const py::object& host = hosted();
     const py::gil_scoped_acquire interpreter;
     const auto has = [&](const char* part) { return host.attr("has")(part).cast<bool>(); };
-    if (!has("evaluate")) made.evaluate = nullptr, made.commit = nullptr, made.result = nullptr;
-    if (!has("candidates")) made.candidates = nullptr;
-    if (!has("query")) made.query = nullptr;
-    if (!has("limit")) made.limit = nullptr;
-    if (!has("use_threads")) made.use_threads = nullptr;
+    if (!has("evaluate")) table.evaluate = nullptr, table.commit = nullptr, table.result = nullptr;
+    if (!has("candidates")) table.candidates = nullptr;
+    if (!has("query")) table.query = nullptr;
+    if (!has("limit")) table.limit = nullptr;
+    if (!has("use_threads")) table.use_threads = nullptr;
   } catch (const std::exception&) {
     // describe() will say why.
   }
-  return made;
+  return table;
 }
 
 }  // namespace

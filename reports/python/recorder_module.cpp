@@ -23,9 +23,9 @@ const double* data_of(const std::optional<Reals>& array) { return array ? array-
 const char* data_of(const Text& text) { return text ? text->c_str() : nullptr; }
 
 // n x 3 numbers of float32 or float64, adjacent; or None.
-assay_record_array array_of(const py::object& given) {
-  if (given.is_none()) return {nullptr, 0};
-  const auto array = py::reinterpret_borrow<py::array>(given);
+assay_record_array array_of(const py::object& object) {
+  if (object.is_none()) return {nullptr, 0};
+  const auto array = py::reinterpret_borrow<py::array>(object);
   return {array.data(), py::isinstance<py::array_t<float>>(array)};
 }
 
@@ -36,7 +36,7 @@ class Recorder {
   Recorder(const std::string& path, const std::pair<Integers, py::array>& mesh,
            const std::pair<std::string, std::string>& name,
            const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every, bool overwrite,
-           const std::pair<std::optional<Integers>, Integers>& counted,
+           const std::pair<std::optional<Integers>, Integers>& counted_pairs,
            const std::tuple<std::int32_t, double, Reals>& near) {
     assay_description description = {};
     description.name = name.first.c_str();
@@ -44,9 +44,9 @@ class Recorder {
     description.claims = described.first;
     set_contract(description, described.second);
     assay_counted_pairs pairs = {};
-    pairs.body = counted.first ? counted.first->data() : nullptr;
-    pairs.apart_count = static_cast<std::uint64_t>(counted.second.size()) / 2;
-    pairs.apart = counted.second.data();
+    pairs.body = counted_pairs.first ? counted_pairs.first->data() : nullptr;
+    pairs.apart_count = static_cast<std::uint64_t>(counted_pairs.second.size()) / 2;
+    pairs.apart = counted_pairs.second.data();
     pairs.rings = std::get<0>(near);
     pairs.rest_distance = std::get<1>(near);
     if (pairs.rest_distance > 0) pairs.rest = std::get<2>(near).data();

@@ -66,7 +66,7 @@ std::string pair_rows(const std::vector<detector::PairContact>& contacts,
 // `allowed` may be reported or not: what the contract leaves out or, if it has a slack, all that
 // comes within that.
 std::string step_row(const corpus::CaseStep& step, const properties::StepTruth& truth,
-                     const std::vector<detector::PairContact>& allowed, bool is_query) {
+                     const std::vector<detector::PairContact>& allowance, bool is_query) {
   const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
   std::map<detector::TrianglePair, int> part_of;
   int part = 0;
@@ -78,7 +78,7 @@ std::string step_row(const corpus::CaseStep& step, const properties::StepTruth& 
                      step.from, step.to, step.commit, truth.first.has_value(), time.lo, time.hi,
                      fraction_of(time.lo), fraction_of(time.hi),
                      // The two triangles of a query only hold the features that are asked for.
-                     is_query ? "{}" : pair_rows(truth.pairs, part_of), pair_rows(allowed, {}));
+                     is_query ? "{}" : pair_rows(truth.pairs, part_of), pair_rows(allowance, {}));
 }
 
 constexpr const char* arrays_text = R"(#include "exported_case.h"
@@ -145,20 +145,20 @@ static_assert(static_cast<int>(exported_case::Claim::times_unique) ==
 
 // What an answer is asked for: the broken claim, or all that are judged if none is broken.
 std::string asked_text(const properties::DetectorUnderTest& detector, bool is_query,
-                       std::optional<properties::Claim> broken) {
+                       std::optional<properties::Claim> claim) {
   const auto claims = detector.claims_in(detector.configurations.front());
-  auto asked = properties::judged_claims(claims, detector.contract, is_query);
-  if (broken) asked = {*broken};
+  auto claim_list = properties::judged_claims(claims, detector.contract, is_query);
+  if (claim) claim_list = {*claim};
   std::vector<std::string> names;
-  for (const auto& word : words_of(asked))
-    names.push_back(fmt::format("{{Claim::{}, \"{}\"}}", replaced(word, {{'-', "_"}}), word));
-  return joined(names, ", ");
+  for (const auto& word : words_of(claim_list))
+    names.push_back(fmt::format("{{Claim::{}, \"{}\"}}", replace(word, {{'-', "_"}}), word));
+  return join(names, ", ");
 }
 
 // The arrays of the case and what its answers are asked for, with a function to fill in.
 std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
                       const std::vector<oracle::StepJudgement>& judgements,
-                      std::optional<properties::Claim> broken) {
+                      std::optional<properties::Claim> claim) {
   const auto query = properties::query_of(c);
   const auto& contract = detector.contract;
   const auto script = corpus::steps_of(c);
@@ -173,10 +173,10 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   const auto phrases = phrases_of(contract);
   std::string out =
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
-                  phrases.empty() ? "leaves nothing out" : joined(phrases, ", "));
+                  phrases.empty() ? "leaves nothing out" : join(phrases, ", "));
   if (contract.separation > 0) out += "// To meet is here to come within that distance.\n";
   if (c.counted) out += "// Of the pairs that count: `counted` of case.json says which do.\n";
-  const auto asked = asked_text(detector, query.has_value(), broken);
+  const auto claims_text = asked_text(detector, query.has_value(), claim);
   const bool is_float = contract.coordinates == properties::Coordinates::float32;
   return out +
          fmt::format(fmt::runtime(arrays_text), query ? query_about : mesh_about,
@@ -184,8 +184,8 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
                      !query                    ? 0
                      : query->first_group == 1 ? 1
                                                : 2,
-                     c.triangles.rows(), c.frames[0].rows(), steps, asked, contract.time_tolerance,
-                     contract.progress,
+                     c.triangles.rows(), c.frames[0].rows(), steps, claims_text,
+                     contract.time_tolerance, contract.progress,
                      is_float ? std::numeric_limits<float>::epsilon()
                               : std::numeric_limits<double>::epsilon(),
                      contract.motion == properties::MotionGiven::displacement) +
@@ -201,7 +201,7 @@ template <class List, class Row>
 std::string braced(const List& list, const Row& row) {
   std::vector<std::string> rows;
   for (const auto& item : list) rows.push_back(row(item));
-  return "{" + joined(rows, ", ") + "}";
+  return "{" + join(rows, ", ") + "}";
 }
 
 std::string two_text(std::int32_t a, std::int32_t b) { return fmt::format("{}, {}", a, b); }
@@ -258,7 +258,7 @@ std::string told_relation_text(const corpus::Case& c) {
   return lists + fmt::format(
                      "static const assay_counted_pairs counted_pairs = {{{}}};\n"
                      "static const assay_counted_pairs* counted = &counted_pairs;\n",
-                     joined(members, ", "));
+                     join(members, ", "));
 }
 
 constexpr const char* plugin_head =
@@ -335,13 +335,13 @@ std::string test_text(const corpus::Case& c, const properties::DetectorUnderTest
   const auto& options = configuration.options;
   std::string views;
   for (std::size_t s = 0; s < corpus::steps_of(c).size(); ++s) {
-    std::string given;
+    std::string arguments;
     for (const auto& [q0, q1] : properties::given_view(corpus::view_of_step(c, s), options.culling))
-      given = fmt::format("{{{{{}, {}}}, {{{}, {}}}}}", point_text(q0.t0), point_text(q0.t1),
-                          point_text(q1.t0), point_text(q1.t1));
-    views += fmt::format("  {{{}}},\n", given);
+      arguments = fmt::format("{{{{{}, {}}}, {{{}, {}}}}}", point_text(q0.t0), point_text(q0.t1),
+                              point_text(q1.t0), point_text(q1.t1));
+    views += fmt::format("  {{{}}},\n", arguments);
   }
-  const auto chosen = [](const char* type, const char* name) {
+  const auto argument = [](const char* type, const char* name) {
     return fmt::format("  *assay::from_name<builtin::{}>(\"{}\"),\n", type, name);
   };
   const auto* pairs = corpus::counted_of(c);
@@ -349,9 +349,9 @@ std::string test_text(const corpus::Case& c, const properties::DetectorUnderTest
       "{}{}static const builtin::Options options = {{\n{}{}{}{}{}}};\n"
       "static const Views views[] = {{\n{}}};\n"
       "static const bool is_refused = {}, has_unique_times = {};\n{}",
-      test_head, pairs ? relation_text(*pairs) : "", chosen("Culling", name_of(options.culling)),
-      chosen("Start", name_of(options.start)), chosen("Pairs", name_of(options.pairs)),
-      chosen("Arithmetic", name_of(options.arithmetic)),
+      test_head, pairs ? relation_text(*pairs) : "", argument("Culling", name_of(options.culling)),
+      argument("Start", name_of(options.start)), argument("Pairs", name_of(options.pairs)),
+      argument("Arithmetic", name_of(options.arithmetic)),
       fmt::format("  1, {}, {:a}", pairs ? "&counted" : "nullptr", options.separation), views,
       c.expected.answer == detector::Answer::error,
       detector.claims_in(configuration).has(properties::Claim::times_unique), test_program);
@@ -362,13 +362,13 @@ std::string test_text(const corpus::Case& c, const properties::DetectorUnderTest
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
                            const std::vector<oracle::StepJudgement>& truth,
-                           std::optional<properties::Claim> broken) {
+                           std::optional<properties::Claim> claim) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   std::map<std::string, std::string> files = {{"case.json", corpus::case_text(c)},
-                                              {"case.cpp", case_text(c, detector, truth, broken)},
+                                              {"case.cpp", case_text(c, detector, truth, claim)},
                                               {"exported_case.h", exported_case_header}};
   const auto faces = rows_text("f {} {} {}\n", c.triangles, 1);
   for (std::size_t f = 0; f < c.frames.size(); ++f)

@@ -20,7 +20,7 @@ namespace assay::reports {
 // four points of a query (properties/worker/plugin/query_case.h); for each step what the oracle
 // finds that counts under the contract, with its time as decimals and as fractions, and what else
 // may be reported, because the contract leaves it out or has a slack; a function that is left to be
-// filled in, and a main() that asks its answers for the `broken` claim, or for each claim if none
+// filled in, and a main() that asks its answers for the broken `claim`, or for each claim if none
 // is broken. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
 //
 // For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
@@ -33,6 +33,6 @@ namespace assay::reports {
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
                            const std::vector<oracle::StepJudgement>& truth,
-                           std::optional<properties::Claim> broken);
+                           std::optional<properties::Claim> claim);
 
 }  // namespace assay::reports

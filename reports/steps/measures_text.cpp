@@ -78,7 +78,7 @@ std::string limits_text(const properties::LimitUse& use) {
   text += fmt::format(
       "; of the time until the contact in {} others used {:.3g} in the median, {:.3g} in 99 of "
       "100, {:.3g} at worst; {} stalls{}\n",
-      use.contact, use.used(0.5), use.used(0.01), use.used(0), use.stalled(),
+      use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
       use.excused > 0 ? fmt::format("; {} less than claimed, as rounding may be why", use.excused)
                       : "");
   for (const auto& [cause, count] : use.stalls)
@@ -101,40 +101,40 @@ Json times_off_json(const properties::TimesOff& off) {
 }
 
 Json limits_json(const properties::LimitUse& use) {
-  Json stalls = Json::array(), used = nullptr;
+  Json stalls = Json::array(), shares = nullptr;
   for (const auto& [cause, steps] : use.stalls)
     stalls.push_back({{"cause", cause}, {"steps", steps}});
   if (use.contact > 0)
-    used = {{"median", use.used(0.5)}, {"p1", use.used(0.01)}, {"worst", use.used(0)}};
+    shares = {{"median", use.share(0.5)}, {"p1", use.share(0.01)}, {"worst", use.share(0)}};
   return {{"free", use.free},       {"cut", use.cut}, {"contact", use.contact},
-          {"excused", use.excused}, {"used", used},   {"stalls", stalls}};
+          {"excused", use.excused}, {"used", shares}, {"stalls", stalls}};
 }
 
 }  // namespace
 
 std::string sizes_text(const Json& judged_up_to) {
   std::vector<std::pair<std::uint64_t, std::vector<std::string>>> sizes;
-  for (const auto& judged : judged_up_to) {
-    const auto size = judged["triangles"].get<std::uint64_t>();
-    const auto known = std::find_if(sizes.begin(), sizes.end(),
+  for (const auto& claim : judged_up_to) {
+    const auto size = claim["triangles"].get<std::uint64_t>();
+    const auto entry = std::find_if(sizes.begin(), sizes.end(),
                                     [&](const auto& one) { return one.first == size; });
-    auto& claims = known == sizes.end() ? sizes.emplace_back(size, 0).second : known->second;
-    claims.push_back(judged["claim"].get<std::string>());
+    auto& claims = entry == sizes.end() ? sizes.emplace_back(size, 0).second : entry->second;
+    claims.push_back(claim["claim"].get<std::string>());
   }
   std::string text;
   for (const auto& [triangles, claims] : sizes) {
     text += fmt::format("{}of up to {}{}{}", text.empty() ? "meshes " : ", ", triangles,
                         text.empty() ? " triangles" : "",
-                        sizes.size() == 1 ? "" : fmt::format(" ({})", joined(claims, ", ")));
+                        sizes.size() == 1 ? "" : fmt::format(" ({})", join(claims, ", ")));
   }
   return text;
 }
 
-std::string extremes_text(const Json& tried) {
+std::string extremes_text(const Json& extremes) {
   const auto count = [](const Json& number, const char* one, const char* many) {
     return fmt::format("{} {}", number.get<std::uint64_t>(), number == 1 ? one : many);
   };
-  const auto& largest = tried["largest"];
+  const auto& largest = extremes["largest"];
   return fmt::format(
       "largest tried: {} between two starts, {} at a vertex, {}, {}, {} in a step, "
       "{}; relations: {}",
@@ -144,7 +144,7 @@ std::string extremes_text(const Json& tried) {
       count(largest["components"], "component", "components"),
       count(largest["pairs"], "pair", "pairs"),
       count(largest["triangles"], "triangle", "triangles"),
-      count(tried["relations"], "case", "cases"));
+      count(extremes["relations"], "case", "cases"));
 }
 
 std::string found_text(const Json& power) {
@@ -154,10 +154,10 @@ std::string found_text(const Json& power) {
 }
 
 std::string measures_head(bool of_queries) {
-  const char* asked = of_queries ? "queries" : "steps";
-  return fmt::format(row_format, fmt::format("free {} answered collision", asked), "answered free",
-                     "spurious", fmt::format("late: {} by median to worst", asked),
-                     fmt::format("early: {} by median to worst", asked), "left out",
+  const char* noun = of_queries ? "queries" : "steps";
+  return fmt::format(row_format, fmt::format("free {} answered collision", noun), "answered free",
+                     "spurious", fmt::format("late: {} by median to worst", noun),
+                     fmt::format("early: {} by median to worst", noun), "left out",
                      "candidates / least");
 }
 
@@ -166,8 +166,8 @@ std::string measures_row(const properties::StepMeasures& m, bool of_queries) {
   return fmt::format(
       row_format, rate_text(false_alarm_rate(m)),
       misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
-      m.errors.answered() && !of_queries ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m))
-                                         : "-",
+      m.errors.answers() && !of_queries ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m))
+                                        : "-",
       off_text(m.errors.late), off_text(m.errors.early),
       m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-",
       m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
@@ -197,7 +197,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (m.left_out_misses > 0)
     parts.push_back(fmt::format("{} step{} would be a miss if the contract left nothing out",
                                 m.left_out_misses, m.left_out_misses == 1 ? "" : "s"));
-  return (parts.empty() ? "" : fmt::format("whatever it claims: {}\n", joined(parts, "; "))) +
+  return (parts.empty() ? "" : fmt::format("whatever it claims: {}\n", join(parts, "; "))) +
          limits_text(e.limits);
 }
 
@@ -222,7 +222,7 @@ std::string measures_text(const properties::RunFindings& findings) {
         "in {} steps it does not report a contact, and need not by its contract ({}): without "
         "that, "
         "these were misses\n",
-        all.left_out_misses, joined(pairs_left_out(findings.run.detector.contract), ", "));
+        all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);
@@ -230,7 +230,7 @@ std::string measures_text(const properties::RunFindings& findings) {
 }
 
 Json measures_json(const properties::StepMeasures& m) {
-  return {{"steps", m.errors.answered()},
+  return {{"steps", m.errors.answers()},
           {"false_alarms", rate_json(false_alarm_rate(m))},
           {"answered_free", rate_json(miss_rate(m))},
           {"spurious_pairs", m.errors.spurious},

@@ -25,7 +25,7 @@ std::string measures_sentence(const properties::StepMeasures& measures);
 std::string sizes_text(const nlohmann::ordered_json& judged_up_to);
 // "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5 components, 812
 // pairs in a step, 200 triangles; relations: 0 cases".
-std::string extremes_text(const nlohmann::ordered_json& tried);
+std::string extremes_text(const nlohmann::ordered_json& extremes);
 // "72 by random cases, 44 by their curated case alone".
 std::string found_text(const nlohmann::ordered_json& power);
 

@@ -40,17 +40,17 @@ bool StepContacts::cross_at_end(const detector::PairContact& contact) const {
 
 std::string StepContacts::text(std::size_t most) const {
   const auto kinds = marks();
-  std::vector<std::size_t> shown(pairs.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
-  const auto count = std::min(most, shown.size());
-  std::partial_sort(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(count), shown.end(),
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto count = std::min(most, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](const auto i, const auto j) {
                       return std::tie(pairs[i].time, kinds[i], pairs[i].pair) <
                              std::tie(pairs[j].time, kinds[j], pairs[j].pair);
                     });
   std::string out;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& contact = pairs[shown[i]];
+    const auto& contact = pairs[order[i]];
     const auto& [pair, time, feature] = contact;
     out += fmt::format("  contact: triangles {} and {}{}", pair.a, pair.b, bodies.text(pair));
     if (!is_at_rest) out += fmt::format(" at t = {}", time_text(time));
@@ -67,8 +67,8 @@ std::string StepContacts::text(std::size_t most) const {
       out += cross_at_end(contact) ? "; crossing at the end" : "; not crossing at the end";
     out += "\n";
   }
-  if (shown.size() > count)
-    out += fmt::format("  ... {} more in contact: --json names all\n", shown.size() - count);
+  if (order.size() > count)
+    out += fmt::format("  ... {} more in contact: --json names all\n", order.size() - count);
   if (is_at_rest && count > 0 && pairs.size() <= most_told_apart) {
     const auto touching = std::count(kinds.begin(), kinds.end(), touching_mark);
     out += fmt::format("  crossing: {}, touching: {}\n",
@@ -130,7 +130,7 @@ std::string rest_text(const std::vector<detector::PairContact>& pairs,
   }
   if (counts.size() > most_listed)
     list.push_back(fmt::format("and {} more", counts.size() - most_listed));
-  return joined(list, ", ");
+  return join(list, ", ");
 }
 
 namespace {
@@ -236,11 +236,11 @@ class PairStory {
   std::string oracle_text(const detector::SteppedMesh& motion,
                           const oracle::StepJudgement& truth) const {
     if (!counts_) return "not asked";
-    const auto found = std::find_if(truth.pairs.begin(), truth.pairs.end(),
+    const auto place = std::find_if(truth.pairs.begin(), truth.pairs.end(),
                                     [&](const auto& contact) { return contact.pair == pair_; });
-    if (found != truth.pairs.end())
-      return fmt::format("{} at t = {} ({})", met_text(separation_), time_text(found->time),
-                         properties::name_of(found->feature.kind));
+    if (place != truth.pairs.end())
+      return fmt::format("{} at t = {} ({})", met_text(separation_), time_text(place->time),
+                         properties::name_of(place->feature.kind));
     const std::string never = "never " + met_text(separation_);
     if (separation_ == 0) return never;
     oracle::DistanceOptions options;
@@ -362,12 +362,12 @@ std::vector<NestedBodies> innermost(const std::vector<NestedBodies>& nested) {
 std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const detector::TrianglePair& pair,
                        const std::vector<oracle::StepJudgement>& truth) {
-  auto made = properties::CasePlayer::make(c, options);
-  if (!made) return fmt::format("  refused: {}\n", made.error().message);
+  auto creation = properties::CasePlayer::make(c, options);
+  if (!creation) return fmt::format("  refused: {}\n", creation.error().message);
   std::string out =
       fmt::format("  why {}, {}{}:\n", pair.a, pair.b,
                   properties::BodyNames(corpus::counted_of(c), c.triangles).text(pair));
-  auto& player = made.value();
+  auto& player = creation.value();
   const PairStory story(c, player.detector(), pair, options.separation);
   for (std::size_t s = 0; s < player.steps(); ++s) {
     out += fmt::format("   step {}:\n", s + 1) +

@@ -52,15 +52,15 @@ std::string verdict_text(const properties::StepDiff& diff) {
   return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 
-std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) {
+std::string diff_text(const properties::StepDiff& diff, const ShownWork& work) {
   std::string out = fmt::format("  diff: {} missing, {} spurious, {} late, {} early{}{}{}\n",
                                 diff.missing.size(), diff.spurious.size(), diff.late.size(),
                                 diff.early.size(), diff.wrong_answer() ? ", wrong answer" : "",
                                 diff.wrong_first_time() ? ", wrong first time" : "",
                                 diff.partial ? " (partial)" : "");
-  if (!diff.broken.empty()) {
+  if (!diff.breaches.empty()) {
     out += "  broken:";
-    for (const auto claim : diff.broken) out += fmt::format(" {}", properties::name_of(claim));
+    for (const auto claim : diff.breaches) out += fmt::format(" {}", properties::name_of(claim));
     out += "\n";
   }
   const auto list = [&](const char* heading, const auto& items, bool has_features = true) {
@@ -68,7 +68,7 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) 
     for (std::size_t i = 0; i < items.size() && i < most_listed; ++i) {
       const auto& one = items[i];
       out += fmt::format("  {}: triangles {} and {}{} at t = ", heading, one.pair.a, one.pair.b,
-                         shown.bodies.text(one.pair));
+                         work.bodies.text(one.pair));
       if constexpr (requires { one.oracle; })
         out += fmt::format("{}, exact {}\n", time_text(one.detector), time_text(one.oracle));
       else
@@ -80,7 +80,7 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& shown) 
       out += fmt::format("  ... {} more\n", items.size() - most_listed);
   };
   list("missing", diff.missing);
-  list("spurious", diff.spurious, shown.has_stages);
+  list("spurious", diff.spurious, work.has_stages);
   list("no candidate", diff.missing_candidates);
   list("late", diff.late);
   list("early", diff.early);
@@ -106,7 +106,7 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
 
 // "  limit: 0.71 of the step, contact ahead at t = 0.75; contact on the way at t = 0.9".
 std::string limit_text(const properties::LimitDiff& limit) {
-  std::string out = fmt::format("  limit: {:.9g} of the {}", limit.used,
+  std::string out = fmt::format("  limit: {:.9g} of the {}", limit.way,
                                 limit.share < 0 ? "way, as positions" : "step");
   out += limit.ahead ? fmt::format(", contact ahead at t = {}", time_text(*limit.ahead))
                      : ", which has no contact";
@@ -163,11 +163,11 @@ std::string exact_time_text(const oracle::StaticTime& time) {
 }
 
 std::vector<std::int32_t> vertices_of(const detector::Feature& feature) {
-  std::vector<std::int32_t> used;
+  std::vector<std::int32_t> vertices;
   for (const auto v : feature.vertices) {
-    if (v >= 0) used.push_back(v);
+    if (v >= 0) vertices.push_back(v);
   }
-  return used;
+  return vertices;
 }
 
 std::string contradiction_text(const Contradiction& c) {
@@ -203,7 +203,7 @@ Json pairs_json(const std::vector<detector::PairContact>& pairs,
 
 Json candidates_json(const properties::StepDiff& diff, const properties::BodyNames& bodies) {
   if (!diff.candidates) return nullptr;
-  return {{"given", diff.candidates->given},
+  return {{"given", diff.candidates->given_pairs},
           {"least", diff.candidates->least},
           {"missing", pairs_json(diff.missing_candidates, bodies)}};
 }
@@ -212,7 +212,7 @@ Json limit_json(const properties::StepDiff& diff) {
   if (!diff.limit) return nullptr;
   const auto& limit = *diff.limit;
   return {{"share", limit.share < 0 ? Json() : Json(limit.share)},
-          {"used", limit.used},
+          {"used", limit.way},
           {"ahead", limit.ahead ? to_json(*limit.ahead) : Json()},
           {"contact_on_the_way", limit.hit ? to_json(limit.hit->time) : Json()},
           {"cut", limit.is_cut},
@@ -263,15 +263,15 @@ std::string left_out_text(const properties::StepTruth& truth) {
 }
 
 std::string step_text(std::size_t number, const detector::StepResult& result,
-                      const JudgedByOracle* oracle, const ShownWork& shown) {
+                      const JudgedByOracle* oracle, const ShownWork& work) {
   const auto* diff = oracle ? &oracle->diff : nullptr;
   const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
-  std::string out = shown.is_at_rest ? "at rest: " : fmt::format("step {}: ", number);
+  std::string out = work.is_at_rest ? "at rest: " : fmt::format("step {}: ", number);
   out += has_answer ? properties::name_of(result.answer) : "no answer";
   if (result.answer == Answer::collision) {
-    if (!shown.is_at_rest) out += fmt::format(" at t = {}", time_text(result.first));
-    if (shown.reports_pairs)
-      out += fmt::format(", {} {}", pairs_text(result.pairs.size()), met_text(shown.separation));
+    if (!work.is_at_rest) out += fmt::format(" at t = {}", time_text(result.first));
+    if (work.reports_pairs)
+      out += fmt::format(", {} {}", pairs_text(result.pairs.size()), met_text(work.separation));
   }
   if (!diff) {
     out += "; not judged\n";
@@ -280,25 +280,25 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
   } else {
     out += fmt::format("; {}\n", verdict_text(*diff));
   }
-  if (shown.has_stages) out += stages_text(result, shown.create_ms, shown.is_at_rest);
+  if (work.has_stages) out += stages_text(result, work.create_ms, work.is_at_rest);
   if (oracle) {
     out +=
         fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}{}",
-                    shown.has_stages ? ", oracle" : "  ms:   oracle", oracle->milliseconds,
+                    work.has_stages ? ", oracle" : "  ms:   oracle", oracle->milliseconds,
                     properties::name_of(oracle->truth.answer()), oracle->truth.pairs.size(),
                     oracle->judgement.feature_candidates,
                     oracle->judgement.complete ? "" : " (stopped)", left_out_text(oracle->truth));
   }
-  if (shown.has_stages || oracle) out += "\n";
+  if (work.has_stages || oracle) out += "\n";
   if (!diff) return out;
   if (diff->candidates)
     out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
-                       diff->candidates->given, diff->candidates->least,
+                       diff->candidates->given_pairs, diff->candidates->least,
                        diff->missing_candidates.size());
   if (diff->limit) out += limit_text(*diff->limit);
-  out += times_text(*diff, shown.has_stages);
+  out += times_text(*diff, work.has_stages);
   const bool is_plain = diff->outcome == Outcome::holds || diff->outcome == Outcome::refused;
-  if (!is_plain || differs(*diff)) out += diff_text(*diff, shown);
+  if (!is_plain || differs(*diff)) out += diff_text(*diff, work);
   return out;
 }
 
@@ -352,16 +352,16 @@ Json to_json(const detector::PairContact& contact, const properties::BodyNames& 
 }
 
 Json to_json(const properties::StepDiff& diff, const properties::BodyNames& bodies) {
-  Json broken = Json::array();
-  for (const auto claim : diff.broken) broken.push_back(properties::name_of(claim));
+  Json claims = Json::array();
+  for (const auto claim : diff.breaches) claims.push_back(properties::name_of(claim));
   return {{"outcome", properties::name_of(diff.outcome)},
-          {"broken", std::move(broken)},
+          {"broken", std::move(claims)},
           {"partial", diff.partial},
           {"wrong_answer", diff.wrong_answer()},
           {"wrong_first_time", diff.wrong_first_time()},
           {"first", first_json(diff)},
           {"missing", pairs_json(diff.missing, bodies)},
-          {"excused", pairs_json(diff.excused, bodies)},
+          {"excused", pairs_json(diff.excuses, bodies)},
           {"spurious", pairs_json(diff.spurious, bodies)},
           {"late", times_json(diff.late, bodies)},
           {"early", times_json(diff.early, bodies)},

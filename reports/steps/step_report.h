@@ -54,7 +54,7 @@ struct JudgedByOracle {
 // A line with the answer, then the sizes, counts and times, indented, as far as they are to be
 // shown. `oracle` is null if it was not asked.
 std::string step_text(std::size_t number, const detector::StepResult& result,
-                      const JudgedByOracle* oracle, const ShownWork& shown);
+                      const JudgedByOracle* oracle, const ShownWork& work);
 
 // "; 12 pairs left out by the contract, the first at t = 0"; empty if none is.
 std::string left_out_text(const properties::StepTruth& truth);

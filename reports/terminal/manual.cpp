@@ -111,7 +111,8 @@ std::string VerbManual::text() const {
   text += "\nExit codes:\n";
   for (const char* digit = codes; *digit; ++digit) {
     const auto code = static_cast<std::size_t>(*digit - '0');
-    text += fmt::format("  {}  {}\n", code, code == exit_holds && *done ? done : meanings[code]);
+    text +=
+        fmt::format("  {}  {}\n", code, code == exit_holds && *success ? success : meanings[code]);
   }
   return text;
 }

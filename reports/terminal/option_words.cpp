@@ -65,9 +65,9 @@ std::vector<std::string> given_options(const CLI::App& verb) {
   return words;
 }
 
-std::string wrong_word(const std::string& word, const std::string& wanted) {
-  const auto meant = corpus::did_you_mean(words_of(wanted), word);
-  return fmt::format("'{}' is wrong{}{} wanted: {}", word, meant, meant.empty() ? "," : "", wanted);
+std::string wrong_word(const std::string& word, const std::string& choices) {
+  const auto hint = corpus::did_you_mean(words_of(choices), word);
+  return fmt::format("'{}' is wrong{}{} wanted: {}", word, hint, hint.empty() ? "," : "", choices);
 }
 
 std::optional<std::array<std::int32_t, 2>> two_numbers(const std::string& word) {
@@ -215,9 +215,9 @@ Expected<properties::Subject> choose_detector(const DetectorWords& words,
 
 std::string detector_text(const properties::DetectorUnderTest& detector) {
   const auto claims = words_of(detector.claims);
-  const std::string left_out = joined(phrases_of(detector.contract), ", ");
+  const std::string left_out = join(phrases_of(detector.contract), ", ");
   return fmt::format("{}\nclaims: {}\ncontract: {}", detector.name,
-                     claims.empty() ? "nothing" : joined(claims, ", "),
+                     claims.empty() ? "nothing" : join(claims, ", "),
                      left_out.empty() ? "leaves nothing out" : left_out);
 }
 
@@ -226,9 +226,9 @@ std::string plugin_text(const properties::Subject& plugin) {
                      text_of(plugin.isolation), plugin.limits.threads);
 }
 
-std::string printed_text(const std::string& printed) {
-  if (printed.empty()) return "";
-  return fmt::format("  it printed:\n    {}\n", replaced(printed, {{'\n', "\n    "}}));
+std::string printed_text(const std::string& output) {
+  if (output.empty()) return "";
+  return fmt::format("  it printed:\n    {}\n", replace(output, {{'\n', "\n    "}}));
 }
 
 std::string detector_words(const DetectorWords& detector) {

@@ -34,7 +34,7 @@ struct VerbManual {
   const char* group;  // the title under which the verb stands in the list of all
   const char* codes;  // the exit codes that the verb may end with, a digit each
   // What exit code 0 means where no claim is judged; empty: that all claims hold.
-  const char* done;
+  const char* success;
   std::vector<Example> examples;
 
   // Examples and exit codes as lines.
@@ -55,7 +55,7 @@ std::string exit_codes_text();
 std::string wrapped(const std::string& text, std::size_t indent);
 
 // One line that says which words are wanted in place of this one, and which may have been meant.
-std::string wrong_word(const std::string& word, const std::string& wanted);
+std::string wrong_word(const std::string& word, const std::string& choices);
 
 // A check that takes the words that `parse` takes: a fixed set, or words of a certain form.
 template <class Parse>
@@ -113,6 +113,6 @@ std::string plugin_text(const properties::Subject& plugin);
 
 // "  it printed:" and the lines that it printed in a case, each behind four blanks; empty if it
 // printed nothing.
-std::string printed_text(const std::string& printed);
+std::string printed_text(const std::string& output);
 
 }  // namespace assay::reports

@@ -44,7 +44,7 @@ std::vector<std::string> given_options(const CLI::App& verb);
 
 // A verb of the command line: its name, and what it does once the command line is parsed, which
 // returns the exit code.
-struct AddedVerb {
+struct VerbAction {
   std::string name;
   std::function<int()> act;
 };
@@ -56,9 +56,9 @@ CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& ab
 // which the verb is refused. The action keeps the request alive: it holds the defaults, and the
 // options write into it.
 template <class Request>
-AddedVerb make_verb(CLI::App& app, const char* name, const char* about,
-                    void (*add_options)(CLI::App&, Request&),
-                    Expected<int> (*run)(const Request&)) {
+VerbAction make_verb(CLI::App& app, const char* name, const char* about,
+                     void (*add_options)(CLI::App&, Request&),
+                     Expected<int> (*run)(const Request&)) {
   const auto request = std::make_shared<Request>();
   add_options(add_verb(app, name, about), *request);
   return {name, [request, run] {

@@ -21,12 +21,12 @@ std::string shell_word(const std::string& word) {
   constexpr const char* plain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:,+=@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  return "'" + replaced(word, {{'\'', "'\\''"}}) + "'";
+  return "'" + replace(word, {{'\'', "'\\''"}}) + "'";
 }
 
 namespace {
 
-std::string this_program(PastedIn place) {
+std::string this_program(PastePlace place) {
   namespace fs = std::filesystem;
   std::error_code error;
   const auto own = fs::read_symlink("/proc/self/exe", error);
@@ -35,15 +35,15 @@ std::string this_program(PastedIn place) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (place == PastedIn::any_folder && !folder.starts_with('/')) continue;
-    const auto found = fs::path(folder.empty() ? "." : folder) / "assay";
-    if (access(found.c_str(), X_OK) != 0 || fs::is_directory(found, error)) continue;
-    if (fs::equivalent(found, own, error)) return "assay";
+    if (place == PastePlace::any_folder && !folder.starts_with('/')) continue;
+    const auto program = fs::path(folder.empty() ? "." : folder) / "assay";
+    if (access(program.c_str(), X_OK) != 0 || fs::is_directory(program, error)) continue;
+    if (fs::equivalent(program, own, error)) return "assay";
     break;
   }
   const auto here = own.lexically_relative(fs::current_path(error));
   const bool is_below = !error && !here.empty() && *here.begin() != "..";
-  if (!is_below || place == PastedIn::any_folder) return shell_word(own.string());
+  if (!is_below || place == PastePlace::any_folder) return shell_word(own.string());
   // A name alone would be looked for on the PATH.
   return shell_word((here.has_parent_path() ? here : "." / here).string());
 }
@@ -55,15 +55,15 @@ std::string to_this_folder() {
 
 }  // namespace
 
-std::string line_to_paste(const std::string& words, PastedIn place) {
+std::string line_to_paste(const std::string& words, PastePlace place) {
   // A detector in Python is looked for in this folder.
   const bool has_module = words.find(" --detector python:") != std::string::npos;
-  return (place == PastedIn::any_folder && has_module ? to_this_folder() : "") +
+  return (place == PastePlace::any_folder && has_module ? to_this_folder() : "") +
          this_program(place) + " " + words;
 }
 
-std::string this_command(PastedIn place) {
-  const bool is_elsewhere = place == PastedIn::any_folder;
+std::string this_command(PastePlace place) {
+  const bool is_elsewhere = place == PastePlace::any_folder;
   std::ifstream typed("/proc/self/cmdline", std::ios::binary);
   std::string word, words;
   std::getline(typed, word, '\0');  // the program
@@ -81,22 +81,22 @@ std::string this_command(PastedIn place) {
 std::string absolute_path(const std::filesystem::path& path) {
   if (path.empty() || properties::names_python(path.string())) return path.string();
   std::error_code error;
-  const auto found = std::filesystem::absolute(path, error);
-  return error ? path.string() : found.lexically_normal().string();
+  const auto absolute = std::filesystem::absolute(path, error);
+  return error ? path.string() : absolute.lexically_normal().string();
 }
 
-std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters) {
+std::string replace(std::string_view text, const std::map<char, std::string_view>& characters) {
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {
-    const auto found = characters.find(c);
-    found == characters.end() ? out += c : out += found->second;
+    const auto place = characters.find(c);
+    place == characters.end() ? out += c : out += place->second;
   }
   return out;
 }
 
 std::string xml_escaped(const std::string& text) {
-  static const std::map<char, std::string_view> written = [] {
+  static const std::map<char, std::string_view> replacements = [] {
     std::map<char, std::string_view> all = {
         {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
     for (char control = 0; control < ' '; ++control) {
@@ -104,7 +104,7 @@ std::string xml_escaped(const std::string& text) {
     }
     return all;
   }();
-  return replaced(text, written);
+  return replace(text, replacements);
 }
 
 std::string commit_text() { return ASSAY_COMMIT; }

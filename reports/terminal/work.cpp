@@ -79,21 +79,21 @@ Limits::Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes
     : seconds_(seconds), bytes_(bytes), begin_(processor_seconds()) {}
 
 bool Limits::exceeded() {
-  if (!reached_.empty()) return true;
+  if (!limit_text_.empty()) return true;
   if (seconds_ && processor_seconds() - begin_ >= *seconds_) {
-    reached_ = fmt::format("time limit of {} s", *seconds_);
+    limit_text_ = fmt::format("time limit of {} s", *seconds_);
   }
-  if (reached_.empty() && bytes_ && resident_bytes() >= *bytes_) {
+  if (limit_text_.empty() && bytes_ && resident_bytes() >= *bytes_) {
     constexpr std::uint64_t mebibyte = 1 << 20;
-    reached_ = fmt::format("memory limit of {} MiB", *bytes_ / mebibyte);
+    limit_text_ = fmt::format("memory limit of {} MiB", *bytes_ / mebibyte);
     is_out_of_memory_ = true;
   }
-  return !reached_.empty();
+  return !limit_text_.empty();
 }
 
 void Limits::memory_failed() {
-  if (!reached_.empty()) return;
-  reached_ = "memory of this machine";
+  if (!limit_text_.empty()) return;
+  limit_text_ = "memory of this machine";
   is_out_of_memory_ = true;
 }
 
@@ -133,15 +133,15 @@ bool PlainProgress::is_due() const { return Clock::now() - last_ >= between_; }
 void PlainProgress::show(const std::string& text) {
   if (!is_due()) return;
   last_ = Clock::now();
-  drawn_ = on_terminal_;
+  has_line_ = on_terminal_;
   fmt::print(out_, "{}{}: {}{}", on_terminal_ ? "\r\033[K" : "", title_, text,
              on_terminal_ ? "" : "\n");
   std::fflush(out_);
 }
 
 void PlainProgress::finish() {
-  if (drawn_) fmt::print(out_, "\r\033[K");
-  drawn_ = false;
+  if (has_line_) fmt::print(out_, "\r\033[K");
+  has_line_ = false;
 }
 
 Progress::Progress(std::string title, std::chrono::seconds between_lines)

@@ -61,7 +61,7 @@ class Limits {
   // limited, and remembers the first limit reached.
   bool exceeded();
   // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
-  const std::string& reached() const { return reached_; }
+  const std::string& limit_text() const { return limit_text_; }
   // Whether what was reached is a limit of memory, the user's or the machine's.
   bool is_out_of_memory() const { return is_out_of_memory_; }
   // Notes that an allocation failed.
@@ -86,7 +86,7 @@ class Limits {
   std::optional<double> seconds_;
   std::optional<std::uint64_t> bytes_;
   double begin_;  // processor seconds of this process
-  std::string reached_;
+  std::string limit_text_;
   bool is_out_of_memory_ = false;
 };
 
@@ -96,23 +96,23 @@ inline double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 template <class Answer>
-struct Timed {
+struct TimedAnswer {
   Answer answer;
   double milliseconds = 0;  // wall clock
 };
 
 // Returns what `ask` answers, or an empty answer if memory fails.
 template <class Ask>
-auto timed(Limits& limits, const Ask& ask) {
+auto answer_in(Limits& limits, const Ask& ask) {
   const auto begin = std::chrono::steady_clock::now();
-  Timed<decltype(ask())> timed;
+  TimedAnswer<decltype(ask())> answer;
   try {
-    timed.answer = ask();
+    answer.answer = ask();
   } catch (const std::bad_alloc&) {
     limits.memory_failed();
   }
-  timed.milliseconds = 1e3 * seconds_since(begin);
-  return timed;
+  answer.milliseconds = 1e3 * seconds_since(begin);
+  return answer;
 }
 
 // Resident memory of this process, and the most that it ever was.
@@ -140,7 +140,7 @@ class PlainProgress {
   std::FILE* const out_;
   const bool on_terminal_;
   const std::chrono::steady_clock::duration between_;
-  bool drawn_ = false;
+  bool has_line_ = false;
   std::string title_;
   std::chrono::steady_clock::time_point last_;
 };

@@ -32,9 +32,9 @@ constexpr Suite suites[] = {{"stability", stability_suite},
                             {"peers", peers_suite}};
 
 const Suite* suite_named(std::string_view name) {
-  const auto* found = std::find_if(std::begin(suites), std::end(suites),
+  const auto* place = std::find_if(std::begin(suites), std::end(suites),
                                    [&](const Suite& suite) { return suite.name == name; });
-  return found == std::end(suites) ? nullptr : found;
+  return place == std::end(suites) ? nullptr : place;
 }
 
 constexpr double quick_scale = .1;
@@ -77,7 +77,7 @@ Expected<int> run_bench(const BenchRequest& request) try {
 void add_options(CLI::App& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.settings.data = data && *data ? data : "../shared/data";
-  const auto names = joined(corpus::names_among(suites), ", ");
+  const auto names = join(corpus::names_among(suites), ", ");
   auto* suite = add(verb, "--suite NAME", request.suite, "What to measure: " + names)
                     ->check(one_of(names, suite_named));
   add_detector(verb, request.detector,
@@ -107,7 +107,7 @@ void add_options(CLI::App& verb, BenchRequest& request) {
 
 }  // namespace
 
-AddedVerb add_bench(CLI::App& app) {
+VerbAction add_bench(CLI::App& app) {
   return make_verb(app, "bench", "Speeds and memory beside what is wanted", add_options, run_bench);
 }
 

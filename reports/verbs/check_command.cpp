@@ -32,7 +32,7 @@ struct CheckRequest {
   bool fail_on_collision = false;
   std::string json_file, junit_file;  // empty: not written
   Keeping keeping;
-  std::function<std::vector<std::string>()> given;  // given_options of the verb
+  std::function<std::vector<std::string>()> option_texts;  // given_options of the verb
 };
 
 // What is judged, as bits, so that an option may be of several kinds.
@@ -87,7 +87,7 @@ const std::vector<OptionRow>& option_rows() {
 }
 
 Expected<void> refuse_options(Kind kind, const std::string& file,
-                              const std::vector<std::string>& given) {
+                              const std::vector<std::string>& option_texts) {
   // With the blanks that are about it in a row.
   const auto name_in = [](const std::string& word) {
     return " " + word.substr(0, word.find(' ')) + " ";
@@ -95,33 +95,33 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
   const auto holds = [](const std::string& options, const std::string& name) {
     return options.find(name) != std::string::npos;
   };
-  for (const auto& word : given) {
-    const OptionRow* taken = nullptr;
+  for (const auto& word : option_texts) {
+    const OptionRow* last_row = nullptr;
     unsigned of = 0;
     for (const auto& row : option_rows()) {
       if (!holds(row.options, name_in(word))) continue;
       of |= row.kinds;
-      if ((row.kinds & kind) != 0) taken = &row;
+      if ((row.kinds & kind) != 0) last_row = &row;
     }
     BOOST_ASSERT(of != 0);
-    std::vector<KindWords> takers, found;
+    std::vector<KindWords> takers, all;
     for (const auto& one : kinds) {
       if ((one.kind & of) != 0) takers.push_back(one);
-      if (one.kind == kind) found.push_back(one);
+      if (one.kind == kind) all.push_back(one);
     }
-    if (!taken)
+    if (!last_row)
       return Problem{
           fmt::format("{}is of {}, and this is {} ({}): leave it out, or assay check {} {}",
-                      name_in(word).substr(1), joined(corpus::names_among(takers), " or "),
-                      found[0].name, file, takers[0].input, word)};
+                      name_in(word).substr(1), join(corpus::names_among(takers), " or "),
+                      all[0].name, file, takers[0].input, word)};
     const auto is_beside = [&](const std::string& other) {
-      return holds(taken->beside, name_in(other));
+      return holds(last_row->beside, name_in(other));
     };
-    if (!taken->beside.empty() && std::ranges::none_of(given, is_beside))
+    if (!last_row->beside.empty() && std::ranges::none_of(option_texts, is_beside))
       return Problem{fmt::format("{}means nothing without{}(assay check --help lists options)",
-                                 name_in(word).substr(1), taken->beside)};
-    for (const auto& other : given) {
-      if (holds(taken->without, name_in(other)))
+                                 name_in(word).substr(1), last_row->beside)};
+    for (const auto& other : option_texts) {
+      if (holds(last_row->without, name_in(other)))
         return Problem{fmt::format("{} and{}do not go together (assay check --help lists options)",
                                    name_in(word).substr(1, name_in(word).size() - 2),
                                    name_in(other))};
@@ -140,34 +140,34 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
         "INPUT is required: frames of a mesh, a case file, a log or query files; or --body for "
         "each mesh"};
   constexpr std::array names = {"a frame", "a case file", "a log", "a query file"};
-  std::vector<InputKind> found;
-  const auto said = [&](std::size_t i) {
-    return fmt::format("{} is {}", files[i], names[static_cast<std::size_t>(found[i])]);
+  std::vector<InputKind> kinds;
+  const auto text = [&](std::size_t i) {
+    return fmt::format("{} is {}", files[i], names[static_cast<std::size_t>(kinds[i])]);
   };
   for (const auto& file : files)
-    found.push_back(log_name(file).step ? InputKind::log : corpus::kind_of_file(file));
+    kinds.push_back(log_name(file).step ? InputKind::log : corpus::kind_of_file(file));
   // A log that is absent, or cut before its first bytes tell anything, keeps no other from being
   // judged. Alone it is refused as what cannot be read.
-  const bool are_logs = std::ranges::find(found, InputKind::log) != found.end();
+  const bool are_logs = std::ranges::find(kinds, InputKind::log) != kinds.end();
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto start = corpus::read_start(log_name(files[i]).file, 1);
     if (!start && files.size() == 1) return start.error();
-    if (are_logs && !start) found[i] = InputKind::log;
-    if (found[i] == InputKind::answers)
+    if (are_logs && !start) kinds[i] = InputKind::log;
+    if (kinds[i] == InputKind::answers)
       return Problem{fmt::format(
           "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
           files[i], shell_word(files[i]))};
-    const bool is_alone = found[i] == InputKind::case_file;
-    if (i > 0 && (found[i] != found[0] || is_alone))
-      return Problem{fmt::format("{}, and {}: check one by one: assay check {}", said(0), said(i),
-                                 shell_word(files[found[i] == InputKind::frames ? 0 : i]))};
+    const bool is_alone = kinds[i] == InputKind::case_file;
+    if (i > 0 && (kinds[i] != kinds[0] || is_alone))
+      return Problem{fmt::format("{}, and {}: check one by one: assay check {}", text(0), text(i),
+                                 shell_word(files[kinds[i] == InputKind::frames ? 0 : i]))};
   }
   constexpr std::array of_file = {frames, a_case, a_log, queries};
-  const auto kind = of_file[static_cast<std::size_t>(found[0])];
+  const auto kind = of_file[static_cast<std::size_t>(kinds[0])];
   if (words_of_bodies.empty()) return kind == frames && files.size() == 1 ? rest : kind;
   if (kind != frames)
     return Problem{
-        fmt::format("--body is of frames, and {}: assay check {}", said(0), shell_word(files[0]))};
+        fmt::format("--body is of frames, and {}: assay check {}", text(0), shell_word(files[0]))};
   if (!inputs.empty())
     return Problem{fmt::format(
         "{} and --body do not go together: assay check --body FRAME... for each mesh", files[0])};
@@ -180,9 +180,9 @@ bool counts_all(const CheckRequest& request) {
 
 // The input in words as they were typed.
 std::string words_of(const CheckRequest& request) {
-  std::string words = joined(request.inputs, " ");
+  std::string words = join(request.inputs, " ");
   for (const auto& files : request.question.bodies)
-    words += fmt::format("{}--body {}", words.empty() ? "" : " ", joined(files, " "));
+    words += fmt::format("{}--body {}", words.empty() ? "" : " ", join(files, " "));
   for (const auto& apart : request.apart) words += " --apart " + apart;
   if (request.rings > 0) words += fmt::format(" --rings {}", request.rings);
   if (request.rest_distance > 0) words += fmt::format(" --rest-distance {}", request.rest_distance);
@@ -227,15 +227,15 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
   const std::filesystem::path ply(question.ply_file);
   if (!ply.empty() && ply.extension() != ".ply")
     return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
-  auto read = read_input(kind, request, question);
-  if (!read) {
-    if (is_log) suites += junit_suite_of_problem(request.inputs.front(), read.error().message);
-    return read.error();
+  auto result = read_input(kind, request, question);
+  if (!result) {
+    if (is_log) suites += junit_suite_of_problem(request.inputs.front(), result.error().message);
+    return result.error();
   }
-  auto& input = read.value();
+  auto& input = result.value();
   question.wants_report = !request.json_file.empty();
   question.announced_file = request.json_file;
-  question.again = this_command(PastedIn::any_folder);
+  question.again = this_command(PastePlace::any_folder);
   question.shows_all_steps = !is_log || request.all_steps;
   CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
@@ -251,13 +251,13 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
     return near.exit_code;
   }
   bool has_failed = false;
-  terminal.failed = [&](const FailedStep&) {
+  terminal.on_failure = [&](const StepFailure&) {
     has_failed = true;
     return "";
   };
   BOOST_OUTCOME_TRY(answer, check_keeping(question, input, keeping, terminal));
   if (has_failed && !is_log)
-    fmt::print("next: {} --keep kept\n", this_command(PastedIn::this_folder));
+    fmt::print("next: {} --keep kept\n", this_command(PastePlace::this_folder));
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }
@@ -299,7 +299,7 @@ Expected<int> run_check(const CheckRequest& request) {
   BOOST_OUTCOME_TRY(kind, kind_of(request.inputs, request.question.bodies));
   BOOST_OUTCOME_TRYV(refuse_options(
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
-      request.given()));
+      request.option_texts()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
     return Problem{"--detector asks again about what is kept: --keep says where"};
   if (const auto& which = request.selection;
@@ -308,13 +308,13 @@ Expected<int> run_check(const CheckRequest& request) {
                           [](const auto& word) { return log_name(word).step.has_value(); }))
     return Problem{"LOG#N is one step, and --share and --from choose among all: name one of both"};
   if (kind == queries) {
-    auto asked = request.queries;
-    asked.files = request.inputs;
-    asked.separation = request.separation;
-    asked.detector = request.question.detector;
-    asked.detector.threads = std::max<std::uint64_t>(request.question.threads, 1);
-    asked.json_file = request.json_file;
-    return check_queries(asked);
+    auto query_request = request.queries;
+    query_request.files = request.inputs;
+    query_request.separation = request.separation;
+    query_request.detector = request.question.detector;
+    query_request.detector.threads = std::max<std::uint64_t>(request.question.threads, 1);
+    query_request.json_file = request.json_file;
+    return check_queries(query_request);
   }
   std::string suites;
   const bool are_logs = kind == a_log && request.inputs.size() > 1;
@@ -417,12 +417,12 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add(verb, "--json FILE", request.json_file,
       "Write the report here (assay-check/1; of queries assay-queries/1)")
       ->group(OptionGroup::output);
-  request.given = [&verb] { return given_options(verb); };
+  request.option_texts = [&verb] { return given_options(verb); };
 }
 
 }  // namespace
 
-AddedVerb add_check(CLI::App& app) {
+VerbAction add_check(CLI::App& app) {
   return make_verb(app, "check",
                    "Detector against oracle on the steps of one mesh; recorded answers of a "
                    "simulator; labelled queries",

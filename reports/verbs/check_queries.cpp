@@ -59,10 +59,10 @@ namespace {
 
 using detector::Decision;
 
-properties::AskedQuery asked(const corpus::LabelledQuery& given) {
-  properties::AskedQuery asked{given.query};
-  if (given.separation) asked.within = detector::Separation{*given.separation, 0};
-  return asked;
+properties::QueryTask task_of(const corpus::LabelledQuery& query) {
+  properties::QueryTask task{query.query};
+  if (query.separation) task.within = detector::Separation{*query.separation, 0};
+  return task;
 }
 
 // " within 0.1", or nothing of a query of contact.
@@ -72,11 +72,11 @@ std::string within_text(const std::optional<double>& separation) {
 
 // Whether the label of a query that is coplanar throughout is in doubt, because another exact
 // method gives the same answer as this one (such labels were never checked by their makers).
-bool is_label_disputed(const properties::QueryMethod& method, const properties::AskedQuery& asked,
+bool is_label_disputed(const properties::QueryMethod& method, const properties::QueryTask& task,
                        Decision answer) {
   const auto* oracle = properties::method_of("oracle");
   const auto* other = &method == oracle ? properties::method_of("detector-exact") : oracle;
-  return detector::coplanar_throughout(asked.query) && other->answer(asked).decision == answer;
+  return detector::coplanar_throughout(task.query) && other->answer(task).decision == answer;
 }
 
 class QueryScore {
@@ -96,21 +96,20 @@ class QueryScore {
   void add(const std::string& file, const std::vector<corpus::LabelledQuery>& queries) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const auto& [query, truth, separation] = queries[i];
-      const auto question = asked(queries[i]);
+      const auto task = task_of(queries[i]);
       const auto begin = std::chrono::steady_clock::now();
-      const auto [decision, first, rung, proof] = method_->answer(question);
-      Answered answered{decision == Decision::yes, truth, separation, false,
-                        1e6 * seconds_since(begin)};
-      answered.open = decision == Decision::open;
-      answered.rung = rung;
-      if (!answered.open) {
-        answered.contradicted =
-            method_->is_referee &&
-            properties::method_of("oracle")->answer(question).decision != decision;
-        answered.label_disputed = truth && *truth != answered.contact && !separation &&
-                                  is_label_disputed(*method_, question, decision);
+      const auto [decision, first, rung, proof] = method_->answer(task);
+      Answered answer{decision == Decision::yes, truth, separation, false,
+                      1e6 * seconds_since(begin)};
+      answer.open = decision == Decision::open;
+      answer.rung = rung;
+      if (!answer.open) {
+        answer.contradicted = method_->is_referee &&
+                              properties::method_of("oracle")->answer(task).decision != decision;
+        answer.label_disputed = truth && *truth != answer.contact && !separation &&
+                                is_label_disputed(*method_, task, decision);
       }
-      add_answer(file, i, answered);
+      add_answer(file, i, answer);
     }
   }
 
@@ -124,29 +123,29 @@ class QueryScore {
     bool contradicted = false;  // by the oracle, which asks the same question
     int rung = 0;               // MethodAnswer::rung
   };
-  void add_answer(const std::string& file, std::size_t index, const Answered& answered) {
-    const bool contact = answered.contact;
+  void add_answer(const std::string& file, std::size_t index, const Answered& answer) {
+    const bool contact = answer.contact;
     const QueryDifference difference{
-        file, index, contact, !contact, answered.label_disputed, answered.separation};
-    microseconds_.push_back(answered.microseconds);
+        file, index, contact, !contact, answer.label_disputed, answer.separation};
+    microseconds_.push_back(answer.microseconds);
     ++report_.count;
-    report_.unlabelled += answered.truth ? 0 : 1;
-    report_.open += answered.open ? 1 : 0;
-    if (const auto& d = answered.separation) {
+    report_.unlabelled += answer.truth ? 0 : 1;
+    report_.open += answer.open ? 1 : 0;
+    if (const auto& d = answer.separation) {
       ++of_distance_;
       auto& range = report_.separation;
       range = range ? std::vector{std::min((*range)[0], *d), std::max((*range)[1], *d)}
                     : std::vector{*d, *d};
     }
-    if (answered.open) return;
+    if (answer.open) return;
     report_.yes += contact ? 1 : 0;
-    if (answered.contradicted) contradictions_.push_back(difference);
-    ++rungs_[static_cast<std::size_t>(answered.rung)];
-    if (!answered.truth || *answered.truth == contact) return;
+    if (answer.contradicted) contradictions_.push_back(difference);
+    ++rungs_[static_cast<std::size_t>(answer.rung)];
+    if (!answer.truth || *answer.truth == contact) return;
     report_.differences.push_back(difference);
-    ++(answered.label_disputed ? report_.disputed_labels
-       : contact               ? report_.false_positives
-                               : report_.false_negatives);
+    ++(answer.label_disputed ? report_.disputed_labels
+       : contact             ? report_.false_positives
+                             : report_.false_negatives);
   }
 
   QueryReport report() const {
@@ -239,9 +238,9 @@ Expected<void> write_report(const std::string& file, const QueryScore& score,
   if (file.empty()) return outcome::success();
   auto report = properties::json_of_fields<nlohmann::ordered_json>(score.report());
   report["detector"] = detector;
-  const auto written = write_json_file(file, report);
-  if (written) fmt::print("wrote {}\n", file);
-  return written;
+  const auto status = write_json_file(file, report);
+  if (status) fmt::print("wrote {}\n", file);
+  return status;
 }
 
 // Asks the plug-in the queries of a file. The answers are judged and scored.
@@ -253,9 +252,9 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
     queries.push_back(set[i].query);
     names.push_back(fmt::format("{} query {}", file, i));
   }
-  BOOST_OUTCOME_TRY(judged, detector.judge(queries, names));
+  BOOST_OUTCOME_TRY(results, detector.judge(queries, names));
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto& one = judged[i];
+    const auto& one = results[i];
     if (!one || one->runs[0].steps.empty()) continue;
     const auto& run = one->runs[0];
     const auto answer = run.steps[0].answer;
@@ -273,27 +272,27 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
   return outcome::success();
 }
 
-Expected<int> check_plugin(const QueryQuestion& question, const std::vector<QuerySet>& sets) {
-  BOOST_OUTCOME_TRY(detector, QueryDetector::open(question.detector));
-  if (question.separation.value_or(detector.separation()) != detector.separation()) {
+Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet>& sets) {
+  BOOST_OUTCOME_TRY(detector, QueryDetector::open(task.detector));
+  if (task.separation.value_or(detector.separation()) != detector.separation()) {
     return Problem{fmt::format("--separation {}: {} answers by that of its contract, {}",
-                               *question.separation, detector.name(), detector.separation())};
+                               *task.separation, detector.name(), detector.separation())};
   }
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
-  QueryScore score(detector.name(), question.files);
+  QueryScore score(detector.name(), task.files);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    BOOST_OUTCOME_TRY(ask_plugin(detector, question.files[i], sets[i], score));
+    BOOST_OUTCOME_TRY(ask_plugin(detector, task.files[i], sets[i], score));
   }
   score.print();
   fmt::print("{}", detector.text());
-  BOOST_OUTCOME_TRY(write_report(question.json_file, score, detector.to_json()));
+  BOOST_OUTCOME_TRY(write_report(task.json_file, score, detector.to_json()));
   return detector.exit_code();
 }
 
 // The problem of a method that knows no distance, if some query has a separation.
-Expected<void> check_method(const QueryQuestion& question, const std::vector<QuerySet>& sets) {
-  if (question.method->knows_distance) return outcome::success();
+Expected<void> check_method(const QueryQuestion& task, const std::vector<QuerySet>& sets) {
+  if (task.method->knows_distance) return outcome::success();
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const auto asks = std::find_if(sets[i].begin(), sets[i].end(),
                                    [](const auto& query) { return query.separation.has_value(); });
@@ -303,45 +302,45 @@ Expected<void> check_method(const QueryQuestion& question, const std::vector<Que
       if (method.knows_distance) others.push_back(method.word);
     }
     return Problem{fmt::format("{} query {}: --method {} knows no separation; these do: {}",
-                               question.files[i], asks - sets[i].begin(), question.method->word,
-                               joined(others, ", "))};
+                               task.files[i], asks - sets[i].begin(), task.method->word,
+                               join(others, ", "))};
   }
   return outcome::success();
 }
 
 }  // namespace
 
-Expected<int> check_queries(const QueryQuestion& question) {
-  if (!question.truths.empty() && question.truths.size() != question.files.size()) {
+Expected<int> check_queries(const QueryQuestion& task) {
+  if (!task.truths.empty() && task.truths.size() != task.files.size()) {
     return Problem{
         fmt::format("{} truth files for {} query files: give one for each, in the same order",
-                    question.truths.size(), question.files.size())};
+                    task.truths.size(), task.files.size())};
   }
-  auto inputs = question.files;
-  inputs.insert(inputs.end(), question.truths.begin(), question.truths.end());
-  BOOST_OUTCOME_TRY(may_write({question.json_file}, inputs));
+  auto inputs = task.files;
+  inputs.insert(inputs.end(), task.truths.begin(), task.truths.end());
+  BOOST_OUTCOME_TRY(may_write({task.json_file}, inputs));
   std::vector<QuerySet> sets;
-  for (std::size_t i = 0; i < question.files.size(); ++i) {
+  for (std::size_t i = 0; i < task.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
-    if (!question.truths.empty()) truth = question.truths[i];
-    BOOST_OUTCOME_TRY(queries, corpus::read_queries(question.files[i], truth));
+    if (!task.truths.empty()) truth = task.truths[i];
+    BOOST_OUTCOME_TRY(queries, corpus::read_queries(task.files[i], truth));
     for (auto& query : queries) {
-      if (!query.separation) query.separation = question.separation;
+      if (!query.separation) query.separation = task.separation;
     }
     sets.push_back(std::move(queries));
   }
-  if (!question.detector.library.empty()) return check_plugin(question, sets);
-  BOOST_OUTCOME_TRY(check_method(question, sets));
-  QueryScore score(*question.method, question.files);
-  for (std::size_t i = 0; i < sets.size(); ++i) score.add(question.files[i], sets[i]);
+  if (!task.detector.library.empty()) return check_plugin(task, sets);
+  BOOST_OUTCOME_TRY(check_method(task, sets));
+  QueryScore score(*task.method, task.files);
+  for (std::size_t i = 0; i < sets.size(); ++i) score.add(task.files[i], sets[i]);
   score.print();
-  BOOST_OUTCOME_TRY(write_report(question.json_file, score, nullptr));
+  BOOST_OUTCOME_TRY(write_report(task.json_file, score, nullptr));
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
 
-void add_query_options(CLI::App& verb, QueryQuestion& question) {
-  add(verb, "--truth FILE", question.truths, "Labels (.json), one file for each query file");
+void add_query_options(CLI::App& verb, QueryQuestion& task) {
+  add(verb, "--truth FILE", task.truths, "Labels (.json), one file for each query file");
   std::vector<const char*> words;
   for (const auto& method : properties::query_methods()) {
     if (method.word) words.push_back(method.word);
@@ -350,7 +349,7 @@ void add_query_options(CLI::App& verb, QueryQuestion& question) {
     const auto* method = properties::method_of(word);
     return method ? std::optional(method) : std::nullopt;
   };
-  add_choice(verb, "--method", question.method, joined(words, ", "), parse,
+  add_choice(verb, "--method", task.method, join(words, ", "), parse,
              "Who answers queries (default oracle)");
 }
 

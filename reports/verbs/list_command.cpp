@@ -95,9 +95,9 @@ void print_lists() {
 }
 
 const List* list_named(const std::string& name) {
-  const auto* found = std::find_if(std::begin(lists), std::end(lists),
+  const auto* place = std::find_if(std::begin(lists), std::end(lists),
                                    [&](const List& list) { return list.name == name; });
-  return found == std::end(lists) ? nullptr : found;
+  return place == std::end(lists) ? nullptr : place;
 }
 
 Expected<int> run_list(const ListRequest& request) {
@@ -114,7 +114,7 @@ Expected<int> run_list(const ListRequest& request) {
 }
 
 void add_options(CLI::App& verb, ListRequest& request) {
-  const auto names = joined(corpus::names_among(lists), ", ");
+  const auto names = join(corpus::names_among(lists), ", ");
   add(verb, "LIST", request.list, "Which; without it, what the lists are: " + names)
       ->check(one_of(names, list_named));
   add(verb, "DIR", request.folder, "Of a run, for failures and slow");
@@ -122,7 +122,7 @@ void add_options(CLI::App& verb, ListRequest& request) {
 
 }  // namespace
 
-AddedVerb add_list(CLI::App& app) {
+VerbAction add_list(CLI::App& app) {
   return make_verb(app, "list", "List scenes, laws, faults, campaigns, failures, or slow cases",
                    add_options, run_list);
 }

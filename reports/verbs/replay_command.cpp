@@ -57,9 +57,9 @@ std::optional<TrialName> trial_of(std::string_view id) {
   const std::string seed(parts[1].substr(0, parts[1].find('.')));
   if (!index || seed.empty() || seed.find_first_not_of("0123456789") != std::string::npos)
     return std::nullopt;
-  const auto* found = properties::find_family(parts[2]);
-  if (!found) return std::nullopt;
-  return TrialName{found, *index};
+  const auto* family = properties::find_family(parts[2]);
+  if (!family) return std::nullopt;
+  return TrialName{family, *index};
 }
 
 // A case that states options runs in the configuration of these. One that does not runs in every
@@ -67,13 +67,13 @@ std::optional<TrialName> trial_of(std::string_view id) {
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
-  auto read = properties::read_configuration(c, "");
-  if (!read) return read.error().message;
-  auto& [name, options, fault, is_timed, asks_limits] = read.value();
+  auto configuration = properties::read_configuration(c, "");
+  if (!configuration) return configuration.error().message;
+  auto& [name, options, fault, is_timed, asks_limits] = configuration.value();
   name = fmt::format("{}{}{}", properties::name_of(options.culling),
                      options.pairs == detector::Pairs::first ? "/first" : "",
                      asks_limits ? "/limits" : "");
-  detector = detector.in(read.value());
+  detector = detector.in(configuration.value());
   return std::nullopt;
 }
 
@@ -129,12 +129,12 @@ std::string run_text(const properties::CaseRun& run, const properties::Verdict& 
   }
   if (verdict.failure) {
     const auto where = fmt::format("step {}: ", verdict.failure->step + 1);
-    const auto& told = verdict.failure->explanation;
-    text += fmt::format("  DEFECT {}{}{}\n", verdict.failure->signature(),
-                        is_query ? ": " : " in " + where,
-                        told.starts_with(where) ? told.substr(where.size()) : told);
+    const auto& explanation = verdict.failure->explanation;
+    text += fmt::format(
+        "  DEFECT {}{}{}\n", verdict.failure->signature(), is_query ? ": " : " in " + where,
+        explanation.starts_with(where) ? explanation.substr(where.size()) : explanation);
   }
-  if (verdict.outcome != Outcome::holds) text += printed_text(run.printed);
+  if (verdict.outcome != Outcome::holds) text += printed_text(run.output);
   return text;
 }
 
@@ -145,14 +145,14 @@ struct RunText {
 };
 
 // Prints the broken laws. Returns whether there are any.
-bool print_broken_laws(const properties::Examined& examined,
+bool print_broken_laws(const properties::CaseResults& results,
                        const properties::DetectorUnderTest& detector) {
-  const properties::CountedCase one{examined, detector.configurations};
+  const properties::TallyInput one{results, detector.configurations};
   const auto tally = properties::tally_cases({&one, 1}).front();
-  for (const auto& broken : tally.broken) {
-    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.explanation);
+  for (const auto& failure : tally.failures) {
+    fmt::print("BROKEN LAW {} ({}): {}\n", failure.law, failure.configuration, failure.explanation);
   }
-  return !tally.broken.empty();
+  return !tally.failures.empty();
 }
 
 // The first step in which something that counts meets, as a strip beside the exported files. No
@@ -177,8 +177,8 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
 // file may be called so.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
-  const auto meant = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);
-  return meant.empty() ? "" : fmt::format("no built-in campaign is called {}{}\n", campaign, meant);
+  const auto hint = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);
+  return hint.empty() ? "" : fmt::format("no built-in campaign is called {}{}\n", campaign, hint);
 }
 
 // A step of a log, judged again.
@@ -202,16 +202,16 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (!std::filesystem::exists(request.id_or_file, ignored)) trial = trial_of(request.id_or_file);
   corpus::Case c;
   if (!trial) {
-    auto read = read_case_of({request.id_or_file});
-    if (!read) {
-      return Problem{read.error().message +
+    auto input = read_case_of({request.id_or_file});
+    if (!input) {
+      return Problem{input.error().message +
                      (request.id_or_file.find(':') == std::string::npos
                           ? ""
                           : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build; "
                             "what a search found "
                             "is replayed by its file: assay list failures DIR)")};
     }
-    c = std::move(read.value());
+    c = std::move(input.value());
   }
   BOOST_OUTCOME_TRY(may_fill(request.export_folder));
   auto words = request.detector;
@@ -223,7 +223,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   BOOST_OUTCOME_TRY(subject, choose_detector(words));
   if (trial) subject.detector = subject.detector.in_stratum(trial->family->name);
   const auto& contract = subject.detector.contract;
-  if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
+  if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).source.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
     return Problem{fmt::format("{}: {}", request.id_or_file, *problem)};
   }
@@ -238,8 +238,8 @@ Expected<int> run_replay(const ReplayRequest& request) {
     return Problem{fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
                                request.why->b, c.triangles.rows())};
   }
-  const auto seen = properties::contracted(c, subject.detector.contract);
-  if (!seen) {
+  const auto contracted_case = properties::contract_case(c, subject.detector.contract);
+  if (!contracted_case) {
     return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
@@ -248,28 +248,28 @@ Expected<int> run_replay(const ReplayRequest& request) {
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
   auto worker = subject.process(), second = subject.process(1, true);
-  const auto examined = properties::examine(
+  const auto results = properties::examine(
       {subject.detector, subject.detector.configurations, &worker, asks_twice ? &second : nullptr},
-      *seen);
-  if (auto why = examined.why_not_run(); !why.empty()) return Problem{std::move(why)};
-  const auto& runs = examined.runs;
-  const auto& truth = examined.truth;
+      *contracted_case);
+  if (auto why = results.why_not_run(); !why.empty()) return Problem{std::move(why)};
+  const auto& runs = results.runs;
+  const auto& truth = results.truth;
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
-  print_steps(*seen, truth, contract);
+  print_steps(*contracted_case, truth, contract);
   int code = exit_holds;
   std::vector<RunText> texts;
-  std::optional<properties::Claim> broken;
+  std::optional<properties::Claim> claim;
   auto exported = subject.detector;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto& verdict = examined.verdicts[i];
+    const auto& verdict = results.verdicts[i];
     std::string text = run_text(runs[i], verdict, is_query);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
-    if (verdict.failure && !broken) {
-      broken = verdict.failure->claim;
+    if (verdict.failure && !claim) {
+      claim = verdict.failure->claim;
       exported = subject.detector.in(configuration);
     }
     const bool is_open = verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error;
@@ -281,12 +281,12 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   for (const auto& [configurations, text] : texts)
     fmt::print("{}: {}", fmt::join(configurations, ", "), text);
-  if (subject.detector.built_in && print_broken_laws(examined, subject.detector)) {
+  if (subject.detector.built_in && print_broken_laws(results, subject.detector)) {
     code = exit_defect;
   }
   if (!request.export_folder.empty()) {
-    BOOST_OUTCOME_TRY(export_case(request.export_folder, *seen, exported, truth, broken));
-    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *seen, truth, contract));
+    BOOST_OUTCOME_TRY(export_case(request.export_folder, *contracted_case, exported, truth, claim));
+    BOOST_OUTCOME_TRY(write_strip(request.export_folder, *contracted_case, truth, contract));
     fmt::print("exported to {}\n", request.export_folder);
   }
   return code;
@@ -316,7 +316,7 @@ void add_options(CLI::App& verb, ReplayRequest& request) {
 
 }  // namespace
 
-AddedVerb add_replay(CLI::App& app) {
+VerbAction add_replay(CLI::App& app) {
   return make_verb(app, "replay", "One case of a campaign again, or a case file", add_options,
                    run_replay);
 }

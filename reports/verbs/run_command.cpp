@@ -74,17 +74,17 @@ class Certification {
     return request_.own_cases ? corpus::sha256_of(cases + request_.own_cases->digest) : cases;
   }
 
-  Expected<void> show_corpus_failures(const std::vector<properties::StoredFailure>& failures) {
+  Expected<void> show_corpus_failures(const std::vector<properties::FailureRecord>& failures) {
     if (failures.empty()) return outcome::success();
     PlainProgress progress("shrinking");
-    BOOST_OUTCOME_TRY(kept, properties::shrink_corpus_failures(
+    BOOST_OUTCOME_TRY(list, properties::shrink_corpus_failures(
                                 request_, failures, store_,
                                 [&](const std::string& text) { progress.show(text); }));
     progress.finish();
     std::string text;
-    const auto written = write_failures(kept, out_, words_.detector, text);
+    const auto status = write_failures(list, out_, words_.detector, text);
     fmt::print("{}", text);
-    return written;
+    return status;
   }
 
   Expected<void> run_self_test() {
@@ -137,8 +137,8 @@ class Certification {
   const std::filesystem::path out_;
   const std::filesystem::path corpus_;
   properties::Store store_;
-  properties::Issued issued_{absolute_path(words_.out), absolute_path(words_.detector.library),
-                             absolute_path(words_.own_cases), absolute_path(words_.data)};
+  properties::Issuance issued_{absolute_path(words_.out), absolute_path(words_.detector.library),
+                               absolute_path(words_.own_cases), absolute_path(words_.data)};
   const Clock::time_point begin_;
 };
 
@@ -180,16 +180,16 @@ Expected<int> conclude(const properties::CampaignRequest& request,
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.tally.undecided.empty() || !findings.tally.near_limit.empty())
     fmt::print("slow cases: {}\n",
-               line_to_paste("list slow " + shell_word(out), PastedIn::this_folder));
+               line_to_paste("list slow " + shell_word(out), PastePlace::this_folder));
   if (!is_complete && findings.failures.empty()) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
     const auto page = (findings.folder / "report.html").string();
     fmt::print("next: {}\n",
                line_to_paste(fmt::format("report {} --out {}", shell_word(out), shell_word(page)),
-                             PastedIn::this_folder));
+                             PastePlace::this_folder));
   }
-  BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder, findings.begun));
+  BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder, findings.begin_time));
   return judgement.exit_code;
 }
 
@@ -245,13 +245,13 @@ void add_run_options(CLI::App& verb, CampaignWords& words) {
 
 }  // namespace
 
-AddedVerb add_certify(CLI::App& app) {
+VerbAction add_certify(CLI::App& app) {
   return make_verb(app, "certify",
                    "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
                    add_certify_options, certify);
 }
 
-AddedVerb add_run(CLI::App& app) {
+VerbAction add_run(CLI::App& app) {
   return make_verb(app, "run",
                    "A campaign of random cases: detector against oracle, laws, planted faults",
                    add_run_options, run_campaign);

@@ -52,14 +52,14 @@ Expected<int> run_scene(const SceneRequest& request) {
              request.out);
   if (sequence.frames.size() > 1) {
     fmt::print("next: {}\n", line_to_paste("check " + shell_word(request.out) + "/frame_*.ply",
-                                           PastedIn::this_folder));
+                                           PastePlace::this_folder));
   }
   return exit_holds;
 }
 
 void add_options(CLI::App& verb, SceneRequest& request) {
   add(verb, "SCENE", request.name,
-      "One of `assay list scenes`: " + joined(corpus::names_among(corpus::scenes()), ", "))
+      "One of `assay list scenes`: " + join(corpus::names_among(corpus::scenes()), ", "))
       ->required();
   add(verb, "--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own");
   add(verb, "--size N", request.size, "Triangles wanted")->check(in_range(1, 1'000'000'000));
@@ -71,7 +71,7 @@ void add_options(CLI::App& verb, SceneRequest& request) {
 
 }  // namespace
 
-AddedVerb add_scene(CLI::App& app) {
+VerbAction add_scene(CLI::App& app) {
   return make_verb(app, "scene", "Write the frames of a kinematic scene", add_options, run_scene);
 }
 

@@ -35,10 +35,10 @@ double share_of(std::uint64_t part, std::uint64_t whole) {
 }
 
 void print_row(const std::string& name, const QueryTally& t, double seconds) {
-  const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.quadratic;
+  const std::uint64_t count = t.rungs.axis + t.rungs.interval + t.rungs.quadratic;
   fmt::print("{:<22}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
-             t.contacts, t.contradictions, t.open, share_of(t.rungs.axis, judged),
-             share_of(t.rungs.interval, judged), share_of(t.rungs.quadratic, judged), seconds);
+             t.contacts, t.contradictions, t.open, share_of(t.rungs.axis, count),
+             share_of(t.rungs.interval, count), share_of(t.rungs.quadratic, count), seconds);
   std::fflush(stdout);
 }
 
@@ -74,12 +74,12 @@ void announce(const Families& families, const SelfTestRequest& request) {
 
 // One case again, put to all methods.
 Expected<int> replay(const Families& families, const std::string& name) {
-  const auto named = properties::self_test_case(families, name);
-  if (!named)
+  const auto self_test = properties::self_test_case(families, name);
+  if (!self_test)
     return Problem{fmt::format("'{}' is no case of the self-test (family:seed:index)", name)};
-  fmt::print("{}", named->family->text(named->seed, named->index));
+  fmt::print("{}", self_test->family->text(self_test->seed, self_test->index));
   QueryTally tally;
-  const auto wrong = named->family->check(named->seed, named->index, tally);
+  const auto wrong = self_test->family->check(self_test->seed, self_test->index, tally);
   fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
   return wrong ? exit_unsound : exit_holds;
 }
@@ -101,8 +101,8 @@ Expected<int> run_self_test(const SelfTestRequest& request) {
   for (const auto& family : families) {
     const std::uint64_t indices = family.indices(request.queries);
     if (indices == 0) continue;
-    const auto result = properties::run_family(family, options, [&](std::uint64_t done) {
-      progress.phase(fmt::format("{} {:.0f} %", family.name, share_of(done, indices)));
+    const auto result = properties::run_family(family, options, [&](std::uint64_t done_count) {
+      progress.phase(fmt::format("{} {:.0f} %", family.name, share_of(done_count, indices)));
     });
     progress.finish();
     print_row(family.name, result.tally, result.seconds);
@@ -140,7 +140,7 @@ void add_options(CLI::App& verb, SelfTestRequest& request) {
 
 }  // namespace
 
-AddedVerb add_self_test(CLI::App& app) {
+VerbAction add_self_test(CLI::App& app) {
   return make_verb(app, "self-test", "The oracle against every other method on elementary queries",
                    add_options, run_self_test);
 }

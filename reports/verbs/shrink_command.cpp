@@ -40,14 +40,14 @@ std::optional<Failing> find_failure(const corpus::Case& c,
     if (finding) return Failing{finding->signature, configuration, nullptr};
   }
   if (!detector.built_in) return std::nullopt;
-  const auto examined = properties::examine({detector, detector.configurations, &worker}, c);
-  const properties::CountedCase one{examined, detector.configurations};
+  const auto results = properties::examine({detector, detector.configurations, &worker}, c);
+  const properties::TallyInput one{results, detector.configurations};
   const auto tally = properties::tally_cases({&one, 1}).front();
-  if (tally.broken.empty()) return std::nullopt;
-  const auto& broken = tally.broken.front();
+  if (tally.failures.empty()) return std::nullopt;
+  const auto& failure = tally.failures.front();
   for (const auto& configuration : detector.configurations) {
-    if (configuration.name == broken.configuration)
-      return Failing{"law " + broken.law, configuration, properties::law_named(broken.law)};
+    if (configuration.name == failure.configuration)
+      return Failing{"law " + failure.law, configuration, properties::law_named(failure.law)};
   }
   return std::nullopt;
 }
@@ -55,9 +55,9 @@ std::optional<Failing> find_failure(const corpus::Case& c,
 Expected<int> run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
   BOOST_OUTCOME_TRY(may_write({request.out, picture_file(request.out)}, request.files));
-  BOOST_OUTCOME_TRY(read, read_case_of(request.files));
+  BOOST_OUTCOME_TRY(input, read_case_of(request.files));
   const auto& file = request.files.front();
-  const corpus::Case& c = read;
+  const corpus::Case& c = input;
   auto words = request.detector;
   const bool is_query = properties::says_query(c);
   if (is_query && words.library.empty())
@@ -78,11 +78,11 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
              request.seconds, request.out);
   std::fflush(stdout);
   PlainProgress progress("shrinking");
-  Expected<void> written = outcome::success();
+  Expected<void> status = outcome::success();
   const properties::ReduceLimits limits{request.seconds, 10'000'000};
   const properties::OnBetter keep = [&](const corpus::Case& better) {
     progress.show(properties::size_text(better));
-    written = write_text_file(request.out, corpus::case_text(better));
+    status = write_text_file(request.out, corpus::case_text(better));
   };
   keep(c);
   const auto reduction =
@@ -92,13 +92,13 @@ Expected<int> run_shrink(const ShrinkRequest& request) {
           : properties::shrink_case(c, subject.detector, failing->configuration, worker, limits,
                                     keep);
   progress.finish();
-  if (written) written = write_text_file(request.out, corpus::case_text(reduction.smallest));
-  if (written) {
+  if (status) status = write_text_file(request.out, corpus::case_text(reduction.smallest));
+  if (status) {
     SceneMaker scenes(words);
-    written = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
-                                   failing->signature);
+    status = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
+                                  failing->signature);
   }
-  if (!written) return written.error();
+  if (!status) return status.error();
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {}\n",
              properties::size_text(c, reduction.smallest), reduction.calls, reduction.seconds,
              !reduction.fixed_point     ? "; the time was over"
@@ -126,7 +126,7 @@ void add_options(CLI::App& verb, ShrinkRequest& request) {
 
 }  // namespace
 
-AddedVerb add_shrink(CLI::App& app) {
+VerbAction add_shrink(CLI::App& app) {
   return make_verb(app, "shrink", "The smallest case that fails as a given one does", add_options,
                    run_shrink);
 }

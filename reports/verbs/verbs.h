@@ -12,17 +12,17 @@
 namespace assay::reports {
 
 // Each function adds its verb, with all its options, to the command line.
-AddedVerb add_bench(CLI::App& app);
-AddedVerb add_certify(CLI::App& app);
-AddedVerb add_check(CLI::App& app);
-AddedVerb add_list(CLI::App& app);
-AddedVerb add_replay(CLI::App& app);
-AddedVerb add_report(CLI::App& app);
-AddedVerb add_run(CLI::App& app);
-AddedVerb add_scene(CLI::App& app);
-AddedVerb add_self_test(CLI::App& app);
-AddedVerb add_shrink(CLI::App& app);
-AddedVerb add_verify(CLI::App& app);
+VerbAction add_bench(CLI::App& app);
+VerbAction add_certify(CLI::App& app);
+VerbAction add_check(CLI::App& app);
+VerbAction add_list(CLI::App& app);
+VerbAction add_replay(CLI::App& app);
+VerbAction add_report(CLI::App& app);
+VerbAction add_run(CLI::App& app);
+VerbAction add_scene(CLI::App& app);
+VerbAction add_self_test(CLI::App& app);
+VerbAction add_shrink(CLI::App& app);
+VerbAction add_verify(CLI::App& app);
 
 // What `check` is asked of query files.
 struct QueryQuestion {

@@ -31,11 +31,11 @@ struct VerifyRequest {
 std::string others_text(const std::vector<std::string>& files) {
   if (files.empty()) return "";
   constexpr std::size_t most_named = 3;
-  const auto named = std::min(files.size(), most_named);
+  const auto count = std::min(files.size(), most_named);
   return fmt::format(
       "not looked at, for nothing of it rests on them: {}{}\n",
-      fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-      files.size() > named ? fmt::format(" and {} more", files.size() - named) : "");
+      fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count), ", "),
+      files.size() > count ? fmt::format(" and {} more", files.size() - count) : "");
 }
 
 std::uint64_t fresh_seed() {
@@ -48,23 +48,23 @@ std::uint64_t fresh_seed() {
 // asked for.
 Expected<int> run_trials_again(const std::string& certificate, const VerifyRequest& request) {
   const std::filesystem::path file = certificate;
-  AgainRequest asked{*request.again, request.seed ? *request.seed : fresh_seed(), request.detector,
-                     request.jobs};
+  AgainRequest request_again{*request.again, request.seed ? *request.seed : fresh_seed(),
+                             request.detector, request.jobs};
   PlainProgress progress("again");
   const auto again = run_certified_again(
-      file.has_parent_path() ? file.parent_path() : ".", asked, [&](const auto& state) {
-        progress.show(fmt::format("{}/{} trials", state.done, state.planned));
+      file.has_parent_path() ? file.parent_path() : ".", request_again, [&](const auto& state) {
+        progress.show(fmt::format("{}/{} trials", state.done_trials, state.quota));
       });
   progress.finish();
   if (!again) return again.error();
-  const auto& [trials, stored, difference] = again.value();
+  const auto& [trials, stored_trials, difference] = again.value();
   if (difference) {
     fmt::print("{}\nNOT VERIFIED: {}, {} of {} trials run again, seed {}; it says nothing\n",
-               *difference, certificate, trials, stored, asked.seed);
+               *difference, certificate, trials, stored_trials, request_again.seed);
     return exit_defect;
   }
-  fmt::print("again: {} of {} trials, seed {}: all as they are stored\n", trials, stored,
-             asked.seed);
+  fmt::print("again: {} of {} trials, seed {}: all as they are stored\n", trials, stored_trials,
+             request_again.seed);
   return exit_holds;
 }
 
@@ -127,7 +127,7 @@ void add_options(CLI::App& verb, VerifyRequest& request) {
 
 }  // namespace
 
-AddedVerb add_verify(CLI::App& app) {
+VerbAction add_verify(CLI::App& app) {
   return make_verb(app, "verify", "A certificate against the files beside it", add_options,
                    run_verify);
 }
@@ -198,7 +198,7 @@ void add_options(CLI::App& verb, ReportRequest& request) {
 
 }  // namespace
 
-AddedVerb add_report(CLI::App& app) {
+VerbAction add_report(CLI::App& app) {
   return make_verb(app, "report", "Runs as one HTML page that works offline", add_options,
                    run_report);
 }

@@ -41,7 +41,7 @@ TEST_P(Planted, IsFoundByItsCase) {
   const Fault& fault = GetParam();
   const corpus::Case* c = curated(fault.curated);
   ASSERT_NE(c, nullptr) << "no case " << fault.curated;
-  Examined examined{*c};
+  CaseResults examined{*c};
   Fault right = fault;
   right.name = "";  // nothing is planted by it
   EXPECT_FALSE(failure_of_fault(right, examined)) << "the right detector fails too";
@@ -99,7 +99,7 @@ class NeverShows : public testing::TestWithParam<Fault> {};
 
 TEST_P(NeverShows, OnCuratedCases) {
   for (const auto& c : tests::curated_cases()) {
-    Examined examined{c};
+    CaseResults examined{c};
     EXPECT_FALSE(failure_of_fault(GetParam(), examined)) << c.id;
   }
 }
@@ -131,10 +131,10 @@ TEST(PlantedFaults, SmallStepsShowThemAndNoEquivalentOne) {
   std::uint64_t colliding = 0;
   for (std::uint64_t i = 0; i < steps; ++i) {
     const SmallStep step = make_small_step(seed, i);
-    Examined point{case_of(step, detector::Culling::view_point)};
+    CaseResults point{case_of(step, detector::Culling::view_point)};
     point.truth = judge_case(point.c);
     if (point.truth[0].pairs.empty()) continue;
-    Examined line{case_of(step, detector::Culling::view_line), point.truth};
+    CaseResults line{case_of(step, detector::Culling::view_line), point.truth};
     ++colliding;
     for (const auto& fault : faults()) {
       if (fault.status == FaultStatus::planted && i >= steps_of_planted) continue;

@@ -20,7 +20,7 @@ inline corpus::Case small_case(std::uint64_t seed, std::uint64_t index) {
 inline Verdict verdict_on(corpus::Case c, std::vector<oracle::StepJudgement> truth, CaseRun run,
                           const Configuration& configuration, const DetectorUnderTest& detector,
                           const CaseRun* again = nullptr) {
-  Examined examined{std::move(c), std::move(truth), {std::move(run)}};
+  CaseResults examined{std::move(c), std::move(truth), {std::move(run)}};
   if (again) examined.again = {*again};
   judge({detector, {&configuration, 1}}, examined);
   return std::move(examined.verdicts[0]);

@@ -33,7 +33,7 @@ inline corpus::Case one_above_another(double height_t0, double height_t1) {
 struct RunToStore {
   properties::CampaignRequest request;
   std::vector<properties::TrialRecord> trials;
-  std::vector<properties::StoredFailure> failures;
+  std::vector<properties::FailureRecord> failures;
   std::vector<properties::Row> evidence;
   std::string begun;  // empty: not stored
 
@@ -103,7 +103,7 @@ struct RunToStore {
     auto first = failures.empty() ? properties::test::failure("all-pairs: missing") : failures[0];
     first.mesh.clear();
     for (const auto& trial : trials) {
-      std::vector<properties::StoredFailure> met;
+      std::vector<properties::FailureRecord> met;
       first.case_id = trial.id;
       for (std::size_t i = 0; i < trial.outcomes.size(); ++i) {
         first.configuration = request.detector.configurations[i].name;

@@ -61,8 +61,8 @@ class MeshTraits {
     if (is_query_) return;
     const auto of = [&](std::int32_t t) { return mesh_.component_of_triangle[detector::at(t)]; };
     words.insert(of(pair.a) == of(pair.b) ? "within one component" : "between two components");
-    const bool closed = std::ranges::all_of(mesh_.components, &detector::Component::is_cycle);
-    words.insert(closed ? "a closed mesh" : "an unclosed mesh");
+    const bool is_closed = std::ranges::all_of(mesh_.components, &detector::Component::is_cycle);
+    words.insert(is_closed ? "a closed mesh" : "an unclosed mesh");
     for (std::size_t decade = 1; decade <= mesh_.triangles.size(); decade *= 10) {
       for (const auto least : {decade, 2 * decade, 5 * decade}) {
         if (least > 2 && least <= mesh_.triangles.size())
@@ -104,11 +104,11 @@ std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
   std::vector<Words> contacts;
   const MeshTraits mesh(c);
   const bool is_query = query_of(c).has_value(), of_distance = contract.separation > 0;
-  const auto judged = judge_case(c, contract);
-  for (std::size_t s = 0; s < judged.size(); ++s) {
+  const auto judgements = judge_case(c, contract);
+  for (std::size_t s = 0; s < judgements.size(); ++s) {
     const auto step = corpus::steps_of(c)[s];
     const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
-    for (const auto& contact : truth_of(c, judged[s], contract).pairs) {
+    for (const auto& contact : truth_of(c, judgements[s], contract).pairs) {
       if (alone && contact.pair != *alone) continue;
       auto& words = contacts.emplace_back();
       words.insert(name_of(contact.feature.kind));
@@ -130,24 +130,24 @@ std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, 
     if (holds && trial.collisions > 0 && !is_size_family(trial.family))
       trials.emplace_back(trial.family, trial.id);
   };
-  const auto read = catch_store_problem([&] {
+  const auto reading = catch_store_problem([&] {
     for (const auto& file : value_or_throw(stored_runs(findings.folder)))
       value_or_throw(Store::read(file)).for_each_trial(take);
   });
-  if (!read) return {};  // the folder holds no run, or cannot be read any more
-  std::vector<std::vector<Words>> held;
+  if (!reading) return {};  // the folder holds no run, or cannot be read any more
+  std::vector<std::vector<Words>> contacts;
   const auto count = std::min(most, trials.size());
   const auto& contract = findings.run.detector.contract;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [family, id] = trials[i * trials.size() / count];
-    const auto c = case_within(contract, *find_family(family), id).seen;
-    if (c) held.push_back(contacts_of(*c, contract));
+    const auto c = case_within(contract, *find_family(family), id).input;
+    if (c) contacts.push_back(contacts_of(*c, contract));
   }
-  return held;
+  return contacts;
 }
 
 // What failures of this kind do.
-std::string deed_of(const StoredFailure& failure) {
+std::string deed_of(const FailureRecord& failure) {
   const auto claim = from_name<Claim>(failure.claim);
   if (failure.flaky) return name_of(Deed::differs);
   if (!claim) return "break a law";
@@ -174,7 +174,7 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
 // The traits of the contact that a failure lost: those of the oracle's contact of that pair that is
 // as the signature says; of a large mesh, where the oracle takes long, what the signature says.
 // What a signature leaves out is then not known: that of the built-in detector tells no cause.
-Words traits_of(const StoredFailure& failure, const Contract& contract) {
+Words traits_of(const FailureRecord& failure, const Contract& contract) {
   constexpr Eigen::Index most_triangles = 1000;
   Words words = words_in(failure.contact);
   const auto c = corpus::parse_case(failure.mesh, "stored case");
@@ -196,42 +196,42 @@ constexpr std::size_t most_traits = 64;
 bool holds(Traits all, Traits some) { return (all & some) == some; }
 
 // A kind of failure that loses a contact: what all of its contacts have in common.
-struct LostKind {
+struct LossKind {
   std::string signature;
   Traits traits = ~Traits{0};
   Words cases;  // ids of those that show it
 };
 
-using LostKinds = std::vector<LostKind>;
+using LossKinds = std::vector<LossKind>;
 
 // Tells kinds that lose a contact apart by what sets their contacts apart from those that were
 // found.
 class Sorter {
  public:
-  Sorter(LostKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> held)
-      : left_(std::move(kinds)), names_(std::move(names)), held_(std::move(held)) {}
+  Sorter(LossKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> contacts)
+      : kinds_(std::move(kinds)), names_(std::move(names)), contacts_(std::move(contacts)) {}
 
   std::vector<FailureGroup> run() {
     std::vector<FailureGroup> groups;
-    while (!left_.empty()) {
-      const auto chosen = next();
-      LostKinds taken, others;
-      for (auto& kind : left_) (holds(kind.traits, chosen) ? taken : others).push_back(kind);
-      left_ = std::move(others);
-      groups.push_back(group_of(taken));
+    while (!kinds_.empty()) {
+      const auto traits = next();
+      LossKinds group, others;
+      for (auto& kind : kinds_) (holds(kind.traits, traits) ? group : others).push_back(kind);
+      kinds_ = std::move(others);
+      groups.push_back(group_of(group));
     }
     return groups;
   }
 
  private:
   // In how many cases that hold some contact has all of these traits.
-  std::size_t held_with(Traits traits) const {
-    return static_cast<std::size_t>(std::ranges::count_if(held_, [&](const auto& contacts) {
+  std::size_t holds_with(Traits traits) const {
+    return static_cast<std::size_t>(std::ranges::count_if(contacts_, [&](const auto& contacts) {
       return std::ranges::any_of(contacts, [&](Traits of) { return holds(of, traits); });
     }));
   }
 
-  static std::size_t cases_of(const LostKinds& kinds, Traits traits) {
+  static std::size_t cases_of(const LossKinds& kinds, Traits traits) {
     Words cases;
     for (const auto& kind : kinds) {
       if (holds(kind.traits, traits)) cases.insert(kind.cases.begin(), kind.cases.end());
@@ -239,7 +239,7 @@ class Sorter {
     return cases.size();
   }
 
-  static Traits common(const LostKinds& kinds) {
+  static Traits common(const LossKinds& kinds) {
     Traits all = ~Traits{0};
     for (const auto& kind : kinds) all &= kind.traits;
     return all;
@@ -249,7 +249,7 @@ class Sorter {
   // are as frequent there as in cases that hold, or a little more.
   double surprise(std::size_t cases, Traits traits) const {
     const double share =
-        (static_cast<double>(held_with(traits)) + 1) / (static_cast<double>(held_.size()) + 1);
+        (static_cast<double>(holds_with(traits)) + 1) / (static_cast<double>(contacts_.size()) + 1);
     return -static_cast<double>(cases) * std::log(share);
   }
 
@@ -257,38 +257,38 @@ class Sorter {
   // kinds that are left have in common goes first, unless it surprises less than half as much: one
   // mistake is likelier than two. No trait, for all that are left: nothing is a surprise.
   Traits next() const {
-    const Traits all = common(left_);
-    const double of_all = surprise(cases_of(left_, 0), all);
+    const Traits all = common(kinds_);
+    const double of_all = surprise(cases_of(kinds_, 0), all);
     Traits best = 0;
     double most = least_surprise_of_some;
     for (std::size_t a = 0; a < names_.size(); ++a) {
       for (std::size_t b = a; b < names_.size(); ++b) {
         const Traits traits = Traits{1} << a | Traits{1} << b;
-        const auto cases = cases_of(left_, traits);
-        const double found = surprise(cases, traits);
-        if (cases < least_cases || found < least_surprise_of_a_case * static_cast<double>(cases))
+        const auto cases = cases_of(kinds_, traits);
+        const double worth = surprise(cases, traits);
+        if (cases < least_cases || worth < least_surprise_of_a_case * static_cast<double>(cases))
           continue;
-        if (found > most) most = found, best = traits;
+        if (worth > most) most = worth, best = traits;
       }
     }
     return 2 * of_all >= most && of_all >= least_surprise_of_all ? all : best;
   }
 
-  FailureGroup group_of(const LostKinds& kinds) const {
-    FailureGroup group{name_of(Deed::loses), {}, {}, "", held_.size(), held_.size()};
+  FailureGroup group_of(const LossKinds& kinds) const {
+    FailureGroup group{name_of(Deed::loses), {}, {}, "", contacts_.size(), contacts_.size()};
     for (const auto& kind : kinds) group.kinds.push_back(kind.signature);
     const Traits shared = common(kinds);
     const auto cases = cases_of(kinds, 0);
     if (surprise(cases, shared) < least_surprise_of_all) return group;
     // The most telling trait first, then each that leaves at most half of the cases that hold; two
     // at once where none does so alone.
-    Traits told = 0;
-    for (bool tells = true; tells && group.held_with > 0;) {
+    Traits group_traits = 0;
+    for (bool tells = true; tells && group.holds_with > 0;) {
       Traits best = 0;
-      auto fewest = group.held_with / 2 + 1;
+      auto fewest = group.holds_with / 2 + 1;
       const auto offer = [&](Traits traits) {
         if (!holds(shared, traits)) return;
-        const auto others = held_with(told | traits);
+        const auto others = holds_with(group_traits | traits);
         if (others < fewest) fewest = others, best = traits;
       };
       for (std::size_t a = 0; a < names_.size(); ++a) offer(Traits{1} << a);
@@ -297,15 +297,15 @@ class Sorter {
       }
       tells = best != 0;
       if (!tells) break;
-      told |= best;
-      group.held_with = fewest;
+      group_traits |= best;
+      group.holds_with = fewest;
       for (std::size_t a = 0; a < names_.size(); ++a) {
         if (best >> a & 1) group.shared.push_back(names_[a]);
       }
     }
-    if (surprise(cases, told) < least_surprise_of_all) {
+    if (surprise(cases, group_traits) < least_surprise_of_all) {
       group.shared.clear();
-      group.held_with = group.held;
+      group.holds_with = group.all_holds;
     }
     return group;
   }
@@ -315,13 +315,13 @@ class Sorter {
   static constexpr std::size_t least_cases = 3;
   static constexpr double least_surprise_of_a_case = 2.08;  // an eighth of the cases that hold
 
-  LostKinds left_;
+  LossKinds kinds_;
   const std::vector<std::string> names_;
-  const std::vector<std::vector<Traits>> held_;
+  const std::vector<std::vector<Traits>> contacts_;
 };
 
 std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
-                                         const std::vector<const StoredFailure*>& kinds) {
+                                         const std::vector<const FailureRecord*>& kinds) {
   constexpr std::size_t most_that_hold = 100;
   if (kinds.empty()) return {};
   std::map<std::string, std::size_t> numbers;
@@ -334,9 +334,9 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
     }
     return traits;
   };
-  LostKinds lost;
+  LossKinds loss_kinds;
   for (const auto* kind : kinds) {
-    auto& one = lost.emplace_back();
+    auto& one = loss_kinds.emplace_back();
     one.signature = kind->signature();
     for (const auto& failure : findings.failures) {
       if (failure.signature() != one.signature) continue;
@@ -344,14 +344,14 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
       one.cases.insert(failure.id());
     }
   }
-  std::vector<std::vector<Traits>> held;
+  std::vector<std::vector<Traits>> contact_traits;
   for (const auto& contacts : contacts_that_hold(findings, most_that_hold)) {
-    auto& of_case = held.emplace_back();
+    auto& of_case = contact_traits.emplace_back();
     for (const auto& words : contacts) of_case.push_back(traits_in(words, false));
   }
   std::vector<std::string> names(numbers.size());
   for (const auto& [word, number] : numbers) names[number] = word;
-  return Sorter(std::move(lost), std::move(names), std::move(held)).run();
+  return Sorter(std::move(loss_kinds), std::move(names), std::move(contact_traits)).run();
 }
 
 }  // namespace
@@ -360,18 +360,18 @@ std::vector<FailureGroup> failure_groups(const RunFindings& findings) {
   std::vector<FailureGroup> groups;
   const auto kinds = findings.kinds();
   if (kinds.size() < 2) return {};
-  std::vector<const StoredFailure*> lost;
+  std::vector<const FailureRecord*> losses;
   for (const auto* kind : kinds) {
     const auto deed = deed_of(*kind);
     if (deed == name_of(Deed::loses)) {
-      lost.push_back(kind);
+      losses.push_back(kind);
       continue;
     }
     auto group = std::ranges::find(groups, deed, &FailureGroup::does);
     if (group == groups.end()) group = groups.insert(group, {deed, {}, {}, ""});
     group->kinds.push_back(kind->signature());
   }
-  for (auto& group : groups_of_lost(findings, lost)) groups.push_back(std::move(group));
+  for (auto& group : groups_of_lost(findings, losses)) groups.push_back(std::move(group));
   std::map<std::string, MeshSize> sizes;
   for (const auto* kind : kinds) {
     const auto& mesh = kind->smallest.empty() ? kind->mesh : kind->smallest;
@@ -394,8 +394,8 @@ std::string text_of(const FailureGroup& group, std::size_t kinds) {
                   : fmt::format("{} of {} kinds of failure {}", count, kinds, group.does);
   if (!group.shared.empty())
     text += fmt::format(": {} ({} of {} colliding cases that hold {} such a contact)",
-                        fmt::join(group.shared, ", "), group.held_with, group.held,
-                        group.held_with == 1 ? "has" : "have");
+                        fmt::join(group.shared, ", "), group.holds_with, group.all_holds,
+                        group.holds_with == 1 ? "has" : "have");
   return text;
 }
 

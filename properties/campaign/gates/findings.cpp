@@ -19,8 +19,8 @@ namespace {
 // A configuration is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
-bool is_before(const StoredFailure& a, const StoredFailure& b) {
-  const auto key = [](const StoredFailure& f) {
+bool is_before(const FailureRecord& a, const FailureRecord& b) {
+  const auto key = [](const FailureRecord& f) {
     return std::tuple(oddity_of(f.signature()), f.signature(), f.smallest.empty(),
                       f.smallest.size(), f.id(), f.shown_configuration());
   };
@@ -29,18 +29,18 @@ bool is_before(const StoredFailure& a, const StoredFailure& b) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& folder) { found_.folder = folder; }
+  explicit Reader(const std::filesystem::path& folder) { findings_.folder = folder; }
 
   RunFindings read() {
-    for (const auto& file : value_or_throw(stored_runs(found_.folder))) add(file);
-    if (found_.evidence.issued) found_.library = found_.evidence.issued->detector;
-    std::sort(found_.failures.begin(), found_.failures.end(), is_before);
-    std::sort(found_.parts.begin(), found_.parts.end(),
+    for (const auto& file : value_or_throw(stored_runs(findings_.folder))) add(file);
+    if (findings_.evidence.issued) findings_.library = findings_.evidence.issued->detector;
+    std::sort(findings_.failures.begin(), findings_.failures.end(), is_before);
+    std::sort(findings_.parts.begin(), findings_.parts.end(),
               [](const auto& a, const auto& b) { return a.seed < b.seed; });
     std::string rows;
-    for (const auto& part : found_.parts) rows += part.rows;
-    found_.rows = found_.parts.size() == 1 ? rows : corpus::sha256_of(rows);
-    return std::move(found_);
+    for (const auto& part : findings_.parts) rows += part.rows;
+    findings_.rows = findings_.parts.size() == 1 ? rows : corpus::sha256_of(rows);
+    return std::move(findings_);
   }
 
  private:
@@ -49,25 +49,26 @@ class Reader {
     const auto binding = value_or_throw(read_binding(store.binding(), file));
     if (binding_.empty()) {
       binding_ = store.binding();
-      found_.run = binding;
-      found_.tally.near_from_us =
+      findings_.run = binding;
+      findings_.tally.near_from_us =
           static_cast<std::uint64_t>(1e6 * near_share * std::min(binding.plan.case_seconds, 1e9));
     }
     const auto difference = difference_of(binding_, store.binding(), Runs::judged_together);
     if (!difference.empty())
       throw StoreProblem(fmt::format("{}: holds runs that cannot be judged together: {}",
-                                     found_.folder.string(), difference));
+                                     findings_.folder.string(), difference));
     const auto digest = corpus::sha256_of_file(file);
     if (!digest) throw StoreProblem(digest.error().message);
-    found_.files.push_back({file.filename().string(), digest.value()});
-    if (const auto library = store.note(library_note)) found_.library = *library;
-    const auto begun = store.note(begin_note);
-    if (begun && (found_.begun.empty() || *begun < found_.begun)) found_.begun = *begun;
+    findings_.files.push_back({file.filename().string(), digest.value()});
+    if (const auto library = store.note(library_note)) findings_.library = *library;
+    const auto begin = store.note(begin_note);
+    if (begin && (findings_.begin_time.empty() || *begin < findings_.begin_time))
+      findings_.begin_time = *begin;
     take_rows(store, file, binding);
   }
 
   void take_rows(const Store& store, const std::filesystem::path& file, const BoundRun& run) {
-    for (const auto& part : found_.parts) {
+    for (const auto& part : findings_.parts) {
       if (part.seed == run.seed)
         throw StoreProblem(
             fmt::format("{}: a run with seed {} is there already", file.string(), run.seed));
@@ -90,16 +91,16 @@ class Reader {
                               r.id == trial_id(run.plan, run.seed, r.family, r.index);
       if (!is_planned)
         throw StoreProblem(fmt::format("{}: {} is no trial of this run", file.string(), r.id));
-      found_.tally.add(r);
+      findings_.tally.add(r);
       add_row(row);
     });
     store.for_each(met_kind, [&](const Row& row) {
-      ++found_.times_met[text_in(row, "signature")];
-      found_.claims_broken += text_in(row, "law").empty() ? 1 : 0;
+      ++findings_.times_met[text_in(row, "signature")];
+      findings_.claims_broken += text_in(row, "law").empty() ? 1 : 0;
       add_row(row);
     });
     store.for_each(failure_kind, [&](const Row& row) {
-      found_.failures.push_back(failure_of(row));
+      findings_.failures.push_back(failure_of(row));
       add_row(row);
     });
     EvidenceFacts evidence;
@@ -108,18 +109,18 @@ class Reader {
         if (!may_differ(row)) add_row(row);
         evidence.take(row);
       }
-      if (found_.parts.empty()) {
-        found_.evidence = std::move(evidence);
+      if (findings_.parts.empty()) {
+        findings_.evidence = std::move(evidence);
       } else {
-        found_.evidence.add(std::move(evidence));
+        findings_.evidence.add(std::move(evidence));
       }
     } catch (const StoreProblem& odd) {  // it names no file
       throw StoreProblem(fmt::format("{}: {}", file.string(), odd.what()));
     }
-    found_.parts.push_back({run.seed, run.shares, digest});
+    findings_.parts.push_back({run.seed, run.shares, digest});
   }
 
-  RunFindings found_;
+  RunFindings findings_;
   std::string binding_;
 };
 
@@ -156,33 +157,33 @@ bool RunFindings::is_whole() const {
   std::map<std::uint64_t, std::set<std::uint64_t>> places;  // by the number of shares
   for (const auto& part : parts) places[part.shares].insert(part.seed % part.shares);
   return std::any_of(places.begin(), places.end(),
-                     [](const auto& found) { return found.second.size() == found.first; });
+                     [](const auto& entry) { return entry.second.size() == entry.first; });
 }
 
-std::uint64_t RunFindings::planned(const StratumPlan& stratum) const {
+std::uint64_t RunFindings::quota(const StratumPlan& stratum) const {
   return shares_of(stratum.cases);
 }
 
-std::uint64_t RunFindings::planned() const {
+std::uint64_t RunFindings::quota() const {
   std::uint64_t sum = 0;
-  for (const auto& stratum : run.plan.strata) sum += planned(stratum);
+  for (const auto& stratum : run.plan.strata) sum += quota(stratum);
   return sum;
 }
 
 bool RunFindings::is_left_out(const StratumPlan& stratum) const {
-  const auto cases = planned(stratum);
+  const auto cases = quota(stratum);
   const auto& of_stratum = tally_of(stratum);
   return cases > 0 && of_stratum.discards + of_stratum.refused == cases;
 }
 
 const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
   static const StratumTally none;
-  const auto found = tally.strata.find(stratum.family);
-  return found == tally.strata.end() ? none : found->second;
+  const auto stratum_tally = tally.strata.find(stratum.family);
+  return stratum_tally == tally.strata.end() ? none : stratum_tally->second;
 }
 
-std::vector<const StoredFailure*> RunFindings::kinds() const {
-  std::vector<const StoredFailure*> list;
+std::vector<const FailureRecord*> RunFindings::kinds() const {
+  std::vector<const FailureRecord*> list;
   for (const auto& failure : failures) {
     if (list.empty() || list.back()->signature() != failure.signature())
       list.push_back(example_of(failure.signature()));
@@ -193,22 +194,22 @@ std::vector<const StoredFailure*> RunFindings::kinds() const {
   return list;
 }
 
-std::uint64_t RunFindings::met_count(const StoredFailure& failure) const {
-  const auto found = times_met.find(failure.signature());
-  return found == times_met.end() ? 0 : found->second;
+std::uint64_t RunFindings::met_count(const FailureRecord& failure) const {
+  const auto count = times_met.find(failure.signature());
+  return count == times_met.end() ? 0 : count->second;
 }
 
-const StoredFailure* RunFindings::example_of(const std::string& signature) const {
+const FailureRecord* RunFindings::example_of(const std::string& signature) const {
   // What its own case shows comes first, then what a trial or the search has met.
-  const auto rank = [](const StoredFailure& failure) {
+  const auto rank = [](const FailureRecord& failure) {
     return std::pair(failure.flaky, failure.is_of_corpus());
   };
-  const StoredFailure* shown = nullptr;
+  const FailureRecord* example = nullptr;
   for (const auto& failure : failures) {
-    if (failure.signature() == signature && (!shown || rank(failure) < rank(*shown)))
-      shown = &failure;
+    if (failure.signature() == signature && (!example || rank(failure) < rank(*example)))
+      example = &failure;
   }
-  return shown;
+  return example;
 }
 
 StratumTally::Outcomes RunFindings::outcomes_of(const StratumPlan& stratum,
@@ -218,23 +219,23 @@ StratumTally::Outcomes RunFindings::outcomes_of(const StratumPlan& stratum,
 }
 
 bool RunFindings::laws_are_judged() const {
-  return run.detector.built_in && run.plan.laws_every > 0 && is_whole() && planned() > 0 &&
-         tally.trials() == planned();
+  return run.detector.built_in && run.plan.laws_every > 0 && is_whole() && quota() > 0 &&
+         tally.trials() == quota();
 }
 
 bool RunFindings::has_more_to_do() const {
   const auto& faults = evidence.faults;
-  return tally.trials() < planned() ||
+  return tally.trials() < quota() ||
          evidence.sum_of(Source::search).planned < shares_of(run.plan.search) ||
          std::any_of(faults.begin(), faults.end(),
                      [&](const auto& proof) { return proof.time_over; });
 }
 
-std::uint64_t RunFindings::planted() const {
+std::uint64_t RunFindings::faults() const {
   return count_planted(evidence.faults, [](const FaultProof&) { return true; });
 }
-std::uint64_t RunFindings::found() const {
-  return count_planted(evidence.faults, [](const FaultProof& proof) { return proof.found(); });
+std::uint64_t RunFindings::finds() const {
+  return count_planted(evidence.faults, [](const FaultProof& proof) { return proof.is_found(); });
 }
 std::uint64_t RunFindings::found_at_random() const {
   return count_planted(evidence.faults,

@@ -38,10 +38,10 @@ struct RunFindings {
   std::uint64_t claims_broken = 0;  // how often one was met that breaks no law
   // Ordered by signature; within one signature the shrunk ones first, then the shorter, then by
   // id.
-  std::vector<StoredFailure> failures;
+  std::vector<FailureRecord> failures;
   EvidenceFacts evidence;
-  std::string library;  // the plug-in's library as the run was told; empty: not known
-  std::string begun;    // when, in UTC; of several stores the earliest; empty: not known
+  std::string library;     // the plug-in's library as the run was told; empty: not known
+  std::string begin_time;  // when, in UTC; of several stores the earliest; empty: not known
   // SHA-256 over all rows but times and paths. It is the same for the same campaign, however long
   // that took and wherever it was kept. Of several runs: over their digests.
   std::string rows;
@@ -55,19 +55,19 @@ struct RunFindings {
   // What the runs have to do together of n.
   std::uint64_t shares_of(std::uint64_t n) const;
   // The number of cases that the runs have to judge together, of one family and of all.
-  std::uint64_t planned(const StratumPlan& stratum) const;
-  std::uint64_t planned() const;
+  std::uint64_t quota(const StratumPlan& stratum) const;
+  std::uint64_t quota() const;
   // Whether the contract left out every case of a family, once all of them were drawn, or the
   // detector refused it as beyond its capacity.
   bool is_left_out(const StratumPlan& stratum) const;
   // The tally of a family; an empty one if no trial of it was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
   // One failure of each signature (example_of), the least odd cause first (cause.h).
-  std::vector<const StoredFailure*> kinds() const;
-  std::uint64_t met_count(const StoredFailure& failure) const;
+  std::vector<const FailureRecord*> kinds() const;
+  std::uint64_t met_count(const FailureRecord& failure) const;
   // A stored failure of this signature, if possible one of a trial rather than of the corpus; null
   // if there is none.
-  const StoredFailure* example_of(const std::string& signature) const;
+  const FailureRecord* example_of(const std::string& signature) const;
   // The outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
   // Whether it can be judged if the laws were met often enough. That is so for the built-in
@@ -77,7 +77,7 @@ struct RunFindings {
   bool has_more_to_do() const;
   // How many planted faults were tried, how many were found, and how many of these by random cases.
   // The others were found by their curated case alone.
-  std::uint64_t planted() const, found() const, found_at_random() const;
+  std::uint64_t faults() const, finds() const, found_at_random() const;
 };
 
 // Reads the stores of a folder into findings. This is done here and nowhere else.

@@ -34,15 +34,15 @@ struct GateFindings {
 };
 
 // What can be done about the reasons of the gate complete.
-std::string remedy_of(const GateFindings& found) {
-  const auto all = found.against.size(), lasting = found.lasting.size();
+std::string remedy_of(const GateFindings& gate) {
+  const auto all = gate.against.size(), lasting = gate.lasting.size();
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
   constexpr std::string_view other = "other seeds, a larger campaign or another contract may";
   if (lasting == all)
     return fmt::format("the same command, run again, mends none of this; {}", other);
   return fmt::format(
       "the same command, run again, goes on with what is missing, and does not mend: {}{}; {}",
-      found.lasting.front(), lasting == 1 ? "" : fmt::format(" (and {} more)", lasting - 1), other);
+      gate.lasting.front(), lasting == 1 ? "" : fmt::format(" (and {} more)", lasting - 1), other);
 }
 
 void check_power(const RunFindings& f, Lines& lines) {
@@ -53,13 +53,13 @@ void check_power(const RunFindings& f, Lines& lines) {
   Lines hidden;
   for (const auto& proof : f.evidence.faults) {
     const bool was_tried = proof.is_whole(f.run.plan);
-    if (proof.status == FaultStatus::planted && !proof.found() && was_tried)
+    if (proof.status == FaultStatus::planted && !proof.is_found() && was_tried)
       hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
-    if (proof.status == FaultStatus::equivalent && proof.found())
+    if (proof.status == FaultStatus::equivalent && proof.is_found())
       lines.push_back(fmt::format("{}, registered as equivalent, was found", proof.fault));
   }
-  const auto planted = static_cast<double>(f.planted());
-  if (planted - static_cast<double>(hidden.size()) < f.run.plan.policy.power * planted)
+  const auto faults = static_cast<double>(f.faults());
+  if (faults - static_cast<double>(hidden.size()) < f.run.plan.policy.power * faults)
     lines.insert(lines.end(), hidden.begin(), hidden.end());
 }
 
@@ -74,94 +74,93 @@ void check_tallies(const RunFindings& f, Lines& lines) {
         fmt::format("{} defects in the trials, {} failures are stored", defects, f.claims_broken));
 }
 
-void check_faults(const RunFindings& f, GateFindings& found) {
+void check_faults(const RunFindings& f, GateFindings& gate) {
   const auto& plan = f.run.plan;
   if (plan.fault_cases == 0) return;
   const auto& build = f.run.digests;
   for (const auto& source : f.evidence.power) {
     if (source.program != build.program || source.worker != build.worker ||
         source.generator != build.generator)
-      found.add_lasting("the planted faults were proved by another build");
+      gate.add_lasting("the planted faults were proved by another build");
   }
-  if (f.planted() != f.run.planted_faults)
-    found.add_to_do(
-        fmt::format("{} of {} planted faults were tried", f.planted(), f.run.planted_faults));
+  if (f.faults() != f.run.planted_faults)
+    gate.add_to_do(
+        fmt::format("{} of {} planted faults were tried", f.faults(), f.run.planted_faults));
   for (const auto& proof : f.evidence.faults) {
     if (f.is_whole() ? !proof.is_whole(plan) : proof.time_over)
-      found.add_to_do(fmt::format("the time was over before {} had all of its cases", proof.fault));
+      gate.add_to_do(fmt::format("the time was over before {} had all of its cases", proof.fault));
   }
 }
 
-void check_trials(const RunFindings& f, const Asked& asked, GateFindings& found) {
+void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings& gate) {
   for (const auto& stratum : f.run.plan.strata) {
     const auto& tally = f.tally_of(stratum);
-    const auto planned = f.planned(stratum);
-    if (tally.trials != planned) {
-      found.add_to_do(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
+    const auto cases = f.quota(stratum);
+    if (tally.trials != cases) {
+      gate.add_to_do(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, cases));
     } else if (tally.discards > 0 && !f.is_left_out(stratum)) {
-      found.add_lasting(
+      gate.add_lasting(
           fmt::format("{}: for {} of {} trials no case was drawn that the contract takes",
-                      stratum.family, tally.discards, planned));
+                      stratum.family, tally.discards, cases));
     }
   }
-  if (asked.certificate && f.planned() == 0) found.add_lasting("the campaign plans no trial");
-  if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
-    found.add_lasting("no case was judged: the contract or the detector takes none of any family");
-  if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
+  if (request.certificate && f.quota() == 0) gate.add_lasting("the campaign plans no trial");
+  if (f.quota() > 0 && f.tally.judged_trials() == 0 && f.tally.trials() == f.quota())
+    gate.add_lasting("no case was judged: the contract or the detector takes none of any family");
+  if (request.certificate && f.tally.judged_trials() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
-    found.add_lasting("no claim of the detector was judged");
+    gate.add_lasting("no claim of the detector was judged");
   // A share of a campaign may have too few contacts.
-  for (const auto& line : f.is_whole() ? lacks_of_contacts(f, asked.certificate) : Lines()) {
+  for (const auto& line : f.is_whole() ? lacks_of_contacts(f, request.certificate) : Lines()) {
     // What is still to come may hold contacts.
     if (f.has_more_to_do()) {
-      found.add_to_do(line);
+      gate.add_to_do(line);
     } else {
-      found.add_lasting(line);
+      gate.add_lasting(line);
     }
   }
   // Asked of a whole campaign: one share of it may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
-    found.add_lasting(
+    gate.add_lasting(
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
 // of a limiter.
-void check_repetitions(const RunFindings& f, GateFindings& found) {
+void check_repetitions(const RunFindings& f, GateFindings& gate) {
   if (!is_repeated(f.run.plan, f.run.detector.built_in)) return;
-  std::vector<std::string> wanted;
-  for (const auto& scene : corpus::scenes()) wanted.emplace_back(scene.name);
-  wanted.emplace_back(name_of_long_sequence);
+  std::vector<std::string> names;
+  for (const auto& scene : corpus::scenes()) names.emplace_back(scene.name);
+  names.emplace_back(name_of_long_sequence);
   const auto& configurations = f.run.detector.configurations;
   if (!configurations.empty() && claims_named(configurations[0].claims).has_any(claims_on_limits)) {
-    for (const auto kind : all_values<WalkKind>) wanted.emplace_back(name_of(kind));
+    for (const auto kind : all_values<WalkKind>) names.emplace_back(name_of(kind));
   }
   const auto rows = f.evidence.rows_of(Source::repeated);
-  const auto done = std::ranges::count_if(wanted, [&](const std::string& name) {
+  const auto count = std::ranges::count_if(names, [&](const std::string& name) {
     return std::ranges::find(rows, name, &JudgedSource::input) != rows.end();
   });
-  if (static_cast<std::size_t>(done) < wanted.size())
-    found.add_to_do(fmt::format("{} of {} scenes were repeated", done, wanted.size()));
+  if (static_cast<std::size_t>(count) < names.size())
+    gate.add_to_do(fmt::format("{} of {} scenes were repeated", count, names.size()));
 }
 
 // Checks that the search asked all of its cases.
-void check_search(const RunFindings& f, GateFindings& found) {
-  const auto planned = f.shares_of(f.run.plan.search);
-  const auto done = f.evidence.sum_of(Source::search);
-  if (done.planned < planned)
-    found.add_to_do(
-        fmt::format("the search came to lanes of {} of {} cases", done.planned, planned));
-  if (planned > 0 && done.planned == planned && done.cases == 0)
-    found.add_lasting("the contract takes no case of the search");
-  if (done.undecided > 0)
-    found.add_lasting(fmt::format("{} cases of the search have no verdict", done.undecided));
+void check_search(const RunFindings& f, GateFindings& gate) {
+  const auto cases = f.shares_of(f.run.plan.search);
+  const auto lanes = f.evidence.sum_of(Source::search);
+  if (lanes.planned < cases)
+    gate.add_to_do(fmt::format("the search came to lanes of {} of {} cases", lanes.planned, cases));
+  if (cases > 0 && lanes.planned == cases && lanes.cases == 0)
+    gate.add_lasting("the contract takes no case of the search");
+  if (lanes.undecided > 0)
+    gate.add_lasting(fmt::format("{} cases of the search have no verdict", lanes.undecided));
 }
 
-GateFindings check_harness(const RunFindings& f, const Asked& asked) {
-  GateFindings found;
-  auto& lines = found.against;
+GateFindings check_harness(const RunFindings& f, const VerbRequest& request) {
+  GateFindings gate;
+  auto& lines = gate.against;
   for (const auto& problem : f.evidence.problems) {
     if (!problem.what.empty()) lines.push_back(problem.what);
   }
@@ -172,26 +171,25 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   }
   check_tallies(f, lines);
   const auto contradictions = f.evidence.sum_of(Source::self_test).defects;
-  if (asked.certificate && contradictions > 0)
+  if (request.certificate && contradictions > 0)
     lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
-  if (f.evidence.canaries.empty()) found.not_judged = "no canary was met";
-  return found;
+  if (f.evidence.canaries.empty()) gate.not_judged = "no canary was met";
+  return gate;
 }
 
-GateFindings check_corpus(const RunFindings& f, const Asked&) {
-  GateFindings found;
+GateFindings check_corpus(const RunFindings& f, const VerbRequest&) {
+  GateFindings gate;
   const auto rows = f.evidence.rows_of(Source::corpus);
   for (const auto& row : rows) {
-    for (const auto& failed : row.failed)
-      found.against.push_back(
-          fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
+    for (const auto& input : row.failed)
+      gate.against.push_back(fmt::format("{} ({}): {}", input.id, row.configuration, input.what));
   }
-  if (rows.empty()) found.not_judged = "the corpus was not run";
-  return found;
+  if (rows.empty()) gate.not_judged = "the corpus was not run";
+  return gate;
 }
 
-GateFindings check_claims(const RunFindings& f, const Asked&) {
-  GateFindings found;
+GateFindings check_claims(const RunFindings& f, const VerbRequest&) {
+  GateFindings gate;
   // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
   // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
   std::set<std::string, LeastOddFirst> signatures;
@@ -200,118 +198,118 @@ GateFindings check_claims(const RunFindings& f, const Asked&) {
     if (!failure.is_of_corpus()) signatures.insert(failure.signature());
   }
   for (const auto& signature : signatures) {
-    const auto* shown = f.example_of(signature);
-    const auto met = f.times_met.find(signature);
-    const auto times = met == f.times_met.end() ? 0 : met->second;
-    found.against.push_back(fmt::format(
-        "{}, {}; {}", signature, shown ? shown->met_text(times) : "met " + times_text(times),
-        shown ? shown->id() + " (" + shown->shown_configuration() + ")" : "no mesh is stored"));
+    const auto* first = f.example_of(signature);
+    const auto entry = f.times_met.find(signature);
+    const auto times = entry == f.times_met.end() ? 0 : entry->second;
+    gate.against.push_back(fmt::format(
+        "{}, {}; {}", signature, first ? first->met_text(times) : "met " + times_text(times),
+        first ? first->id() + " (" + first->shown_configuration() + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
     if (world.counterexample)
-      found.against.push_back(fmt::format("{}: {}", world.world, *world.counterexample));
+      gate.against.push_back(fmt::format("{}: {}", world.world, *world.counterexample));
   }
-  if (f.tally.judged() == 0) found.not_judged = "no trial was judged";
-  return found;
+  if (f.tally.judged_trials() == 0) gate.not_judged = "no trial was judged";
+  return gate;
 }
 
-GateFindings check_complete(const RunFindings& f, const Asked& asked) {
-  GateFindings found;
+GateFindings check_complete(const RunFindings& f, const VerbRequest& request) {
+  GateFindings gate;
   if (!f.is_whole()) {
     std::vector<std::string> shares;
     for (const auto& part : f.parts)
       shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
-    found.add_lasting(fmt::format(
+    gate.add_lasting(fmt::format(
         "a whole campaign is more than the shares that are there: {}; shares 1/N need N "
         "seeds that follow one another",
         fmt::join(shares, ", ")));
   }
-  check_trials(f, asked, found);
-  if (f.evidence.canaries.empty()) found.add_to_do("no canary was met");
-  check_faults(f, found);
-  check_repetitions(f, found);
-  check_search(f, found);
+  check_trials(f, request, gate);
+  if (f.evidence.canaries.empty()) gate.add_to_do("no canary was met");
+  check_faults(f, gate);
+  check_repetitions(f, gate);
+  check_search(f, gate);
   const auto corpus = f.evidence.rows_of(Source::corpus);
   for (const auto& row : corpus) {
     for (const auto& open : row.open)
-      found.add_lasting(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
+      gate.add_lasting(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
   }
-  if (!asked.certificate) return found;
-  if (corpus.empty()) found.add_to_do("the corpus was not run");
+  if (!request.certificate) return gate;
+  if (corpus.empty()) gate.add_to_do("the corpus was not run");
   const bool was_run = !f.evidence.rows_of(Source::self_test).empty() &&
                        f.evidence.sum_of(Source::self_test).complete;
   if (f.run.plan.policy.self_test_queries > 0 && !was_run)
-    found.add_to_do("the self-test was not run to its end");
-  return found;
+    gate.add_to_do("the self-test was not run to its end");
+  return gate;
 }
 
-GateFindings check_bounds(const RunFindings& f, const Asked&) {
-  GateFindings found;
-  bool judged = false;
+GateFindings check_bounds(const RunFindings& f, const VerbRequest&) {
+  GateFindings gate;
+  bool is_judged = false;
   for (const auto& stratum : f.run.plan.strata) {
     const bool is_wanted = stratum.wanted_bound > 0;
     if ((is_wanted && !f.is_whole()) || f.is_left_out(stratum)) continue;
-    judged = true;
+    is_judged = true;
     const auto configurations = configurations_in(f.run.detector, stratum.family);
     for (std::size_t c = 0; c < configurations.size(); ++c) {
       if (is_met(f, stratum, c)) continue;
       const auto outcomes = f.outcomes_of(stratum, c);
-      found.against.push_back(
+      gate.against.push_back(
           fmt::format("{}, {}: ", stratum.family, configurations[c].name) +
           (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted",
                                    bound_of(outcomes, stratum, f.run), stratum.wanted_bound)
                      : fmt::format("{} without a verdict", outcomes.open())));
     }
   }
-  if (!judged)
-    found.not_judged =
+  if (!is_judged)
+    gate.not_judged =
         f.is_whole() ? "the campaign has no trials" : "bounds are wanted of a whole campaign";
-  return found;
+  return gate;
 }
 
 // The lines leave out the figures themselves, which stand among the times, so that the lines are
 // the same from run to run. Of several runs the median counts.
-GateFindings check_speed(const RunFindings& f, const Asked&) {
-  GateFindings found;
+GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
+  GateFindings gate;
   const auto& limits = f.run.plan.policy.speed_limits;
   if (!f.run.detector.built_in) {
-    found.not_judged = "limits are set for the built-in detector alone";
+    gate.not_judged = "limits are set for the built-in detector alone";
   } else if (limits.empty()) {
-    found.not_judged = "the campaign sets no limit";
+    gate.not_judged = "the campaign sets no limit";
   } else {
     for (const auto& [figure, limit] : limits) {
       std::vector<double> medians;
-      for (const auto& measured : f.evidence.speed) {
-        if (measured.name == figure) medians.push_back(measured.median);
+      for (const auto& row : f.evidence.speed) {
+        if (row.name == figure) medians.push_back(row.median);
       }
       std::sort(medians.begin(), medians.end());
       if (medians.empty()) {
-        found.against.push_back(fmt::format("{} was not measured", figure));
+        gate.against.push_back(fmt::format("{} was not measured", figure));
       } else if (medians[medians.size() / 2] > limit) {
-        found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
+        gate.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
       }
     }
   }
-  return found;
+  return gate;
 }
 
 // These are in the order of gate_rules.
-constexpr std::array<GateFindings (*)(const RunFindings&, const Asked&), gate_rules.size()> checks =
-    {check_harness, check_corpus, check_claims, check_complete, check_bounds, check_speed};
+constexpr std::array<GateFindings (*)(const RunFindings&, const VerbRequest&), gate_rules.size()>
+    checks = {check_harness, check_corpus, check_claims, check_complete, check_bounds, check_speed};
 
-bool is_asked(const GateRule& rule, const Asked& asked) {
-  return asked.certificate ||
-         std::find(asked.gates.begin(), asked.gates.end(), rule.name) != asked.gates.end();
+bool is_asked(const GateRule& rule, const VerbRequest& request) {
+  return request.certificate ||
+         std::find(request.gates.begin(), request.gates.end(), rule.name) != request.gates.end();
 }
 
-GateResult result_of(Gate gate, const RunFindings& findings, const Asked& asked) {
-  if (!is_asked(rule_of(gate), asked))
+GateResult result_of(Gate gate, const RunFindings& findings, const VerbRequest& request) {
+  if (!is_asked(rule_of(gate), request))
     return {gate, GateState::not_judged, {"it was not asked for"}};
-  auto found = checks[static_cast<std::size_t>(gate)](findings, asked);
-  if (!found.against.empty())
-    return {gate, GateState::fails, found.against, gate == Gate::complete ? remedy_of(found) : ""};
-  if (found.not_judged.empty()) return {gate, GateState::holds, {}};
-  return {gate, GateState::not_judged, {std::move(found.not_judged)}};
+  auto facts = checks[static_cast<std::size_t>(gate)](findings, request);
+  if (!facts.against.empty())
+    return {gate, GateState::fails, facts.against, gate == Gate::complete ? remedy_of(facts) : ""};
+  if (facts.not_judged.empty()) return {gate, GateState::holds, {}};
+  return {gate, GateState::not_judged, {std::move(facts.not_judged)}};
 }
 
 }  // namespace
@@ -323,41 +321,41 @@ const char* name_of(GateState state) {
   return names[static_cast<std::size_t>(state)];
 }
 
-Asked asked_of_a_run() { return {{"harness", "claims", "complete", "bounds"}, false}; }
+VerbRequest asked_of_a_run() { return {{"harness", "claims", "complete", "bounds"}, false}; }
 
-Asked asked_of_a_run(const RunFindings& findings) {
-  Asked asked = asked_of_a_run();
+VerbRequest asked_of_a_run(const RunFindings& findings) {
+  VerbRequest request = asked_of_a_run();
   if (!findings.evidence.rows_of(Source::own).empty())
-    asked.gates.emplace_back(rule_of(Gate::corpus).name);
-  return asked;
+    request.gates.emplace_back(rule_of(Gate::corpus).name);
+  return request;
 }
 
-Asked asked_of_a_certificate() {
-  Asked asked{{}, true};
-  for (const auto& rule : gate_rules) asked.gates.emplace_back(rule.name);
-  return asked;
+VerbRequest asked_of_a_certificate() {
+  VerbRequest request{{}, true};
+  for (const auto& rule : gate_rules) request.gates.emplace_back(rule.name);
+  return request;
 }
 
-Judgement judge(const RunFindings& findings, const Asked& asked) {
+Judgement judge(const RunFindings& findings, const VerbRequest& request) {
   Judgement judgement;
   bool any_judged = false;
   for (const auto& rule : gate_rules) {
-    judgement.gates.push_back(result_of(rule.gate, findings, asked));
+    judgement.gates.push_back(result_of(rule.gate, findings, request));
     const auto state = judgement.gates.back().state;
     any_judged |= state != GateState::not_judged;
-    if (state == GateState::fails && !judgement.failed) judgement.failed = rule.gate;
+    if (state == GateState::fails && !judgement.failed_gate) judgement.failed_gate = rule.gate;
   }
-  if (judgement.failed) {
-    judgement.verdict = rule_of(*judgement.failed).verdict;
-    judgement.exit_code = rule_of(*judgement.failed).exit_code;
+  if (judgement.failed_gate) {
+    judgement.verdict = rule_of(*judgement.failed_gate).verdict;
+    judgement.exit_code = rule_of(*judgement.failed_gate).exit_code;
   } else {
-    judgement.verdict = !any_judged ? "not judged" : asked.certificate ? "certified" : "holds";
+    judgement.verdict = !any_judged ? "not judged" : request.certificate ? "certified" : "holds";
   }
   return judgement;
 }
 
 Judgement judge(const RunFindings& findings) {
-  return judge(findings, findings.evidence.asked.value_or(asked_of_a_run(findings)));
+  return judge(findings, findings.evidence.request.value_or(asked_of_a_run(findings)));
 }
 
 }  // namespace assay::properties

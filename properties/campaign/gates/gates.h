@@ -70,9 +70,9 @@ struct GateResult {
 
 // What each verb asks for. `assay run`: harness, claims, complete and bounds, and also corpus if
 // the run had cases of its owner. `assay certify`: all gates.
-Asked asked_of_a_run();
-Asked asked_of_a_run(const RunFindings& findings);
-Asked asked_of_a_certificate();
+VerbRequest asked_of_a_run();
+VerbRequest asked_of_a_run(const RunFindings& findings);
+VerbRequest asked_of_a_certificate();
 
 struct Judgement {
   std::vector<GateResult> gates;  // in the order of gate_rules
@@ -81,12 +81,12 @@ struct Judgement {
   // fails.
   std::string verdict;
   int exit_code = 0;
-  std::optional<Gate> failed;  // the first gate that fails
+  std::optional<Gate> failed_gate;  // the first gate that fails
 
   const GateResult& of(Gate gate) const { return gates[static_cast<std::size_t>(gate)]; }
 };
 
-Judgement judge(const RunFindings& findings, const Asked& asked);
+Judgement judge(const RunFindings& findings, const VerbRequest& request);
 // Judges by what the stores say was asked for; if they do not say it, as `assay run` does.
 Judgement judge(const RunFindings& findings);
 
@@ -109,7 +109,7 @@ std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasu
 std::vector<NotJudged> not_judged(const RunFindings& findings);
 
 // Those of the claims that are not among these.
-Claims without(Claims claims, const std::vector<NotJudged>& left);
+Claims without(Claims claims, const std::vector<NotJudged>& gaps);
 
 // The names of the claims of a plug-in that were judged.
 std::vector<std::string> judged_claims(const RunFindings& findings);
@@ -150,7 +150,7 @@ struct FailureGroup {
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
   // In so many of those cases that hold and were looked at, some contact has all of that, too.
-  std::size_t held_with = 0, held = 0;
+  std::size_t holds_with = 0, all_holds = 0;
 };
 
 // The group with the most kinds comes first. A single kind is in no group.

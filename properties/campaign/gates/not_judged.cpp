@@ -24,7 +24,7 @@ std::string without_contact(const StepMeasures& m) {
 }
 
 bool speaks_of_contacts(const ClaimRow& row) {
-  return row.tried != Tried::by_step && row.tried != Tried::by_second_run;
+  return row.probe != Probe::by_step && row.probe != Probe::by_second_run;
 }
 
 // Says why a claim was not judged. Empty if it was judged.
@@ -32,21 +32,21 @@ std::string reason_against(const ClaimRow& row, const Contract& contract, const 
                            bool of_queries) {
   if (const auto* reason = row.why_void(contract, of_queries); *reason) return reason;
   const auto& limits = m.errors.limits;
-  if (row.tried == Tried::by_stated_time && seldom * m.without_time > m.errors.collisions())
+  if (row.probe == Probe::by_stated_time && seldom * m.without_time > m.errors.collisions())
     return fmt::format("its interval is wider than {} in {} of {} collisions", widest_stated_time,
                        m.without_time, m.errors.collisions());
-  if (row.tried == Tried::by_free_way)
+  if (row.probe == Probe::by_free_way)
     return limits.free == 0 ? "no step was without a contact" : "";
-  const auto contacts = row.tried == Tried::by_candidates      ? m.least_candidates
-                        : row.tried == Tried::by_contact_ahead ? limits.contact
+  const auto contacts = row.probe == Probe::by_candidates      ? m.least_candidates
+                        : row.probe == Probe::by_contact_ahead ? limits.contact
                                                                : m.errors.contact;
   return speaks_of_contacts(row) && contacts == 0 ? without_contact(m) : "";
 }
 
 }  // namespace
 
-Claims without(Claims claims, const std::vector<NotJudged>& left) {
-  for (const auto& one : left) claims = claims.without(claims_named({one.claim}));
+Claims without(Claims claims, const std::vector<NotJudged>& gaps) {
+  for (const auto& one : gaps) claims = claims.without(claims_named({one.claim}));
   return claims;
 }
 
@@ -94,13 +94,13 @@ namespace {
 
 // The most triangles on which each kind of claim was tried.
 struct Largest {
-  std::uint64_t judged = 0, in_contact = 0, repeated = 0;
+  std::uint64_t judged_steps = 0, in_contact = 0, repeated = 0;
 };
 
 // Whether some configuration that is asked in strata of this family makes the claim.
 bool is_claimed_in(const RunFindings& findings, std::string_view family, Claim claim) {
-  const auto asked = configurations_in(findings.run.detector, family);
-  return std::any_of(asked.begin(), asked.end(),
+  const auto configurations = configurations_in(findings.run.detector, family);
+  return std::any_of(configurations.begin(), configurations.end(),
                      [&](const auto& one) { return claims_named(one.claims).has(claim); });
 }
 
@@ -111,13 +111,13 @@ Largest largest_of(const RunFindings& findings, Claim claim) {
   };
   for (const auto& [family, stratum] : findings.tally.strata) {
     if (is_query_family(family) || !is_claimed_in(findings, family, claim)) continue;
-    grow(largest.judged, stratum.triangles);
+    grow(largest.judged_steps, stratum.triangles);
     grow(largest.in_contact, stratum.triangles_in_contact);
     grow(largest.repeated, stratum.triangles_repeated);
   }
   if (!is_claimed_in(findings, "", claim)) return largest;
   for (const auto& row : findings.evidence.sources) {
-    grow(largest.judged, row.extremes.triangles);
+    grow(largest.judged_steps, row.extremes.triangles);
     grow(largest.in_contact, row.triangles_in_contact);
     if (row.runs > 1) grow(largest.repeated, row.triangles);
   }
@@ -132,8 +132,8 @@ Claims claims_of_any_configuration(const BoundDetector& detector) {
 
 // Whether one of these claims speaks of contacts and is not void under the contract.
 bool wants_contacts(const Claims& claims, const Contract& contract) {
-  const auto judged = list_of(judged_claims(claims, contract));
-  return std::any_of(judged.begin(), judged.end(),
+  const auto claim_names = list_of(judged_claims(claims, contract));
+  return std::any_of(claim_names.begin(), claim_names.end(),
                      [](Claim claim) { return speaks_of_contacts(row_of(claim)); });
 }
 
@@ -146,9 +146,9 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
   for (const Claim claim : list_of(without(claims, not_judged(findings)))) {
     const auto& row = row_of(claim);
     const auto largest = largest_of(findings, claim);
-    const auto triangles = row.tried == Tried::by_second_run ? largest.repeated
+    const auto triangles = row.probe == Probe::by_second_run ? largest.repeated
                            : speaks_of_contacts(row)         ? largest.in_contact
-                                                             : largest.judged;
+                                                             : largest.judged_steps;
     if (triangles > 0) sizes.push_back({name_of(claim), triangles});
   }
   return sizes;
@@ -169,19 +169,19 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
     std::size_t with_contacts = 0, all = 0;
     if (!wants_contacts(claims, detector.contract)) return;
     for (const auto& stratum : findings.run.plan.strata) {
-      const auto planned = findings.planned(stratum);
-      if (is_query_family(stratum.family) != of_queries || planned == 0) continue;
+      const auto trials = findings.quota(stratum);
+      if (is_query_family(stratum.family) != of_queries || trials == 0) continue;
       ++all;
       const auto& tally = findings.tally_of(stratum);
       const auto contacts = tally.measures.contact_trials;
       with_contacts += contacts > 0 ? 1 : 0;
-      if (tally.trials < planned || findings.is_left_out(stratum)) continue;
+      if (tally.trials < trials || findings.is_left_out(stratum)) continue;
       if (is_size_family(stratum.family)) continue;  // of which the detector may refuse the most
-      if (least_share * contacts < planned)
+      if (least_share * contacts < trials)
         lines.push_back(
             fmt::format("{}: {} of {} planned cases have a contact inside the contract, a tenth is "
                         "wanted",
-                        stratum.family, contacts, planned));
+                        stratum.family, contacts, trials));
     }
     const auto families = for_certificate ? least_families : std::min(least_families, all);
     if (all > 0 && with_contacts < families)

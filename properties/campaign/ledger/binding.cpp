@@ -29,7 +29,7 @@ void fields(Archive& archive, BoundRun& run) {
 
 namespace {
 
-BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
+BoundDetector bound_detector(const DetectorUnderTest& detector, std::uint64_t threads) {
   BoundDetector out{detector.name,
                     detector.built_in,
                     detector.contract,
@@ -46,7 +46,7 @@ BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
 }
 
 // The digest; nothing if its file is not there. Whoever runs the file will find that out.
-std::optional<std::string> known(const corpus::Expected<std::string>& digest) {
+std::optional<std::string> digest_if(const corpus::Expected<std::string>& digest) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
@@ -83,10 +83,10 @@ std::string binding_of(const CampaignRequest& request) {
       request.seed,
       request.shares,
       planted_count(),
-      bound(request.detector, request.limits.threads),
-      {known(corpus::sha256_of_file("/proc/self/exe")),
-       known(corpus::sha256_of_file(request.worker)),
-       request.plugin ? known(JudgedLibrary::of(*request.plugin, request.worker)->digest())
+      bound_detector(request.detector, request.limits.threads),
+      {digest_if(corpus::sha256_of_file("/proc/self/exe")),
+       digest_if(corpus::sha256_of_file(request.worker)),
+       request.plugin ? digest_if(JudgedLibrary::of(*request.plugin, request.worker)->digest())
                       : std::nullopt,
        generator_digest()}};
   Json json = json_of_fields<Json>(run);
@@ -110,9 +110,9 @@ Json json_of(const BoundDetector& detector) {
 Json json_of(const BoundDigests& digests) { return json_of_fields<Json>(digests); }
 
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
-  const auto read = corpus::parse_sorted_json(text, file);
-  if (!read) return Problem{read.error().message};
-  const Json& json = read.value();
+  const auto parsed = corpus::parse_sorted_json(text, file);
+  if (!parsed) return Problem{parsed.error().message};
+  const Json& json = parsed.value();
   auto plan = parse_plan(corpus::json_text(json.at("campaign")), file);
   if (!plan) return Problem{plan.error().message};
   BoundRun run;
@@ -131,13 +131,13 @@ std::string generator_digest() {
   std::string digests;
   // Larger cases are made by the code of the smallest of their families.
   const auto smallest = size_families().first(1);
-  for (const auto known :
+  for (const auto key :
        {families(), question_families(), counted_families(), query_families(), smallest}) {
-    for (const auto& family : known) {
+    for (const auto& family : key) {
       for (std::uint64_t i = 0; i < cases; ++i) {
-        const auto made =
+        const auto creation =
             make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
-        digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
+        digests += corpus::sha256_of(corpus::case_text(creation.c)) + "\n";
       }
     }
   }
@@ -145,9 +145,9 @@ std::string generator_digest() {
 }
 
 std::string difference_of(const std::string& a, const std::string& b, Runs runs) {
-  const auto left = corpus::parse_sorted_json(a, "binding"),
+  const auto first = corpus::parse_sorted_json(a, "binding"),
              right = corpus::parse_sorted_json(b, "binding");
-  const bool are_objects = left && right && left.value().is_object() && right.value().is_object();
+  const bool are_objects = first && right && first.value().is_object() && right.value().is_object();
   if (!are_objects) return "one of them says not of what it is";
   std::vector<std::string> differences;
   const auto parts_of = [&](Json binding) {
@@ -165,7 +165,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
     }
     return binding;
   };
-  const Json one = parts_of(left.value()), other = parts_of(right.value());
+  const Json one = parts_of(first.value()), other = parts_of(right.value());
   const bool is_other_build = one["build"] != other["build"];
   if (is_other_build) differences.emplace_back("another build of assay");
   Json all = one;

@@ -55,13 +55,13 @@ Statement::Statement(const Database& database, const std::string& sql) : databas
 Statement::~Statement() { sqlite3_finalize(statement_); }
 
 Statement& Statement::bind(std::string_view text) {
-  check(sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()),
+  check(sqlite3_bind_text(statement_, ++values_, text.data(), static_cast<int>(text.size()),
                           SQLITE_TRANSIENT));
   return *this;
 }
 
 Statement& Statement::bind(std::uint64_t number) {
-  check(sqlite3_bind_int64(statement_, ++bound_, static_cast<sqlite3_int64>(number)));
+  check(sqlite3_bind_int64(statement_, ++values_, static_cast<sqlite3_int64>(number)));
   return *this;
 }
 
@@ -165,10 +165,10 @@ std::string table_declaration() {
 }
 
 void for_each_row(const Database& database, const std::string& more,
-                  const std::vector<std::string_view>& bound,
+                  const std::vector<std::string_view>& values,
                   const std::function<void(const Row&)>& visit) {
   Statement rows(database, "SELECT kind,key,progress,fields,hash FROM ledger " + more);
-  for (const auto& text : bound) rows.bind(text);
+  for (const auto& text : values) rows.bind(text);
   while (rows.next()) {
     const Row row{rows.text(0), rows.text(1), rows.number(2), rows.text(3)};
     if (rows.text(4) != row_hash(row)) {

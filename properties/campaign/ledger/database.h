@@ -36,9 +36,9 @@ class StoreProblem : public std::runtime_error {
 
 // Returns the value, or throws its problem.
 template <class T>
-T value_or_throw(Expected<T>&& expected) {
-  if (!expected) throw StoreProblem(expected.error());
-  if constexpr (!std::is_void_v<T>) return std::move(expected.value());
+T value_or_throw(Expected<T>&& expectation) {
+  if (!expectation) throw StoreProblem(expectation.error());
+  if constexpr (!std::is_void_v<T>) return std::move(expectation.value());
 }
 
 // Returns what `work` returns, or the StoreProblem that it throws as a value.
@@ -98,7 +98,7 @@ class Statement {
   void check(int code) const;
   const Database& database_;
   sqlite3_stmt* statement_ = nullptr;
-  int bound_ = 0;
+  int values_ = 0;
 };
 
 // A lock that is held until this object or its process ends, however it ends.
@@ -150,10 +150,10 @@ std::string row_name(const Row& row);
 std::string table_declaration();
 
 // Visits rows. `more` is SQL such as "WHERE kind=? ORDER BY key", whose question marks stand for
-// the texts of `bound`; if it is empty all rows come in the order of kind and key.
+// the texts of `values`; if it is empty all rows come in the order of kind and key.
 // Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails.
 void for_each_row(const Database& database, const std::string& more,
-                  const std::vector<std::string_view>& bound,
+                  const std::vector<std::string_view>& values,
                   const std::function<void(const Row&)>& visit);
 
 // Writes the row with its hash, in place of a row of the same kind and key.

@@ -14,7 +14,7 @@ namespace {
 // Throws StoreProblem if the row is not what to_row makes of what it says: then its key or its
 // progress are of something else.
 template <class T>
-T told(const Row& row) {
+T fact_of(const Row& row) {
   T x;
   read_fields_of(row, x);
   if (to_row(x) != row)
@@ -28,9 +28,9 @@ bool takes(Place& place, const Row& row) {
   using T = typename Place::value_type;
   if (row.kind != T::kind) return false;
   if constexpr (requires { place.push_back(T()); }) {
-    place.push_back(told<T>(row));
+    place.push_back(fact_of<T>(row));
   } else {
-    place = told<T>(row);
+    place = fact_of<T>(row);
   }
   return true;
 }
@@ -42,7 +42,7 @@ bool is_of_kind_that_may_differ(const Row& row, const std::variant<T...>*) {
 
 }  // namespace
 
-bool FaultProof::found() const { return curated || found_at_random(); }
+bool FaultProof::is_found() const { return curated || found_at_random(); }
 
 bool FaultProof::found_at_random() const {
   return std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
@@ -55,10 +55,10 @@ bool FaultProof::is_whole(const CampaignPlan& plan) const {
 
 std::optional<std::uint64_t> FaultProof::median() const {
   if (needed.empty()) return std::nullopt;
-  auto sorted = needed;
-  std::sort(sorted.begin(), sorted.end(),
+  auto ascending = needed;
+  std::sort(ascending.begin(), ascending.end(),
             [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
-  return sorted[(sorted.size() - 1) / 2];
+  return ascending[(ascending.size() - 1) / 2];
 }
 
 void FaultProof::add(const FaultProof& other) {
@@ -72,9 +72,9 @@ void FaultProof::add(const FaultProof& other) {
 }
 
 std::uint64_t FaultProof::progress() const {
-  const auto found =
+  const auto place =
       std::count_if(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
-  return time_over ? static_cast<std::uint64_t>(found) : needed.size() + 1;
+  return time_over ? static_cast<std::uint64_t>(place) : needed.size() + 1;
 }
 
 std::uint64_t World::progress() const {
@@ -95,7 +95,7 @@ Row to_row(const AnyEvidence& evidence) {
 
 void EvidenceFacts::take(const Row& row) {
   const auto is_taken = [&](auto&... lists) { return (takes(lists, row) || ...); };
-  if (!is_taken(canaries, problems, faults, power, worlds, asked, versions, isolation, sources,
+  if (!is_taken(canaries, problems, faults, power, worlds, request, versions, isolation, sources,
                 speed, issued))
     throw StoreProblem(fmt::format("no run stores {}", row_name(row)));
 }
@@ -128,8 +128,8 @@ void join(std::optional<T>& only, const std::optional<T>& other) {
 template <class T, class Meet>
 void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
   for (const auto& one : more) {
-    const auto known = std::ranges::find(list, one.key(), &T::key);
-    known == list.end() ? list.push_back(one) : meet(*known, one);
+    const auto place = std::ranges::find(list, one.key(), &T::key);
+    place == list.end() ? list.push_back(one) : meet(*place, one);
   }
 }
 
@@ -138,19 +138,19 @@ void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
 void EvidenceFacts::add(EvidenceFacts other) {
   // A run that planted the faults by itself goes before those that took over a proof: that may be
   // its own, whose cases would count twice.
-  const auto planted = [](const auto& facts) {
+  const auto planted_count = [](const auto& facts) {
     return facts.power.empty() && !facts.faults.empty();
   };
-  if (planted(other) && !power.empty()) {
+  if (planted_count(other) && !power.empty()) {
     faults.clear();
     power.clear();
   }
-  if (!planted(*this) || other.power.empty()) {
+  if (!planted_count(*this) || other.power.empty()) {
     const bool are_taken_over = !power.empty() && !other.power.empty();
-    merge(faults, other.faults, [&](FaultProof& known, const FaultProof& proof) {
+    merge(faults, other.faults, [&](FaultProof& stored_proof, const FaultProof& proof) {
       if (!are_taken_over) {
-        known.add(proof);
-      } else if (to_row(known) != to_row(proof)) {
+        stored_proof.add(proof);
+      } else if (to_row(stored_proof) != to_row(proof)) {
         throw StoreProblem(fmt::format("two runs took over different proofs of {}", proof.fault));
       }
     });
@@ -159,8 +159,8 @@ void EvidenceFacts::add(EvidenceFacts other) {
   if (power.size() > 1)
     throw StoreProblem("two runs took over proofs of planted faults from different runs");
   // A world is the same in every run: the one that came farthest counts.
-  merge(worlds, other.worlds, [](World& known, const World& world) {
-    if (known.progress() < world.progress()) known = world;
+  merge(worlds, other.worlds, [](World& stored_world, const World& world) {
+    if (stored_world.progress() < world.progress()) stored_world = world;
   });
   for (const auto& row : other.sources) {
     row_of(row.source).is_drawn ? sources.push_back(row) : append_new(sources, {row});
@@ -169,7 +169,7 @@ void EvidenceFacts::add(EvidenceFacts other) {
   append(problems, other.problems);
   append(isolation, other.isolation);
   append(speed, other.speed);
-  join(asked, other.asked);
+  join(request, other.request);
   join(versions, other.versions);
   if (!issued) {
     issued = other.issued;

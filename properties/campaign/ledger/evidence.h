@@ -4,7 +4,7 @@
 // `what` in all rows.
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
-// (SpeedFigure, Issued), and a World, which its limit of time may end early.
+// (SpeedFigure, Issuance), and a World, which its limit of time may end early.
 #pragma once
 
 #include <optional>
@@ -55,7 +55,7 @@ struct FaultProof {
   bool time_over = false;            // the hunt was ended by a limit of time
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
 
-  bool found() const;            // by its curated case, or by a random one under any seed
+  bool is_found() const;         // by its curated case, or by a random one under any seed
   bool found_at_random() const;  // by a random case under any seed
   // Whether the fault was tried on as many cases and seeds as the plan gives to a fault.
   bool is_whole(const CampaignPlan& plan) const;
@@ -109,12 +109,12 @@ struct PluginIsolation {
 ASSAY_FIELDS(PluginIsolation, asked, got)
 
 // What a verb asked of a run.
-struct Asked {
+struct VerbRequest {
   static constexpr const char* kind = "asked";
   std::vector<std::string> gates;  // names of gates.h; no other gate is judged
   bool certificate = false;        // a certificate is to be issued: every gate is asked for
 };
-ASSAY_FIELDS(Asked, gates, certificate)
+ASSAY_FIELDS(VerbRequest, gates, certificate)
 
 // What issued a certificate: versions of the program and of its libraries, and its cases.
 struct Versions {
@@ -187,7 +187,7 @@ struct SpeedFigure {
 ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
 
 // Where a certificate was issued, and when, and how long that took.
-struct Issued {
+struct Issuance {
   static constexpr const char* kind = "issued";
   static constexpr bool may_differ = true;
   std::string out, detector{};
@@ -196,7 +196,7 @@ struct Issued {
   std::string at{};         // UTC, 2026-01-31T12:00:00Z; empty: it is not issued yet
   double seconds = 0;
 };
-ASSAY_FIELDS(Issued, out, detector, own_cases, data, at, seconds)
+ASSAY_FIELDS(Issuance, out, detector, own_cases, data, at, seconds)
 
 // All that the evidence rows of some stores say. Each list is in the order of stores, then of
 // names.
@@ -206,12 +206,12 @@ struct EvidenceFacts {
   std::vector<FaultProof> faults;
   std::vector<PowerSource> power;
   std::vector<World> worlds;
-  std::optional<Asked> asked;
+  std::optional<VerbRequest> request;
   std::optional<Versions> versions;
   std::vector<PluginIsolation> isolation;
   std::vector<JudgedSource> sources;
   std::vector<SpeedFigure> speed;
-  std::optional<Issued> issued;
+  std::optional<Issuance> issued;
 
   // The inputs of a source, and their sums. The owner's cases are a part of the corpus.
   std::vector<JudgedSource> rows_of(Source source) const;
@@ -226,8 +226,9 @@ struct EvidenceFacts {
 };
 EvidenceFacts facts_in(const Store& store);
 
-using AnyEvidence = std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, Asked,
-                                 Versions, PluginIsolation, JudgedSource, SpeedFigure, Issued>;
+using AnyEvidence =
+    std::variant<Canary, HarnessProblem, FaultProof, PowerSource, World, VerbRequest, Versions,
+                 PluginIsolation, JudgedSource, SpeedFigure, Issuance>;
 Row to_row(const AnyEvidence& evidence);
 
 // Whether two runs of one campaign may differ in this row, which is one of evidence.

@@ -9,7 +9,7 @@
 
 namespace assay::properties {
 
-ASSAY_FIELDS(StoredFailure, source, case_id, configuration, law, claim, kind, contact, explanation,
+ASSAY_FIELDS(FailureRecord, source, case_id, configuration, law, claim, kind, contact, explanation,
              mesh, smallest, smallest_explanation, flaky, printed)
 
 // What the row of a trial keeps. Its key says the rest.
@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string key_of(const StoredFailure& failure) {
+std::string key_of(const FailureRecord& failure) {
   return failure.id() + ", " + failure.shown_configuration();
 }
 
@@ -52,29 +52,29 @@ std::string about_text(const std::string& signature, const std::string& explanat
   return signature + "; " + explanation;
 }
 
-std::string StoredFailure::id() const {
+std::string FailureRecord::id() const {
   const std::string prefix = row_of(row_of(source).counts_as).prefix;
   return case_id.starts_with(prefix) ? case_id : prefix + case_id;
 }
 
-std::string StoredFailure::broken() const {
+std::string FailureRecord::rule() const {
   return law.empty() ? claim : "law " + law + (claim.empty() ? "" : ", " + claim);
 }
 
-std::string StoredFailure::signature() const {
-  return broken() + (kind.empty() ? "" : ": " + kind) + (contact.empty() ? "" : ", " + contact);
+std::string FailureRecord::signature() const {
+  return rule() + (kind.empty() ? "" : ": " + kind) + (contact.empty() ? "" : ", " + contact);
 }
 
-std::string StoredFailure::shown_configuration() const {
+std::string FailureRecord::shown_configuration() const {
   return configuration + (law.empty() ? "" : ", law " + law);
 }
 
-std::string StoredFailure::met_text(std::uint64_t trials) const {
-  const std::string elsewhere = row_of(source).met;
+std::string FailureRecord::met_text(std::uint64_t trials) const {
+  const std::string elsewhere = row_of(source).contact_text;
   return trials == 0 && !elsewhere.empty() ? elsewhere : "met " + times_text(trials);
 }
 
-std::string StoredFailure::shown_explanation() const {
+std::string FailureRecord::shown_explanation() const {
   if (flaky) return explanation + needs_what_came_before;
   return smallest_explanation.empty() ? explanation : smallest_explanation;
 }
@@ -95,18 +95,18 @@ TrialRecord trial_of(const Row& row) {
   return record;
 }
 
-Row to_row(const StoredFailure& failure) {
+Row to_row(const FailureRecord& failure) {
   return {std::string(failure_kind), key_of(failure), 0,
           corpus::json_text(json_of_fields<Json>(failure))};
 }
 
-Row met_row(const StoredFailure& failure) {
+Row met_row(const FailureRecord& failure) {
   const Json fields = {{"law", failure.law}, {"signature", failure.signature()}};
   return {std::string(met_kind), key_of(failure), 0, corpus::json_text(fields)};
 }
 
-StoredFailure failure_of(const Row& row) {
-  StoredFailure failure;
+FailureRecord failure_of(const Row& row) {
+  FailureRecord failure;
   read_fields_of(row, failure);
   return failure;
 }

@@ -101,10 +101,10 @@ struct SourceRow {
   const char* prefix;  // of the ids of its failures; no trial's id begins so
   // Where a kind of failure was met that no trial has shown, and the same in a summary; and what is
   // counted behind the verdict.
-  const char *met = "", *met_in_summary = "", *defects = "";
+  const char *contact_text = "", *met_in_summary = "", *defects = "";
   // Its section of a certificate, where that lists its inputs, and what is shown of each: members
   // of JudgedSource, with another name in front where they have one ("queries=cases").
-  const char *section = "", *shown = "";
+  const char *section = "", *shown_text = "";
 };
 constexpr auto names_of(Source) {
   using enum Source;
@@ -127,7 +127,7 @@ constexpr auto names_of(Source) {
 
 // A defect, with its mesh if that is kept. `mesh` and `smallest` are case files (assay-case/1) as
 // text.
-struct StoredFailure {
+struct FailureRecord {
   Source source = Source::trial;
   std::string case_id, configuration;
   std::string law{};  // that is broken; empty: a claim alone is
@@ -146,7 +146,7 @@ struct StoredFailure {
   // others, "law L3_..." and "view-point, law L3_...", because one case may break both a law and a
   // claim in the same configuration.
   std::string id() const, signature() const, shown_configuration() const;
-  std::string broken() const;  // law and claim, with which the signature begins
+  std::string rule() const;  // law and claim, with which the signature begins
   // The explanation of the smallest mesh, if there is one. Of a flaky failure, which is not shrunk,
   // it says what that means.
   std::string shown_explanation() const;
@@ -168,9 +168,9 @@ std::string about_text(const std::string& signature, const std::string& explanat
 // row. `met_row` says that a trial failed so. It is stored for every failure, while the mesh is
 // kept for a few of them only.
 Row to_row(const TrialRecord& record);
-Row to_row(const StoredFailure& failure);
-Row met_row(const StoredFailure& failure);
+Row to_row(const FailureRecord& failure);
+Row met_row(const FailureRecord& failure);
 TrialRecord trial_of(const Row& row);
-StoredFailure failure_of(const Row& row);
+FailureRecord failure_of(const Row& row);
 
 }  // namespace assay::properties

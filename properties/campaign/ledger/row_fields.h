@@ -18,11 +18,11 @@ namespace assay::properties {
 
 // Both throw StoreProblem, which names the row, if its fields are not what a run stores.
 inline nlohmann::json fields_of(const Row& row) {
-  auto read = corpus::parse_sorted_json(row.fields, "fields");
-  if (!read) throw StoreProblem(fmt::format("{}: {}", row_name(row), read.error().message));
-  if (!read.value().is_object())
+  auto json = corpus::parse_sorted_json(row.fields, "fields");
+  if (!json) throw StoreProblem(fmt::format("{}: {}", row_name(row), json.error().message));
+  if (!json.value().is_object())
     throw StoreProblem(fmt::format("{}: its fields are no JSON object", row_name(row)));
-  return std::move(read.value());
+  return std::move(json.value());
 }
 
 // Sets what the fields name (fields.h); the rest of x stays.

@@ -18,10 +18,10 @@ namespace {
 
 // The schema that a binding names, if it is not that of this build.
 std::optional<std::string> other_schema(const std::string& binding) {
-  const auto read = corpus::parse_json(binding, "binding");
+  const auto json = corpus::parse_json(binding, "binding");
   // If the text is no binding at all, whoever reads the binding reports that.
-  if (!read || !read.value().is_object() || !read.value().contains("schema")) return std::nullopt;
-  const auto& schema = read.value()["schema"];
+  if (!json || !json.value().is_object() || !json.value().contains("schema")) return std::nullopt;
+  const auto& schema = json.value()["schema"];
   return schema == store_schema ? std::nullopt : std::optional(corpus::json_text(schema));
 }
 
@@ -62,9 +62,9 @@ struct Store::Parts {
         db(file, mode) {}
 
   std::optional<Row> find(std::string_view kind, std::string_view key) const {
-    std::optional<Row> found;
-    for_each_row(db, "WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { found = row; });
-    return found;
+    std::optional<Row> first;
+    for_each_row(db, "WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { first = row; });
+    return first;
   }
 
   void remove(const Row& row) {
@@ -103,22 +103,22 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     // cut may lose the end.
     parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     parts->db.check_whole();
-    const auto bound = unchecked_binding(parts->db);
-    if (bound && *bound != binding) {
-      if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
+    const auto text = unchecked_binding(parts->db);
+    if (text && *text != binding) {
+      if (const auto older = other_schema(*text)) throw refused_schema(file, *older);
       throw StoreProblem(fmt::format("{}: holds another run: {}; go on in a new folder: --out NEW",
-                                     file.string(), difference_of(*bound, binding)));
+                                     file.string(), difference_of(*text, binding)));
     }
     check_tables(parts->db, true);
     parts->db.run(table_declaration());
     for_each_row(parts->db, "", {}, [](const Row&) {});
-    if (!bound) put_row(parts->db, {std::string(binding_kind), "", 0, binding});
+    if (!text) put_row(parts->db, {std::string(binding_kind), "", 0, binding});
     return Store(std::move(parts));
   });
 }
 
-Expected<KeptFailures> Store::kept_failures() const {
-  return catch_store_problem([&] { return KeptFailures{failures(), signatures()}; });
+Expected<FailureList> Store::kept_failures() const {
+  return catch_store_problem([&] { return FailureList{failures(), signatures()}; });
 }
 
 Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -151,7 +151,7 @@ void Store::drop(std::string_view kind) {
   for (const auto& row : rows) parts_->remove(row);
 }
 
-void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& failures) {
+void Store::add(const TrialRecord& record, const std::vector<FailureRecord>& failures) {
   std::vector<Row> rows = {to_row(record)};
   for (const auto& failure : failures) {
     rows.push_back(met_row(failure));
@@ -178,7 +178,7 @@ void Store::keep_corpus_failures(const std::set<std::string>& signatures) {
   }
 }
 
-void Store::set_smallest(const StoredFailure& failure) {
+void Store::set_smallest(const FailureRecord& failure) {
   const Row row = to_row(failure);
   if (parts_->find(row.kind, row.key)) put_row(parts_->db, row);
 }
@@ -208,11 +208,11 @@ std::uint64_t Store::trial_count() const {
   return query.bind(trial_kind).next() ? query.number(0) : 0;
 }
 
-std::vector<StoredFailure> Store::failures() const {
-  std::vector<StoredFailure> list;
+std::vector<FailureRecord> Store::failures() const {
+  std::vector<FailureRecord> list;
   for_each(failure_kind, [&](const Row& row) { list.push_back(failure_of(row)); });
-  std::sort(list.begin(), list.end(), [](const StoredFailure& a, const StoredFailure& b) {
-    const auto key = [](const StoredFailure& f) {
+  std::sort(list.begin(), list.end(), [](const FailureRecord& a, const FailureRecord& b) {
+    const auto key = [](const FailureRecord& f) {
       return std::tuple(f.signature(), f.id(), f.shown_configuration());
     };
     return key(a) < key(b);
@@ -262,11 +262,11 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
 }
 
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
-                                     const std::set<std::filesystem::path>& expected) {
+                                     const std::set<std::filesystem::path>& outputs) {
   const auto there = stored_runs(folder);
   if (!there) return boost::outcome_v2::success();
   for (const auto& file : there.value()) {
-    if (!expected.contains(file))
+    if (!outputs.contains(file))
       return Problem{
           fmt::format("{}: is of another run; name a new folder: --out NEW", file.string())};
   }
@@ -275,9 +275,8 @@ Expected<void> expect_no_other_store(const std::filesystem::path& folder,
 
 void note_library(Store& store, const std::filesystem::path& library) {
   std::error_code error;
-  const auto found = std::filesystem::absolute(library, error);
-  store.set_note(library_note,
-                 (error || names_python(library.string()) ? library : found).string());
+  const auto path = std::filesystem::absolute(library, error);
+  store.set_note(library_note, (error || names_python(library.string()) ? library : path).string());
 }
 
 std::string time_in_utc() {
@@ -288,7 +287,7 @@ void note_begin(Store& store) {
   if (!store.note(begin_note)) store.set_note(begin_note, time_in_utc());
 }
 
-std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) {
+std::filesystem::path failure_file(const FailureRecord& failure, bool smallest) {
   std::string stem = fmt::format("{}-{}", failure.id(), failure.shown_configuration());
   std::erase(stem, ',');
   for (char& c : stem) {

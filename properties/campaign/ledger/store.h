@@ -21,8 +21,8 @@ namespace assay::properties {
 inline constexpr const char* store_schema = "assay-store/9";
 
 // All failures that a store holds.
-struct KeptFailures {
-  std::vector<StoredFailure> list;  // by signature, then id
+struct FailureList {
+  std::vector<FailureRecord> list;  // by signature, then id
   Counts times_met;                 // how often each signature was met, mesh kept or not
 };
 
@@ -43,7 +43,7 @@ class Store {
   Store& operator=(Store&&) noexcept;
   ~Store();
 
-  Expected<KeptFailures> kept_failures() const;
+  Expected<FailureList> kept_failures() const;
   Expected<void> keep(const Row& row) {
     return catch_store_problem([&] { set(row); });
   }
@@ -62,12 +62,12 @@ class Store {
   void drop(std::string_view kind);
   // Adds a trial with its failures, all of it or nothing. All failures were met; those that have
   // their mesh are kept.
-  void add(const TrialRecord& record, const std::vector<StoredFailure>& failures = {});
-  void add(const StoredFailure& failure) { set(to_row(failure)); }
+  void add(const TrialRecord& record, const std::vector<FailureRecord>& failures = {});
+  void add(const FailureRecord& failure) { set(to_row(failure)); }
   // Removes the stored failures of the corpus whose signature is not in the set.
   void keep_corpus_failures(const std::set<std::string>& signatures);
   // Replaces the stored failure of this id and configuration; does nothing if there is none.
-  void set_smallest(const StoredFailure& failure);
+  void set_smallest(const FailureRecord& failure);
   void set_note(const std::string& key, const std::string& value);
 
   // Visits the rows of a kind in the order of their keys, in which the trials of a family are in
@@ -76,7 +76,7 @@ class Store {
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   bool has_trial(const std::string& id) const;
   std::uint64_t trial_count() const;
-  std::vector<StoredFailure> failures() const;  // by signature, then id
+  std::vector<FailureRecord> failures() const;  // by signature, then id
   // How many failures of each signature were met, whether their mesh was kept or not.
   Counts signatures() const;
   std::optional<std::string> note(const std::string& key) const;
@@ -114,7 +114,7 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
 
 // Fails if the folder holds another store than these: all stores of a folder are judged together.
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
-                                     const std::set<std::filesystem::path>& expected);
+                                     const std::set<std::filesystem::path>& outputs);
 
 // The notes of a store in which these stand: the path of a plug-in's library, as it was named to
 // the run, and when the run was begun. Both functions throw StoreProblem, and are for campaign/
@@ -128,6 +128,6 @@ std::string time_in_utc();
 
 // The file of a failure below OUT, the same in every run that finds the failure:
 // failures/tiny-1-broken-3-bvh-smallest.json.
-std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);
+std::filesystem::path failure_file(const FailureRecord& failure, bool smallest);
 
 }  // namespace assay::properties

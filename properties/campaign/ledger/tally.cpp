@@ -15,13 +15,13 @@ namespace {
 int log2_of(std::uint64_t n) { return n == 0 ? -1 : std::bit_width(n) - 1; }
 
 // Whether a law is to be met under this culling by itself. Laws are met by view sets alone.
-bool is_met_under(detector::Culling culling, MetUnder met_under) {
+bool is_met_under(detector::Culling culling, PremiseScope met_under) {
   switch (met_under) {
-    case MetUnder::any_culling:
+    case PremiseScope::any_culling:
       return false;
-    case MetUnder::each_culling:
+    case PremiseScope::each_culling:
       return uses_views(culling);
-    case MetUnder::each_that_chooses_views:
+    case PremiseScope::each_that_chooses_views:
       return chooses_views(culling);
   }
   return false;
@@ -64,14 +64,14 @@ void StratumTally::add(const TrialRecord& record) {
        : letter == letter_of(Outcome::refused)   ? outcomes.refused
                                                  : outcomes.errors);
   }
-  const auto& shown = record.counts.measures;
-  measures += shown;
+  const auto& addend = record.counts.measures;
+  measures += addend;
   const auto grow = [&](std::uint64_t& most, bool counts) {
     if (counts && record.is_judged()) most = std::max(most, record.triangles);
   };
   grow(triangles, true);
-  grow(triangles_in_contact, shown.contact_trials > 0);
-  grow(triangles_repeated, shown.repeated_trials > 0);
+  grow(triangles_in_contact, addend.contact_trials > 0);
+  grow(triangles_repeated, addend.repeated_trials > 0);
   ++sizes[log2_of(record.triangles)];
   ++contacts[log2_of(record.pairs)];
 }
@@ -101,7 +101,7 @@ void Tally::note_slow(const TrialRecord& record) {
 }
 
 std::uint64_t Tally::trials() const { return sum_of(*this, &StratumTally::trials); }
-std::uint64_t Tally::judged() const {
+std::uint64_t Tally::judged_trials() const {
   return trials() - sum_of(*this, &StratumTally::discards) - sum_of(*this, &StratumTally::refused);
 }
 std::uint64_t Tally::with_defect() const { return sum_of(*this, &StratumTally::with_defect); }
@@ -109,9 +109,9 @@ std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
 std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }
 
 void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling) {
-  LawCount met{tally.premise, tally.close, tally.broken, {}};
-  if (law.met_under != MetUnder::any_culling) met.by_culling.emplace(culling, tally.premise);
-  counts.laws[std::string(law.name)] += met;
+  LawCount count{tally.premise, tally.close, tally.broken_steps, {}};
+  if (law.met_under != PremiseScope::any_culling) count.by_culling.emplace(culling, tally.premise);
+  counts.laws[std::string(law.name)] += count;
 }
 
 std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts, bool built_in) {
@@ -119,8 +119,8 @@ std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts, 
   if (!built_in && counts.laws.empty()) return list;
   for (const auto& law : laws()) {
     if (!built_in && !is_of_plugins(law)) continue;
-    const auto found = counts.laws.find(law.name);
-    list.emplace_back(&law, found == counts.laws.end() ? LawCount{} : found->second);
+    const auto place = counts.laws.find(law.name);
+    list.emplace_back(&law, place == counts.laws.end() ? LawCount{} : place->second);
   }
   return list;
 }
@@ -130,8 +130,8 @@ std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const Law
   std::vector<std::pair<std::string, std::uint64_t>> list;
   for (const auto culling : all_values<detector::Culling>) {
     if (!is_met_under(culling, law.met_under)) continue;
-    const auto found = count.by_culling.find(name_of(culling));
-    list.emplace_back(name_of(culling), found == count.by_culling.end() ? 0 : found->second);
+    const auto place = count.by_culling.find(name_of(culling));
+    list.emplace_back(name_of(culling), place == count.by_culling.end() ? 0 : place->second);
   }
   return list;
 }

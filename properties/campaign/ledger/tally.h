@@ -53,7 +53,7 @@ struct Tally {
   void add(const TrialRecord& record);
   // Numbers of trials, over all strata: all; those with a case that the contract takes; those with
   // a defect, and those without a verdict, in some configuration; those that were disturbed.
-  std::uint64_t trials() const, judged() const, with_defect() const, open() const,
+  std::uint64_t trials() const, judged_trials() const, with_defect() const, open() const,
       disturbed() const;
 
  private:

@@ -16,22 +16,22 @@
 
 namespace assay::properties {
 
-std::optional<Failure> failure_of_fault(const Fault& fault, Examined& examined) {
+std::optional<Failure> failure_of_fault(const Fault& fault, CaseResults& results) {
   const std::string name(fault.name);
-  const Configuration planted{name, fault.options, name};
+  const Configuration configuration_of_fault{name, fault.options, name};
   const DetectorUnderTest detector = built_in_detector();
-  const Exam exam{detector, {&planted, 1}};
-  auto& [c, truth, runs, again, verdicts, oracle_us, detector_us] = examined;
+  const Exam exam{detector, {&configuration_of_fault, 1}};
+  auto& [c, truth, runs, again, verdicts, oracle_us, detector_us] = results;
   runs.clear();
   again.clear();
   verdicts.clear();
-  run_first(exam, examined);
+  run_first(exam, results);
   if (runs[0].end != RunEnd::completed) return std::nullopt;  // a refused case shows nothing
   if (fault.is_disturbed) {
-    again = {without_marking_counts(run_disturbed(c, planted, runs[0].steps))};
+    again = {without_marking_counts(run_disturbed(c, configuration_of_fault, runs[0].steps))};
     runs[0] = without_marking_counts(std::move(runs[0].steps));
   }
-  judge(exam, examined);
+  judge(exam, results);
   return verdicts[0].failure;
 }
 
@@ -71,47 +71,47 @@ class Hunt {
       if (fault.curated.empty()) continue;
       const auto c = corpus::read_case(hunt_.curated / (std::string(fault.curated) + ".json"));
       if (!c) throw StoreProblem(c.error().message);
-      Examined examined{c.value()};
-      proofs_[f].curated = failure_of_fault(fault, examined).has_value();
+      CaseResults results{c.value()};
+      proofs_[f].curated = failure_of_fault(fault, results).has_value();
     }
   }
 
   // Makes the case at a place of a seed. The families take turns.
-  GeneratedCase case_of(int seed, std::uint64_t place) const {
-    const auto known = families();
-    const Family& family = known[place % known.size()];
+  RandomCase case_of(int seed, std::uint64_t place) const {
+    const auto all_families = families();
+    const Family& family = all_families[place % all_families.size()];
     return make_case(family, fmt::format("{}:{}.f{}:{}:{}", hunt_.campaign, hunt_.seed, seed,
-                                         family.name, place / known.size()));
+                                         family.name, place / all_families.size()));
   }
 
   void run_seed(int seed) {
-    std::vector<std::optional<std::uint64_t>> found(proofs_.size());
+    std::vector<std::optional<std::uint64_t>> places(proofs_.size());
     for (std::uint64_t begin = 0; begin < hunt_.cases && !is_cut_; begin += chunk) {
       const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
-      run_chunk(seed, begin, end, found);
-      std::size_t hidden = 0, planted = 0;
-      for (std::size_t f = 0; f < found.size(); ++f) {
+      run_chunk(seed, begin, end, places);
+      std::size_t hidden = 0, count = 0;
+      for (std::size_t f = 0; f < places.size(); ++f) {
         if (proofs_[f].status != FaultStatus::planted) continue;
-        ++planted;
-        hidden += found[f] ? 0 : 1;
+        ++count;
+        hidden += places[f] ? 0 : 1;
       }
       const auto seeds = static_cast<std::uint64_t>(hunt_.seeds);
-      const auto done = static_cast<std::uint64_t>(seed - 1) * hunt_.cases + end;
+      const auto cases = static_cast<std::uint64_t>(seed - 1) * hunt_.cases + end;
       if (progress_)
         progress_(fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden", seed,
-                              seeds, end, hidden, planted),
-                  done, seeds * hunt_.cases - done);
+                              seeds, end, hidden, count),
+                  cases, seeds * hunt_.cases - cases);
       // Equivalent and open faults are not expected to be found, but they must have been tried on
       // a fair share of the cases too.
       if (hidden == 0 && end >= hunt_.cases / 4) break;
     }
     for (std::size_t f = 0; f < proofs_.size(); ++f)
-      proofs_[f].needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
+      proofs_[f].needed.push_back(places[f] ? std::optional(*places[f] + 1) : std::nullopt);
   }
 
   void run_chunk(int seed, std::uint64_t begin, std::uint64_t end,
-                 std::vector<std::optional<std::uint64_t>>& found) {
-    std::vector<std::uint64_t> first(found.size(), end);
+                 std::vector<std::optional<std::uint64_t>>& places) {
+    std::vector<std::uint64_t> first(places.size(), end);
     std::mutex mutex;
     std::uint64_t next = begin;
     const auto work = [&] {
@@ -123,17 +123,17 @@ class Hunt {
           if (next >= end || is_cut_) return;
           place = next++;
         }
-        Examined examined{case_of(seed, place).c};
-        for (std::size_t f = 0; f < found.size(); ++f) {
-          if (found[f] || !failure_of_fault(faults()[f], examined)) continue;
+        CaseResults results{case_of(seed, place).c};
+        for (std::size_t f = 0; f < places.size(); ++f) {
+          if (places[f] || !failure_of_fault(faults()[f], results)) continue;
           const std::lock_guard lock(mutex);
           first[f] = std::min(first[f], place);
         }
       }
     };
     in_threads(hunt_.jobs, work);
-    for (std::size_t f = 0; f < found.size(); ++f) {
-      if (!found[f] && first[f] < end) found[f] = first[f];
+    for (std::size_t f = 0; f < places.size(); ++f) {
+      if (!places[f] && first[f] < end) places[f] = first[f];
     }
   }
 
@@ -161,16 +161,16 @@ Canary meet_canary(const CampaignRequest& request) {
   const DetectorUnderTest detector = built_in_detector();
   const Configuration configuration{"canary", fault->options, result.fault};
   WorkerProcess worker(request.worker, std::nullopt, {request.plan.case_seconds, 0});
-  const auto known = families();
+  const auto all_families = families();
   for (std::uint64_t i = 0; i < most_cases; ++i) {
-    const Family& family = known[i % known.size()];
-    auto made = make_case(
+    const Family& family = all_families[i % all_families.size()];
+    auto fresh = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
-    const auto examined = examine({detector, {&configuration, 1}, &worker}, std::move(made.c));
-    throw_if_not_run(examined);
+    const auto results = examine({detector, {&configuration, 1}, &worker}, std::move(fresh.c));
+    throw_if_not_run(results);
     // A worker that dies does not show that a defect was seen.
-    const bool is_complete = examined.runs[0].end == RunEnd::completed;
-    if (!is_complete || examined.verdicts[0].outcome != Outcome::defect) continue;
+    const bool is_complete = results.runs[0].end == RunEnd::completed;
+    if (!is_complete || results.verdicts[0].outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;
   }
@@ -195,10 +195,10 @@ bool is_of_build(const RunFindings& proof, const BoundRun& build) {
 // Says what keeps the findings from being a proof for the plan. Empty if nothing does.
 std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
   if (!proof.evidence.power.empty()) return "took its own proof from another run";
-  if (proof.planted() != build.planted_faults || proof.found() != build.planted_faults)
-    return fmt::format("shows {} of {} planted faults found", proof.found(), build.planted_faults);
+  if (proof.faults() != build.planted_faults || proof.finds() != build.planted_faults)
+    return fmt::format("shows {} of {} planted faults found", proof.finds(), build.planted_faults);
   for (const auto& fault : proof.evidence.faults) {
-    if (fault.status == FaultStatus::equivalent && fault.found())
+    if (fault.status == FaultStatus::equivalent && fault.is_found())
       return fmt::format("found {}, which is registered as equivalent", fault.fault);
     if (fault.time_over) return fmt::format("was over before {} had all of its cases", fault.fault);
     if (!fault.is_whole(plan))
@@ -223,9 +223,9 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
     return Problem{fmt::format("{}: a proof must lie outside of the folder that the run writes",
                                folder.string())};
   }
-  const auto read = read_findings(folder);
-  if (!read) return read.error();
-  const RunFindings& findings = read.value();
+  const auto findings_or_problem = read_findings(folder);
+  if (!findings_or_problem) return findings_or_problem.error();
+  const RunFindings& findings = findings_or_problem.value();
   const auto build = read_binding(binding_of(request), folder);
   if (!build) return build.error();
   if (!is_of_build(findings, build.value())) {

@@ -35,7 +35,7 @@ struct CampaignRun {
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
     PluginIsolation now{request_.isolation_word(), name_of(request_.isolation)};
-    for (const auto& before : stored().isolation) {
+    for (const auto& before : facts().isolation) {
       if (store_.trial_count() > 0 && before.got == name_of(Isolation::limits))
         now.got = before.got;
     }
@@ -51,14 +51,14 @@ struct CampaignRun {
   // The tenth that is kept for shrinking begins when the trials have ended, however late that was.
   void shrink(bool complete) {
     const double most = shrinking_seconds(request_.plan), all = request_.plan.seconds;
-    const double kept = all == 0 ? most : std::min(most, (1 - trials_share) * all);
+    const double seconds = all == 0 ? most : std::min(most, (1 - trials_share) * all);
     shrink_failures(request_, store_, shrinking_of_one,
-                    complete ? earlier(after(1), most) : deadline_in(Clock::now(), kept),
+                    complete ? earlier(after(1), most) : deadline_in(Clock::now(), seconds),
                     progress_);
   }
 
   // The evidence that an earlier call of this run stored.
-  EvidenceFacts stored() const { return facts_in(store_); }
+  EvidenceFacts facts() const { return facts_in(store_); }
 
   void drop_proofs() {
     store_.drop(PowerSource::kind);
@@ -68,14 +68,14 @@ struct CampaignRun {
   // If an earlier call of this run proved planted faults by itself, its proofs are dropped,
   // because proofs that are taken over do not stand beside them.
   void take_power() {
-    if (stored().power.empty()) drop_proofs();
+    if (facts().power.empty()) drop_proofs();
     store_.set(to_row(request_.power->source));
     for (const auto& proof : request_.power->faults) store_.set(to_row(proof));
   }
 
   void hunt() {
     const auto& plan = request_.plan;
-    const auto before = stored();
+    const auto before = facts();
     if (!before.power.empty()) {
       drop_proofs();
     } else if (!before.faults.empty() &&
@@ -88,17 +88,17 @@ struct CampaignRun {
                          request_.jobs,    corpus_};
     const auto proofs = hunt_faults(
         hunt, after(faults_share),
-        [&](const auto& text, auto done, auto left) { observer_.on_progress(text, done, left); });
+        [&](const auto& text, auto count, auto rest) { observer_.on_progress(text, count, rest); });
     for (const auto& proof : proofs) store_.set(to_row(proof));
   }
 
   void explore_worlds() {
     const auto end = earlier(after(1), request_.plan.tetrahedron_seconds);
     for (const auto& world : tetrahedron_worlds()) {
-      const double left = std::chrono::duration<double>(end - Clock::now()).count();
-      if (left <= 0) break;
+      const double rest = std::chrono::duration<double>(end - Clock::now()).count();
+      if (rest <= 0) break;
       progress_(fmt::format("{}: every motion of a tetrahedron on a small grid", world.name));
-      const auto result = prove(world, {request_.jobs, left, {}});
+      const auto result = prove(world, {request_.jobs, rest, {}});
       store_.set(
           to_row(World{world.name, result.classes, result.motions, result.all, result.collisions,
                        result.complete,
@@ -156,7 +156,7 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
       observer.on_phase("tetrahedron");
       run.explore_worlds();
     }
-    if (request.judged) value_or_throw(request.judged->is_as_it_was());
+    if (request.library) value_or_throw(request.library->is_as_it_was());
   });
 }
 
@@ -169,12 +169,12 @@ namespace {
 
 // Stores, for each signature that is not in the store, the failure with the smallest mesh, by the
 // length of its text.
-void add_smallest(const std::vector<StoredFailure>& failures, Store& store) {
-  std::set<std::string> told;
-  for (const auto& stored : store.failures()) told.insert(stored.signature());
-  std::map<std::string, const StoredFailure*> smallest;
+void add_smallest(const std::vector<FailureRecord>& failures, Store& store) {
+  std::set<std::string> signatures;
+  for (const auto& record : store.failures()) signatures.insert(record.signature());
+  std::map<std::string, const FailureRecord*> smallest;
   for (const auto& failure : failures) {
-    if (told.contains(failure.signature())) continue;
+    if (signatures.contains(failure.signature())) continue;
     const auto*& best = smallest[failure.signature()];
     if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
   }
@@ -183,22 +183,22 @@ void add_smallest(const std::vector<StoredFailure>& failures, Store& store) {
 
 }  // namespace
 
-Expected<KeptFailures> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<StoredFailure>& failures, Store& store,
+Expected<FailureList> shrink_corpus_failures(
+    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
     const std::function<void(const std::string&)>& progress) {
   return catch_store_problem([&] {
     add_smallest(failures, store);
     shrink_failures(request, store, shrinking_of_one,
                     deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
                     progress);
-    auto kept = value_or_throw(store.kept_failures());
-    std::erase_if(kept.list, [](const auto& failure) { return !failure.is_of_corpus(); });
-    return kept;
+    auto list = value_or_throw(store.kept_failures());
+    std::erase_if(list.list, [](const auto& failure) { return !failure.is_of_corpus(); });
+    return list;
   });
 }
 
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
-                           const std::vector<StoredFailure>& failures, KeepMeshes when) {
+                           const std::vector<FailureRecord>& failures, KeepMeshes when) {
   return catch_store_problem([&] {
     for (const auto& row : rows) store.set(to_row(row));
     std::set<std::string> signatures;
@@ -210,12 +210,12 @@ Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
 
 namespace {
 
-// Chooses `chosen` of the numbers below `all`, each equally likely. This is Floyd's algorithm,
+// Chooses `count` of the numbers below `all`, each equally likely. This is Floyd's algorithm,
 // which needs only as many random numbers as it chooses.
-std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uint64_t seed) {
+std::set<std::uint64_t> choose(std::uint64_t count, std::uint64_t all, std::uint64_t seed) {
   Random random(seed, 0);
   std::set<std::uint64_t> numbers;
-  for (std::uint64_t i = all - chosen; i < all; ++i) {
+  for (std::uint64_t i = all - count; i < all; ++i) {
     const std::uint64_t number = random.next() % (i + 1);
     if (!numbers.insert(number).second) numbers.insert(i);
   }
@@ -223,36 +223,36 @@ std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uin
 }
 
 // Names the first thing in which the two trials differ. Empty if they do not differ.
-std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& now,
+std::string difference_of_trials(const TrialRecord& first, const TrialRecord& now,
                                  const DetectorUnderTest& detector) {
   for (std::size_t c = 0; c < detector.configurations.size(); ++c) {
     const auto letter = [&](const TrialRecord& record) {
       return c < record.outcomes.size() ? std::string(1, record.outcomes[c]) : "nothing";
     };
-    if (letter(stored) != letter(now))
+    if (letter(first) != letter(now))
       return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
-                         letter(stored));
+                         letter(first));
   }
-  for (const auto& [counted, member] : {std::pair("triangles", &TrialRecord::triangles),
-                                        {"steps", &TrialRecord::steps},
-                                        {"collisions", &TrialRecord::collisions},
-                                        {"pairs", &TrialRecord::pairs}}) {
-    if (stored.*member != now.*member)
-      return fmt::format("{} {} now, {} stored", now.*member, counted, stored.*member);
+  for (const auto& [name, member] : {std::pair("triangles", &TrialRecord::triangles),
+                                     {"steps", &TrialRecord::steps},
+                                     {"collisions", &TrialRecord::collisions},
+                                     {"pairs", &TrialRecord::pairs}}) {
+    if (first.*member != now.*member)
+      return fmt::format("{} {} now, {} stored", now.*member, name, first.*member);
   }
-  if (stored.mesh != now.mesh) return "its mesh is another one";
-  if (stored.outcomes != now.outcomes) return "outcomes of more configurations than there are";
-  if (stored.counts != now.counts) return "its counts are others";
+  if (first.mesh != now.mesh) return "its mesh is another one";
+  if (first.outcomes != now.outcomes) return "outcomes of more configurations than there are";
+  if (first.counts != now.counts) return "its counts are others";
   return "";
 }
 
 // Runs the trials of one store once more. Names the first that comes to something else; empty if
 // none does.
 std::string difference_of_store(const CampaignRequest& request,
-                                const std::vector<TrialRecord>& drawn,
+                                const std::vector<TrialRecord>& records,
                                 const std::function<void(const TrialProgress&)>& progress) {
   std::set<std::string> ids;
-  for (const auto& record : drawn) ids.insert(record.id);
+  for (const auto& record : records) ids.insert(record.id);
   const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
   Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
   const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
@@ -260,11 +260,11 @@ std::string difference_of_store(const CampaignRequest& request,
   if (!end.harness_problem.empty()) throw StoreProblem(end.harness_problem);
   std::map<std::string, TrialRecord> now;
   store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
-  for (const auto& record : drawn) {
-    const auto found = now.find(record.id);
-    const auto difference = found == now.end()
+  for (const auto& record : records) {
+    const auto place = now.find(record.id);
+    const auto difference = place == now.end()
                                 ? std::string("the campaign has no such trial")
-                                : difference_of_trials(record, found->second,
+                                : difference_of_trials(record, place->second,
                                                        request.detector.in_stratum(record.family));
     if (!difference.empty()) return fmt::format("trial {}: {}", record.id, difference);
   }
@@ -279,24 +279,24 @@ Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::
   return catch_store_problem([&] {
     const auto files = value_or_throw(stored_runs(folder));
     TrialsAgain again;
-    for (const auto& file : files) again.stored += value_or_throw(Store::read(file)).trial_count();
-    if (again.stored == 0)
+    for (const auto& file : files) again.all += value_or_throw(Store::read(file)).trial_count();
+    if (again.all == 0)
       throw StoreProblem(fmt::format("{}: no trial is stored here", folder.string()));
-    const auto wanted = std::ceil(share * static_cast<double>(again.stored));
-    again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1, again.stored);
-    const auto numbers = choose(again.trials, again.stored, seed);
+    const auto count = std::ceil(share * static_cast<double>(again.all));
+    again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(count), 1, again.all);
+    const auto numbers = choose(again.trials, again.all, seed);
     std::uint64_t number = 0;  // counts the trials of all stores
     for (const auto& file : files) {
       const Store store = value_or_throw(Store::read(file));
-      std::vector<TrialRecord> drawn;  // in the order of their families and places
+      std::vector<TrialRecord> records;  // in the order of their families and places
       store.for_each_trial([&](const TrialRecord& record) {
-        if (numbers.contains(number++)) drawn.push_back(record);
+        if (numbers.contains(number++)) records.push_back(record);
       });
-      if (drawn.empty()) continue;
+      if (records.empty()) continue;
       const auto run = value_or_throw(read_binding(store.binding(), file));
       request.seed = run.seed;
       request.shares = run.shares;
-      const auto difference = difference_of_store(request, drawn, progress);
+      const auto difference = difference_of_store(request, records, progress);
       if (difference.empty()) continue;
       again.difference = difference;
       break;

@@ -40,7 +40,7 @@ struct FaultHunt {
 };
 
 // How far a hunt is, in words, and how many cases are done and left.
-using OnHunt = std::function<void(const std::string&, std::uint64_t done, std::uint64_t left)>;
+using OnHunt = std::function<void(const std::string&, std::uint64_t count, std::uint64_t rest)>;
 
 // Hunts for all registered faults. One judgement of a case by the oracle serves all faults. A
 // fault that is found under a seed leaves the round of that seed; equivalent and open faults stay
@@ -51,7 +51,7 @@ std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
 
 // What the fault shows in a case, judged by the claims of its options; nothing if the case holds.
 // The oracle is asked where its judgement is not there yet, which then serves the next fault.
-std::optional<Failure> failure_of_fault(const Fault& fault, Examined& examined);
+std::optional<Failure> failure_of_fault(const Fault& fault, CaseResults& results);
 
 // A detector that is known to be wrong goes through all that the detector under test goes through.
 // A run in which it is not found is a run that sees nothing.
@@ -239,7 +239,7 @@ class CampaignObserver {
   // What the phase is at; and, if it can be counted, how much of it is done, and how much is left.
   virtual void on_progress(const std::string&, std::uint64_t /*done*/, std::uint64_t /*left*/) {}
   // All trials and their failures are stored now; faults and worlds are still to come.
-  virtual void on_failures_shrunk(const KeptFailures&) {}
+  virtual void on_failures_shrunk(const FailureList&) {}
 };
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
@@ -266,8 +266,8 @@ double shrinking_seconds(const CampaignPlan& plan);
 // of the corpus. What an earlier call stored stays. `progress` is called with the signature that is
 // being shrunk.
 // Returns the stored failures of the corpus.
-Expected<KeptFailures> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<StoredFailure>& failures, Store& store,
+Expected<FailureList> shrink_corpus_failures(
+    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
     const std::function<void(const std::string&)>& progress);
 
 // Stores the rows of the corpus, and removes the failures of an earlier call that it does not show
@@ -275,13 +275,13 @@ Expected<KeptFailures> shrink_corpus_failures(
 // failures of the trials; in a certificate shrink_corpus_failures does that later.
 enum class KeepMeshes : std::uint8_t { now, later };
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
-                           const std::vector<StoredFailure>& failures, KeepMeshes when);
+                           const std::vector<FailureRecord>& failures, KeepMeshes when);
 
 // Makes and judges stored trials once more, and compares the results with what is stored.
 
 struct TrialsAgain {
   std::uint64_t trials = 0;  // trials that were run once more
-  std::uint64_t stored = 0;  // trials that are stored
+  std::uint64_t all = 0;     // trials that are stored
   // The first trial, by family and index, that came to something else: "trial ID: bvh is D now, H
   // is stored".
   std::optional<std::string> difference;

@@ -71,11 +71,11 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
     options.size = static_cast<int>(drawn_size(random, triangles)) / copies;
   }
   options.frames = std::max(random.between(least_frames, most_frames), scene.least_frames);
-  auto made = corpus::make_scene(scene.name, options).value();
+  auto scene_case = corpus::make_scene(scene.name, options).value();
   corpus::Case c;
   c.id = name;
-  c.triangles = std::move(made.triangles);
-  c.frames = std::move(made.frames);
+  c.triangles = std::move(scene_case.triangles);
+  c.frames = std::move(scene_case.frames);
   // A scene has a least size of its own.
   const auto fitting = static_cast<int>(triangles) / static_cast<int>(c.triangles.rows());
   put_side_by_side(c, std::max(1, std::min(copies, fitting)));
@@ -104,13 +104,13 @@ corpus::Case long_sequence(std::uint64_t seed) {
   const int way = random.between(least_way, most_way);
   options.frames = way + 1;
   const int steps = random.between(fewest_long_steps, most_long_steps);
-  auto made = corpus::make_scene(name, options).value();
-  c.triangles = std::move(made.triangles);
+  auto scene_case = corpus::make_scene(name, options).value();
+  c.triangles = std::move(scene_case.triangles);
   const auto map = drawn_map(random);
   const auto drift = drawn_entries(random, most_drift);
   for (int f = 0; f <= steps; ++f) {
     const auto place = static_cast<std::size_t>(way - std::abs(way - f % (2 * way)));
-    c.frames.emplace_back(made.frames[place] * (map + drift * f / steps));
+    c.frames.emplace_back(scene_case.frames[place] * (map + drift * f / steps));
   }
   c = renumbered(random, c);
   return c;
@@ -160,52 +160,52 @@ class TestedContacts {
 };
 
 // What the oracle would say of the step if the built-in detector, which answered so, is right.
-oracle::StepJudgement believed(const detector::StepResult& answered,
+oracle::StepJudgement truth_by(const detector::StepResult& result,
                                const TestedContacts& is_tested) {
   oracle::StepJudgement judgement;
-  judgement.answer = answered.answer;
+  judgement.answer = result.answer;
   judgement.complete = true;
-  judgement.first = answered.first;
-  judgement.pairs = answered.pairs;
-  for (const auto& contact : answered.pairs) {
+  judgement.first = result.first;
+  judgement.pairs = result.pairs;
+  for (const auto& contact : result.pairs) {
     if (is_tested(contact)) judgement.asked_pairs.push_back(contact);
   }
   return judgement;
 }
 
-// The steps in which the run breaks a claim if the built-in detector, whose run is `answered`, is
+// The steps in which the run breaks a claim if the built-in detector, whose run is `answers`, is
 // right: those with the fewest contacts, and not more than most_differing.
 std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
-                                         const CaseRun& run, const CaseRun& answered) {
+                                         const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
   const TestedContacts is_tested(contract, c);
   const detector::TrianglesView triangles(c.triangles);
   const auto script = corpus::steps_of(c);
   std::vector<std::size_t> places;
-  for (std::size_t s = 0; s < std::min(run.steps.size(), answered.steps.size()); ++s) {
+  for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
     auto answer = step_alone(run, s);
     answer.limits.clear();  // which the oracle alone judges
     const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
     const auto diff = judge_step(answer, 0, {motion, triangles, {}},
-                                 believed(answered.steps[s], is_tested), detector.claims, contract);
+                                 truth_by(answers.steps[s], is_tested), detector.claims, contract);
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return answered.steps[a].pairs.size() < answered.steps[b].pairs.size();
+    return answers.steps[a].pairs.size() < answers.steps[b].pairs.size();
   });
   places.resize(std::min(places.size(), most_differing));
   return places;
 }
 
 // Of a case that the contract takes: the colliding step with the fewest contacts that count, and
-// the first without any. `answered` is the run of the built-in detector.
+// the first without any. `answers` is the run of the built-in detector.
 std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
-                                     const CaseRun& answered) {
+                                     const CaseRun& answers) {
   const TestedContacts is_tested(contract, c);
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
-  for (std::size_t s = 0; s < answered.steps.size(); ++s) {
-    const auto count = truth_of(c, believed(answered.steps[s], is_tested), contract).pairs.size();
+  for (std::size_t s = 0; s < answers.steps.size(); ++s) {
+    const auto count = truth_of(c, truth_by(answers.steps[s], is_tested), contract).pairs.size();
     if (count == 0 && !free) free = s;
     if (count > 0 && (!colliding || count < fewest)) {
       colliding = s;
@@ -254,20 +254,20 @@ class Repetitions {
 
   // `special` says what is special about the input, and is the cause of what fails on it; empty:
   // the cause is that of each failure by itself.
-  void put(const corpus::Case& c, JudgedSteps judged, const char* special) {
+  void judge_input(const corpus::Case& c, JudgedSteps steps, const char* special) {
     special_ = special;
     JudgedSource row{.source = Source::repeated,
                      .input = c.id,
                      .configuration = configuration().name,
                      .triangles = static_cast<std::uint64_t>(c.triangles.rows())};
-    const auto seen = contracted(c, contract());
-    if (!seen) {
+    const auto contracted_case = contract_case(c, contract());
+    if (!contracted_case) {
       row.what = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
       row.what = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
-      row.steps = corpus::steps_of(*seen).size();
-      run_all(*seen, judged, row);
+      row.steps = corpus::steps_of(*contracted_case).size();
+      run_all(*contracted_case, steps, row);
     }
     store_.set(to_row(row));
   }
@@ -316,10 +316,10 @@ class Repetitions {
         return;
       }
       ++row.runs;
-      const auto judged =
+      const auto verdict =
           judge_run(c, first ? *first : run, {}, claims, contract(), first ? &run : nullptr);
-      if (judged.outcome != Outcome::holds) {
-        tell(c, first ? *first : run, run, judged, row);
+      if (verdict.outcome != Outcome::holds) {
+        tell(c, first ? *first : run, run, verdict, row);
         return;
       }
       if (first) continue;
@@ -333,9 +333,9 @@ class Repetitions {
     Configuration chooser{"auto", {}};
     if (const double d = contract().separation; d > 0)
       chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
-    const auto answered = run_alone(built_in_, c, chooser);
-    auto places = differing_steps(c, request_.detector, run, answered);
-    const auto plain = plain_steps(c, contract(), answered);
+    const auto answers = run_alone(built_in_, c, chooser);
+    auto places = differing_steps(c, request_.detector, run, answers);
+    const auto plain = plain_steps(c, contract(), answers);
     places.insert(places.end(), plain.begin(), plain.end());
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -345,33 +345,33 @@ class Repetitions {
   void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
                    const CaseRun& run, JudgedSource& row) {
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
-    std::map<std::string, int> kept;
+    std::map<std::string, int> counts;
     for (const auto s : places) {
-      Examined examined;
-      examined.c = with_steps(c, {s}, contract());
-      examined.runs = {step_alone(run, s)};
+      CaseResults results;
+      results.c = with_steps(c, {s}, contract());
+      results.runs = {step_alone(run, s)};
       judge({request_.detector,
              {&configuration(), 1},
              nullptr,
              nullptr,
              is_small ? 1 : request_.jobs},
-            examined);
-      const auto& alone = examined.c;
-      const auto& truth = examined.truth;
-      const auto& judged = examined.verdicts[0];
+            results);
+      const auto& alone = results.c;
+      const auto& truth = results.truth;
+      const auto& verdict = results.verdicts[0];
       // Without a verdict nothing is known of this size.
-      if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
+      if (verdict.outcome != Outcome::holds && verdict.outcome != Outcome::defect) continue;
       const auto facts = truth_of(alone, truth[0], contract());
-      const bool holds = judged.outcome == Outcome::holds;
+      const bool holds = verdict.outcome == Outcome::holds;
       row.judged.push_back({s + 1, facts.starts_near ? 0 : facts.pairs.size(), holds});
       ++row.cases;
       row.defects += holds ? 0 : 1;
       if (row.judged.back().contacts > 0) row.triangles_in_contact = row.triangles;
       row.extremes.pairs = std::max<std::uint64_t>(row.extremes.pairs, truth[0].pairs.size());
-      if (!judged.failure) continue;
-      auto failure = *judged.failure;
+      if (!verdict.failure) continue;
+      auto failure = *verdict.failure;
       if (*special_) failure.cause = special_;
-      if (kept[failure.signature()]++ < most_kept) keep(c, s, run, failure);
+      if (counts[failure.signature()]++ < most_kept) keep(c, s, run, failure);
     }
     if (row.judged.empty()) return;
     const auto until_last = first_places(row.judged.back().step);
@@ -383,40 +383,40 @@ class Repetitions {
   void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
-    auto shown = with_steps(c, {s}, contract());
-    if (!same_answers(step_alone(run, s), run_once(shown, 0)))
-      shown = with_steps(c, first_places(s + 1), contract());
-    add(fmt::format("{}, step {}", c.id, s + 1), shown, failure, run.printed);
+    auto c_alone = with_steps(c, {s}, contract());
+    if (!same_answers(step_alone(run, s), run_once(c_alone, 0)))
+      c_alone = with_steps(c, first_places(s + 1), contract());
+    add(fmt::format("{}, step {}", c.id, s + 1), c_alone, failure, run.output);
   }
 
-  void add(const std::string& id, const corpus::Case& shown, const Failure& failure,
-           const std::string& printed, bool flaky = false) {
-    auto stored = stored_failure(Source::repeated, shown, configuration(), request_.detector,
-                                 failure, false, printed);
-    stored.case_id = id;
-    stored.flaky = flaky;
-    store_.add(stored);
+  void add(const std::string& id, const corpus::Case& failing, const Failure& failure,
+           const std::string& output, bool flaky = false) {
+    auto record = stored_failure(Source::repeated, failing, configuration(), request_.detector,
+                                 failure, false, output);
+    record.case_id = id;
+    record.flaky = flaky;
+    store_.add(record);
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
-  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run, const Verdict& judged,
+  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run, const Verdict& verdict,
             JudgedSource& row) {
-    row.broken = judged.outcome == Outcome::defect;
+    row.broken = verdict.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
     row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
                   : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
                                 row.threads.size(), row.threads.back(), answer_of(run, *s),
                                 row.threads.front(), answer_of(first, *s));
-    if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, judged, row.what);
+    if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, verdict, row.what);
   }
 
   // Stores what the end of a run shows, or its difference from another one.
-  void keep_end(const corpus::Case& c, const CaseRun& run, const Verdict& judged,
+  void keep_end(const corpus::Case& c, const CaseRun& run, const Verdict& verdict,
                 const std::string& what) {
-    auto failure = failure_of(judged, c, {}, run, configuration(), request_.detector);
+    auto failure = failure_of(verdict, c, {}, run, configuration(), request_.detector);
     failure.cause = special_;
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
-    add(c.id, c, failure, run.printed, true);
+    add(c.id, c, failure, run.output, true);
   }
 
   const CampaignRequest& request_;
@@ -445,19 +445,19 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
-  const auto stored = facts_in(store).rows_of(Source::repeated);
+  const auto rows = facts_in(store).rows_of(Source::repeated);
   Repetitions repetitions(request, store);
-  const auto put = [&](const std::string& input, JudgedSteps judged, const auto& make,
-                       const char* special = "large mesh") {
-    const bool is_stored = std::ranges::find(stored, input, &JudgedSource::input) != stored.end();
+  const auto judge_new = [&](const std::string& input, JudgedSteps steps, const auto& make,
+                             const char* special = "large mesh") {
+    const bool is_stored = std::ranges::find(rows, input, &JudgedSource::input) != rows.end();
     if (is_stored || std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
-    repetitions.put(make(), judged, special);
+    repetitions.judge_input(make(), steps, special);
   };
-  put(name_of_long_sequence, JudgedSteps::all, [&] { return long_sequence(request.seed); });
+  judge_new(name_of_long_sequence, JudgedSteps::all, [&] { return long_sequence(request.seed); });
   for (int form = 0; form < forms_of_a_scene; ++form) {
     for (const auto& scene : corpus::scenes())
-      put(name_of_form(scene, form), JudgedSteps::some, [&] {
+      judge_new(name_of_form(scene, form), JudgedSteps::some, [&] {
         return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed, form);
       });
   }
@@ -467,10 +467,10 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
         return walk(kind, request.seed, steps_of_a_walk, detector.contract,
                     [&](const corpus::Case& step) { return repetitions.limit_of(step); });
       };
-      put(name_of(kind), JudgedSteps::all, walked, "");
+      judge_new(name_of(kind), JudgedSteps::all, walked, "");
     }
   }
-  for (const auto& c : request.repeated) put(c.id, JudgedSteps::none, [&] { return c; });
+  for (const auto& c : request.repeated) judge_new(c.id, JudgedSteps::none, [&] { return c; });
 }
 
 }  // namespace assay::properties

@@ -17,7 +17,7 @@ namespace {
 
 std::string name_of_lane(std::uint64_t lane) { return fmt::format("{:03}", lane + 1); }
 
-SourcesAsked sources_asked(const CampaignRequest& request, const std::filesystem::path& corpus) {
+SourceChoice sources_asked(const CampaignRequest& request, const std::filesystem::path& corpus) {
   const auto& detector = request.detector;
   return {!detector.of_queries, detector.of_queries || detector.query_claims != Claims(), corpus};
 }
@@ -35,9 +35,9 @@ class ShareSearch {
                  return brought_into_contract(std::move(c), request.detector.contract);
                },
                request.detector.built_in} {
-    const EvidenceFacts stored = facts_in(store);
-    for (const auto& lane : stored.rows_of(Source::search)) {
-      stored_.insert(lane.input);
+    const EvidenceFacts facts = facts_in(store);
+    for (const auto& lane : facts.rows_of(Source::search)) {
+      stored_lanes_.insert(lane.input);
       count(lane);
     }
   }
@@ -56,10 +56,10 @@ class ShareSearch {
     const Exam exam{request_.detector, request_.detector.configurations, &worker};
     const auto examine = examine_in_lane(exam);
     while (const auto lane = next_lane()) {
-      const SearchLane searched{fmt::format("{}{}:{}:{}", row_of(Source::search).prefix,
-                                            request_.plan.name, request_.seed, name_of_lane(*lane)),
-                                cases_of_lane(cases_, *lane)};
-      const auto result = search(searched, space_, examine, [this] { return is_over(); });
+      const SearchLane part{fmt::format("{}{}:{}:{}", row_of(Source::search).prefix,
+                                        request_.plan.name, request_.seed, name_of_lane(*lane)),
+                            cases_of_lane(cases_, *lane)};
+      const auto result = search(part, space_, examine, [this] { return is_over(); });
       keep(*lane, result, exam);
     }
   } catch (...) {
@@ -73,29 +73,29 @@ class ShareSearch {
     if (is_over()) return std::nullopt;
     const std::lock_guard lock(mutex_);
     for (; next_ < search_lanes(cases_); ++next_) {
-      if (!stored_.contains(name_of_lane(next_))) return next_++;
+      if (!stored_lanes_.contains(name_of_lane(next_))) return next_++;
     }
     return std::nullopt;
   }
 
   void count(const JudgedSource& lane) {
     ++lanes_;
-    judged_ += lane.cases;
+    judged_cases_ += lane.cases;
     defects_ += lane.defects;
   }
 
   // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
-  static StoredFailure stored_of(const FoundDefect& found, const Exam& exam) {
-    const auto alone = run_alone(*exam.worker, found.c, exam.configurations[found.configuration]);
+  static FailureRecord stored_of(const SearchDefect& defect, const Exam& exam) {
+    const auto alone = run_alone(*exam.worker, defect.c, exam.configurations[defect.configuration]);
     throw_if_not_run(alone);
-    const bool flaky = !same_answers(found.run, alone);
-    return stored_failure(Source::search, found.c, exam.configurations[found.configuration],
-                          exam.detector, found.failure, flaky, found.run.printed);
+    const bool flaky = !same_answers(defect.run, alone);
+    return stored_failure(Source::search, defect.c, exam.configurations[defect.configuration],
+                          exam.detector, defect.failure, flaky, defect.run.output);
   }
 
   void keep(std::uint64_t number, const LaneResult& result, const Exam& exam) {
-    std::vector<StoredFailure> failures;
-    for (const auto& found : result.found) failures.push_back(stored_of(found, exam));
+    std::vector<FailureRecord> failures;
+    for (const auto& defect : result.finds) failures.push_back(stored_of(defect, exam));
     const JudgedSource lane{.source = Source::search,
                             .input = name_of_lane(number),
                             .planned = cases_of_lane(cases_, number),
@@ -110,7 +110,7 @@ class ShareSearch {
     count(lane);
     if (progress_)
       progress_(fmt::format("{}/{} lanes, {} cases, {} with a defect", lanes_, search_lanes(cases_),
-                            judged_, defects_));
+                            judged_cases_, defects_));
   }
 
   const CampaignRequest& request_;
@@ -119,11 +119,11 @@ class ShareSearch {
   const RunDeadline deadline_;
   const std::function<void(const std::string&)>& progress_;
   const SearchSpace space_;
-  std::set<std::string> stored_;
+  std::set<std::string> stored_lanes_;
   std::mutex mutex_;
   std::uint64_t next_ = 0;
   // Of this run; the lanes that an earlier call stored are among them.
-  std::uint64_t lanes_ = 0, judged_ = 0, defects_ = 0;
+  std::uint64_t lanes_ = 0, judged_cases_ = 0, defects_ = 0;
   std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
 };
 
@@ -131,9 +131,9 @@ class ShareSearch {
 
 ExamineCases examine_in_lane(const Exam& exam) {
   return [&exam](std::vector<corpus::Case> cases) {
-    auto examined = examine(exam, std::move(cases));
-    for (const auto& one : examined) throw_if_not_run(one);
-    return examined;
+    auto results = examine(exam, std::move(cases));
+    for (const auto& one : results) throw_if_not_run(one);
+    return results;
   };
 }
 

@@ -25,16 +25,16 @@ bool is_large(const corpus::Case& c) {
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs) {
   return [&, jobs](const corpus::Case& c) -> std::optional<Finding> {
-    const auto seen = contracted(c, detector.contract);
-    if (!seen) return std::nullopt;
+    const auto input = contract_case(c, detector.contract);
+    if (!input) return std::nullopt;
     // If the case does not start clean although its caller vouches for that, the failure is no
     // fault of the detector.
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
-    const auto examined =
-        examine({detector, {&configuration, 1}, &worker, nullptr, is_large(c) ? jobs : 1}, *seen);
-    throw_if_not_run(examined);
-    const auto& failure = examined.verdicts[0].failure;
+    const auto results =
+        examine({detector, {&configuration, 1}, &worker, nullptr, is_large(c) ? jobs : 1}, *input);
+    throw_if_not_run(results);
+    const auto& failure = results.verdicts[0].failure;
     return failure ? std::optional(finding_of(*failure)) : std::nullopt;
   };
 }
@@ -60,7 +60,7 @@ constexpr double most_seconds_of_a_large_mesh = 20;
 
 // The key of the note which says that the shrinking of this failure had all the time that it may
 // have.
-std::string done_note(const StoredFailure& failure) {
+std::string done_note(const FailureRecord& failure) {
   return fmt::format("shrunk {} {}", failure.id(), failure.shown_configuration());
 }
 
@@ -82,7 +82,7 @@ std::string explanation_of(const Finding& finding, std::size_t fails_from = 0) {
 }
 
 // How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
-double seconds_for(const StoredFailure& failure, const corpus::Case& failing, double usual) {
+double seconds_for(const FailureRecord& failure, const corpus::Case& failing, double usual) {
   if (failure.source == Source::repeated) return std::min(usual, most_seconds_of_a_large_mesh);
   constexpr double most_times = 10;
   return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
@@ -90,7 +90,7 @@ double seconds_for(const StoredFailure& failure, const corpus::Case& failing, do
 
 // Whether one run of the case alone has to show the failure: not if a law is broken, or if two runs
 // have to agree.
-bool may_be_asked_alone(const StoredFailure& failure, const CampaignRequest& request) {
+bool may_be_asked_alone(const FailureRecord& failure, const CampaignRequest& request) {
   return request.plugin && failure.claim != name_of(Claim::deterministic);
 }
 
@@ -102,13 +102,13 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
   auto failures = store.failures();
   // Failures that were shrunk in part come before the others of their signature.
   std::stable_partition(failures.begin(), failures.end(),
-                        [](const StoredFailure& f) { return !f.smallest.empty(); });
+                        [](const FailureRecord& f) { return !f.smallest.empty(); });
   constexpr int most_tried = 3;
-  std::map<std::string, int> tried;  // of each signature
+  std::map<std::string, int> tries;  // of each signature
   for (auto& failure : failures) {
-    const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
-    if (left.count() <= 0) return;
-    auto& tried_of_kind = tried[failure.signature()];
+    const std::chrono::duration<double> rest = deadline - std::chrono::steady_clock::now();
+    if (rest.count() <= 0) return;
+    auto& tried_of_kind = tries[failure.signature()];
     if (store.note(done_note(failure))) tried_of_kind = most_tried;
     if (failure.flaky || tried_of_kind >= most_tried) continue;
     const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
@@ -123,8 +123,8 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     // New ones, because a process that was asked much before may fail where they do not.
     WorkerProcess worker(request.worker, request.plugin, request.worker_limits()),
         last(request.worker, request.plugin, request.worker_limits());
-    const auto shows = [&](const std::string& mesh, WorkerProcess& asked) {
-      const auto judge = judge_of_detector(request.detector, *configuration, asked, request.jobs);
+    const auto shows = [&](const std::string& mesh, WorkerProcess& process) {
+      const auto judge = judge_of_detector(request.detector, *configuration, process, request.jobs);
       return judge(corpus::parse_case(mesh, failure.id()).value()).has_value();
     };
     const bool is_asked_alone = may_be_asked_alone(failure, request);
@@ -136,16 +136,16 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     }
     tried_of_kind = most_tried;
     const double most = seconds_for(failure, failing.value(), limits.seconds);
-    const ReduceLimits bounded{std::min(most, left.count()), limits.calls};
+    const ReduceLimits bounded{std::min(most, rest.count()), limits.calls};
     const Law* law = failure.claim.empty() ? law_named(failure.law) : nullptr;
     const auto store_as_smallest = [&](const corpus::Case& better, const std::string& explanation) {
       // As the detector saw it: with coordinates that a contract of float32 has rounded.
-      corpus::Case shown = contracted(better, detector.contract).value_or(better);
+      corpus::Case small_case = contract_case(better, detector.contract).value_or(better);
       if (!explanation.empty()) {
         failure.smallest_explanation = explanation;
-        shown.about = about_text(failure.signature(), explanation);
+        small_case.about = about_text(failure.signature(), explanation);
       }
-      failure.smallest = corpus::case_text(shown);
+      failure.smallest = corpus::case_text(small_case);
       store.set_smallest(failure);
     };
     const OnBetter keep = [&](const corpus::Case& better) {
@@ -181,15 +181,15 @@ namespace {
 // The case with the view that the detector chose; it runs here and may crash.
 std::optional<corpus::Case> chosen_view(const corpus::Case& c, const detector::Options& options) {
   // A component within which nothing counts needs no view, so all pairs count here.
-  auto made = detector::Detector::create(c.triangles, c.frames[0], options);
-  if (!made) return std::nullopt;
+  auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
+  if (!creation) return std::nullopt;
   corpus::Case out = c;
   out.view.emplace();
   bool is_line = options.culling == detector::Culling::view_line;
   // A primitive depends on the positions of one frame alone, so a step that stays in that frame
   // shows it.
   for (const auto& frame : c.frames) {
-    const auto result = made.value().evaluate(frame, frame);
+    const auto result = creation.value().evaluate(frame, frame);
     if (result.primitives.empty()) return std::nullopt;
     is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
     out.view->q0.push_back(result.primitives[0].q0.t0);
@@ -204,11 +204,11 @@ std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
                                                const detector::Options& options) {
   if (c.view || !uses_views(options.culling)) return std::nullopt;
   const auto run = in_a_copy([&](const Say& say) {
-    if (const auto shown = chosen_view(c, options)) say(corpus::case_text(*shown));
+    if (const auto view = chosen_view(c, options)) say(corpus::case_text(*view));
   });
-  auto shown = corpus::parse_case(run.said, c.id);
-  if (!shown) return std::nullopt;  // there is none, or the copy crashed
-  return std::move(shown.value());
+  auto parsed_case = corpus::parse_case(run.output, c.id);
+  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
+  return std::move(parsed_case.value());
 }
 
 Finding finding_of(const Failure& failure) {

@@ -88,17 +88,17 @@ class Driver {
 
   Positions goal(const Positions& x, int step) {
     constexpr int steps_of_a_push = 20, lifted_every = 60, steps_of_a_lift = 3;
-    if (step % steps_of_a_push == 0) push_ = 0.05 * drawn();
+    if (step % steps_of_a_push == 0) push_ = 0.05 * draw();
     Positions to = x;
     const bool is_lifted = step % lifted_every >= lifted_every - steps_of_a_lift;
     for (Eigen::Index v = first_moving_; v < x.rows(); ++v)
-      to.row(v) += is_lifted ? lift(x, v) : way(v) + 0.01 * drawn();
+      to.row(v) += is_lifted ? lift(x, v) : way(v) + 0.01 * draw();
     if (kind_ == WalkKind::closing_gap && !is_lifted) to = crossed();
     return to;
   }
 
  private:
-  Row drawn() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
+  Row draw() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
   // Back to where it began, part of the way.
   Row lift(const Positions& x, Eigen::Index v) const { return 0.3 * (start_.row(v) - x.row(v)); }
 
@@ -142,19 +142,19 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
   Driver driver(kind, scene, random);
   corpus::Case c = scene.c;
   c.id = id;
-  c.frames[0] = contracted(c.frames[0], contract.coordinates);
+  c.frames[0] = round_to(c.frames[0], contract.coordinates);
   corpus::Case one = c;
   one.frames.resize(2);
   for (int step = 0; step < steps; ++step) {
     one.frames[0] = c.frames.back();
-    one.frames[1] = contracted(driver.goal(one.frames[0], step), contract.coordinates);
-    if (!contracted(one, contract)) continue;  // such a step is put to no detector
+    one.frames[1] = round_to(driver.goal(one.frames[0], step), contract.coordinates);
+    if (!contract_case(one, contract)) continue;  // such a step is put to no detector
     const auto from = static_cast<std::int32_t>(c.frames.size() - 1);
     c.script.push_back({from, from + 1, true});
     c.frames.push_back(one.frames[1]);
     const auto stop = ask(one);
-    if (!stop || !contracted(*stop, contract.coordinates).allFinite()) return c;
-    c.frames.push_back(contracted(*stop, contract.coordinates));
+    if (!stop || !round_to(*stop, contract.coordinates).allFinite()) return c;
+    c.frames.push_back(round_to(*stop, contract.coordinates));
   }
   // The last place is where nothing begins.
   if (!c.script.empty()) c.frames.pop_back();

@@ -104,7 +104,7 @@ struct LawCheck {
   std::size_t of_case, configuration;
 };
 
-StoredFailure broken_law(const corpus::Case& c, const Configuration& configuration, const Law& law,
+FailureRecord broken_law(const corpus::Case& c, const Configuration& configuration, const Law& law,
                          const std::string& explanation) {
   corpus::Case failing = c;
   failing.about = fmt::format("breaks {}; {}", law.name, explanation);
@@ -119,42 +119,42 @@ StoredFailure broken_law(const corpus::Case& c, const Configuration& configurati
           .mesh = corpus::case_text(failing)};
 }
 
-void count_laws(std::span<const LawCheck> checks, std::span<const CountedCase> cases,
+void count_laws(std::span<const LawCheck> checks, std::span<const TallyInput> cases,
                 std::span<CaseTally> tallies) {
-  std::optional<ConfigurationLaws> asked;
+  std::optional<ConfigurationLaws> laws_of_configuration;
   const LawCheck* last = nullptr;
-  const auto found = check_in_copies(
-      checks.size(), [&](std::size_t i) { return cases[checks[i].of_case].examined.c.id; },
+  const auto law_tallies = check_in_copies(
+      checks.size(), [&](std::size_t i) { return cases[checks[i].of_case].results.c.id; },
       [&](std::size_t i) {
         const LawCheck& check = checks[i];
         if (!last || last->of_case != check.of_case || last->configuration != check.configuration) {
-          const auto& [examined, configurations, tags, with_laws] = cases[check.of_case];
-          asked.emplace(examined.c, configurations[check.configuration],
-                        examined.runs[check.configuration].steps, examined.truth);
+          const auto& [results, configurations, tags, with_laws] = cases[check.of_case];
+          laws_of_configuration.emplace(results.c, configurations[check.configuration],
+                                        results.runs[check.configuration].steps, results.truth);
         }
         last = &check;
-        return asked->check(*check.law);
+        return laws_of_configuration->check(*check.law);
       });
   for (std::size_t i = 0; i < checks.size(); ++i) {
     const auto& [law, of_case, at] = checks[i];
-    if (found[i].premise == 0) continue;
+    if (law_tallies[i].premise == 0) continue;
     const auto& configuration = cases[of_case].configurations[at];
     auto& tally = tallies[of_case];
-    add_law(tally.counts, *law, found[i], name_of(configuration.options.culling));
-    if (found[i].broken > 0)
-      tally.broken.push_back(
-          broken_law(cases[of_case].examined.c, configuration, *law, found[i].first_broken));
+    add_law(tally.counts, *law, law_tallies[i], name_of(configuration.options.culling));
+    if (law_tallies[i].broken_steps > 0)
+      tally.failures.push_back(
+          broken_law(cases[of_case].results.c, configuration, *law, law_tallies[i].first_broken));
   }
 }
 
 }  // namespace
 
-std::vector<CaseTally> tally_cases(std::span<const CountedCase> cases) {
+std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases) {
   std::vector<CaseTally> tallies(cases.size());
   std::vector<LawCheck> checks;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const auto& [examined, configurations, tags, with_laws] = cases[k];
-    const auto& runs = examined.runs;
+    const auto& [results, configurations, tags, with_laws] = cases[k];
+    const auto& runs = results.runs;
     for (const auto& tag : tags) ++tallies[k].counts.tags[tag];
     bool counted_blocks = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -163,11 +163,11 @@ std::vector<CaseTally> tally_cases(std::span<const CountedCase> cases) {
           configurations[i].options.arithmetic != detector::Arithmetic::exact) {
         continue;
       }
-      if (!counted_blocks) count_blocks(runs[i], examined.truth, tallies[k].counts);
+      if (!counted_blocks) count_blocks(runs[i], results.truth, tallies[k].counts);
       counted_blocks = true;
       for (const Law& law : laws()) {
         // Laws speak of all contacts, and a run with a relation tells only those that count.
-        if (with_laws && !examined.c.counted && is_checked_on(law, examined.c.id))
+        if (with_laws && !results.c.counted && is_checked_on(law, results.c.id))
           checks.push_back({&law, k, i});
       }
     }
@@ -187,7 +187,7 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
     const LawTally tally = check_in_copies(
                                1, [&](std::size_t) { return c.id; }, check)
                                .front();
-    if (tally.broken == 0) return std::nullopt;
+    if (tally.broken_steps == 0) return std::nullopt;
     return Finding{fmt::format("law {}", law.name), {}, 0};
   };
 }
@@ -195,13 +195,13 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
 namespace {
 
 std::string line_of(const LawTally& tally) {
-  const nlohmann::json line = {tally.premise, tally.close, tally.broken, tally.first_broken};
+  const nlohmann::json line = {tally.premise, tally.close, tally.broken_steps, tally.first_broken};
   return line.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 // The lines that are whole: a copy that is killed may leave a part of one.
-void add_tallies(const std::string& said, std::vector<LawTally>& tallies) {
-  std::istringstream lines(said.substr(0, said.rfind('\n') + 1));
+void add_tallies(const std::string& text, std::vector<LawTally>& tallies) {
+  std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
   for (std::string line; std::getline(lines, line);) {
     const auto fields = nlohmann::json::parse(line);
     tallies.push_back({fields[0], fields[1], fields[2], fields[3]});
@@ -220,7 +220,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
     const auto run = in_a_copy([&](const Say& say) {
       for (std::size_t i = tallies.size(); i < count; ++i) say(line_of(check(i)));
     });
-    add_tallies(run.said, tallies);
+    add_tallies(run.output, tallies);
     if (tallies.size() == count) break;
     const std::string case_id = case_of(tallies.size());
     if (was_killed_from_outside(run.end)) {
@@ -261,36 +261,36 @@ FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& ru
                         const DetectorUnderTest& detector, WorkerProcess& worker) {
   FormCheck check;
   auto form = form_of(*law.change, c);
-  const auto told = form ? contracted(form->c, detector.contract) : std::nullopt;
-  if (!told || corpus::steps_of(*told).size() != corpus::steps_of(form->c).size()) return check;
+  const auto input = form ? contract_case(form->c, detector.contract) : std::nullopt;
+  if (!input || corpus::steps_of(*input).size() != corpus::steps_of(form->c).size()) return check;
   // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
   // contract states a form in another scale knows nothing.
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
-  if (told->frames != form->c.frames || (states_lengths && !law.change->keeps_lengths))
+  if (input->frames != form->c.frames || (states_lengths && !law.change->keeps_lengths))
     form->step.clear();
   const auto& configuration = detector.configurations.front();
-  auto examined = examine({detector, {&configuration, 1}, &worker}, *told);
-  throw_if_not_run(examined);
-  const auto& in_form = examined.runs[0];
-  auto& judged = examined.verdicts[0];
+  auto results = examine({detector, {&configuration, 1}, &worker}, *input);
+  throw_if_not_run(results);
+  const auto& in_form = results.runs[0];
+  auto& verdict = results.verdicts[0];
   check.disturbances = in_form.disturbances;
-  if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) return check;
+  if (verdict.outcome != Outcome::holds && verdict.outcome != Outcome::defect) return check;
   const auto first_difference = count_differences(*form, run, in_form, check.count);
   check.count.premise = corpus::steps_of(c).size();
-  if (!judged.failure && check.count.differs > 0 && law.change->same_calls &&
+  if (!verdict.failure && check.count.differs > 0 && law.change->same_calls &&
       detector.claims_on(c, configuration).has(Claim::deterministic)) {
-    auto& failure = judged.failure.emplace();
+    auto& failure = verdict.failure.emplace();
     failure.claim = Claim::deterministic;
     failure.kind = "two runs differ";
     failure.explanation = first_difference;
   }
-  if (!judged.failure) return check;
+  if (!verdict.failure) return check;
   check.count.broken = 1;
-  const Failure& failure = *judged.failure;
-  check.failure = stored_failure(Source::trial, *told, configuration, detector, failure, false,
-                                 in_form.printed);
+  const Failure& failure = *verdict.failure;
+  check.failure = stored_failure(Source::trial, *input, configuration, detector, failure, false,
+                                 in_form.output);
   check.failure->case_id = c.id;
   check.failure->law = law.name;
   check.failure->flaky = failure.claim == Claim::deterministic;

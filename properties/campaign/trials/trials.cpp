@@ -31,11 +31,11 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   return out;
 }
 
-StoredFailure stored_failure(Source source, const corpus::Case& c,
+FailureRecord stored_failure(Source source, const corpus::Case& c,
                              const Configuration& configuration, const DetectorUnderTest& detector,
-                             const Failure& failure, bool flaky, const std::string& printed) {
+                             const Failure& failure, bool flaky, const std::string& output) {
   const auto joint = failure.feature.empty() || failure.cause.empty() ? "" : ", ";
-  StoredFailure stored{.source = source,
+  FailureRecord record{.source = source,
                        .case_id = c.id,
                        .configuration = configuration.name,
                        .claim = name_of(failure.claim),
@@ -44,13 +44,13 @@ StoredFailure stored_failure(Source source, const corpus::Case& c,
                        .explanation = failure.explanation,
                        .mesh = corpus::case_text(failing_case(c, configuration, detector, failure)),
                        .flaky = flaky,
-                       .printed = printed};
-  if (flaky) (stored.contact.empty() ? stored.kind : stored.contact) += " (flaky)";
-  return stored;
+                       .printed = output};
+  if (flaky) (record.contact.empty() ? record.kind : record.contact) += " (flaky)";
+  return record;
 }
 
-void throw_if_not_run(const Examined& examined) {
-  if (const auto why = examined.why_not_run(); !why.empty()) throw StoreProblem(why);
+void throw_if_not_run(const CaseResults& results) {
+  if (const auto why = results.why_not_run(); !why.empty()) throw StoreProblem(why);
 }
 
 void throw_if_not_run(const CaseRun& run) {
@@ -82,16 +82,16 @@ double time_factor(const Family& family) {
   return std::max(1., static_cast<double>(family.triangles) / from);
 }
 
-struct PlannedTrial {
+struct TrialKey {
   const Family* family;
   std::uint64_t index;
 };
 
 // The families take turns, so that a run that ends early has judged all of them.
-std::vector<PlannedTrial> planned_trials(const CampaignRequest& request,
-                                         const std::set<std::string>* only) {
+std::vector<TrialKey> planned_trials(const CampaignRequest& request,
+                                     const std::set<std::string>* only) {
   const auto& plan = request.plan;
-  std::vector<PlannedTrial> list;
+  std::vector<TrialKey> list;
   std::uint64_t most = 0;
   for (const auto& stratum : plan.strata) most = std::max(most, stratum.cases);
   for (std::uint64_t place = 0; place < share_of(most, request.shares); ++place) {
@@ -114,14 +114,14 @@ class Trials {
         store_(store),
         deadline_(deadline),
         progress_(progress),
-        planned_(planned_trials(request, only)),
-        met_(store.signatures()) {
+        keys_(planned_trials(request, only)),
+        signatures_(store.signatures()) {
     for (const auto& stratum : request.plan.strata)
-      asked_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
+      detectors_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
   }
 
   TrialsEnd end() {
-    end_.complete = state_.done == planned_.size();
+    end_.complete = state_.done_trials == keys_.size();
     end_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     return end_;
   }
@@ -129,28 +129,28 @@ class Trials {
   // What each thread does: it takes trials, and runs and judges them.
   void work() {
     Workers workers(request_);
-    std::vector<Trial> waiting, judged;
+    std::vector<Trial> waiting, ended_trials;
     // If something goes wrong in one thread, all of them end.
     try {
-      while (const PlannedTrial* planned = next_trial()) {
-        Trial trial = make(*planned, workers);
+      while (const TrialKey* key = next_trial()) {
+        Trial trial = make(*key, workers);
         if (trial.is_within) run(trial, run_first);
-        if (trial.is_within && planned->index % repeat_every == 0) {
+        if (trial.is_within && key->index % repeat_every == 0) {
           waiting.push_back(std::move(trial));
-          if (waiting.size() == repeated_together) repeat(waiting, judged);
+          if (waiting.size() == repeated_together) repeat(waiting, ended_trials);
         } else {
           if (trial.is_within) {
-            judge(exam_of(trial), trial.examined);
+            judge(exam_of(trial), trial.results);
             conclude(trial);
           }
-          judged.push_back(std::move(trial));
+          ended_trials.push_back(std::move(trial));
         }
-        const bool is_large = planned->family->triangles > 0;  // not many of them in memory
-        if (judged.size() >= counted_together || !request_.detector.built_in || is_large)
-          finish(judged);
+        const bool is_large = key->family->triangles > 0;  // not many of them in memory
+        if (ended_trials.size() >= counted_together || !request_.detector.built_in || is_large)
+          finish(ended_trials);
       }
-      repeat(waiting, judged);
-      finish(judged);
+      repeat(waiting, ended_trials);
+      finish(ended_trials);
     } catch (const StoreProblem& failure) {
       const std::lock_guard lock(mutex_);
       end_.problem = failure.problem();
@@ -175,35 +175,35 @@ class Trials {
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
   static constexpr std::size_t counted_together = 32;  // check_in_copies
 
-  const PlannedTrial* next_trial() {
+  const TrialKey* next_trial() {
     const std::lock_guard lock(mutex_);
-    while (next_ < planned_.size() && end_.harness_problem.empty() && !end_.problem &&
+    while (next_ < keys_.size() && end_.harness_problem.empty() && !end_.problem &&
            Clock::now() < deadline_) {
-      const PlannedTrial& trial = planned_[next_++];
+      const TrialKey& trial = keys_[next_++];
       if (!store_.has_trial(id_of(trial))) return &trial;
-      ++state_.done;
-      ++state_.stored;
+      ++state_.done_trials;
+      ++state_.stored_trials;
     }
     return nullptr;
   }
 
-  std::string id_of(const PlannedTrial& trial) const {
+  std::string id_of(const TrialKey& trial) const {
     return trial_id(request_.plan, request_.seed, std::string(trial.family->name), trial.index);
   }
 
   // A trial that is being made: its case, what the oracle and the detector say of it, and what it
   // showed.
   struct Trial {
-    const PlannedTrial* planned = nullptr;
+    const TrialKey* key = nullptr;
     const DetectorUnderTest* detector = nullptr;  // as it is asked in the stratum
     WorkerProcess *first = nullptr, *second = nullptr;
     std::vector<std::string> tags;
     bool is_within = true;  // the detector's contract takes the case
     std::vector<Configuration> configurations;
-    Examined examined;
+    CaseResults results;
     bool has_contact = false;  // one that the contract does not leave out, and that was judged
     TrialRecord record;
-    std::vector<StoredFailure> failures;
+    std::vector<FailureRecord> failures;
   };
 
   // The processes of one thread: one for first runs, one for second ones; and the same for each
@@ -237,10 +237,10 @@ class Trials {
   }
 
   // Runs the case, and notes what disturbed the runs and how long they took.
-  static void run(Trial& trial, void (*part)(const Exam&, Examined&)) {
-    part(exam_of(trial), trial.examined);
-    throw_if_not_run(trial.examined);
-    for (const auto& one : part == run_first ? trial.examined.runs : trial.examined.again)
+  static void run(Trial& trial, void (*part)(const Exam&, CaseResults&)) {
+    part(exam_of(trial), trial.results);
+    throw_if_not_run(trial.results);
+    for (const auto& one : part == run_first ? trial.results.runs : trial.results.again)
       note(trial.record, one);
   }
 
@@ -250,38 +250,38 @@ class Trials {
         std::max(record.slowest_us, static_cast<std::uint64_t>(1e6 * run.processor_seconds));
   }
 
-  // Moves the trials from `waiting` to `judged`.
-  void repeat(std::vector<Trial>& waiting, std::vector<Trial>& judged) const {
+  // Moves the trials from `waiting` to `ended_trials`.
+  void repeat(std::vector<Trial>& waiting, std::vector<Trial>& ended_trials) const {
     for (; !waiting.empty(); waiting.pop_back()) {
       auto& trial = waiting.back();
       run(trial, run_again);
-      judge(exam_of(trial), trial.examined);
+      judge(exam_of(trial), trial.results);
       conclude(trial);
-      judged.push_back(std::move(trial));
+      ended_trials.push_back(std::move(trial));
     }
   }
 
   // Notes what the verdicts on a trial say.
   void conclude(Trial& trial) const {
     auto& record = trial.record;
-    const auto& examined = trial.examined;
-    record.oracle_us = examined.oracle_us;
-    record.detector_us = examined.detector_us;
+    const auto& results = trial.results;
+    record.oracle_us = results.oracle_us;
+    record.detector_us = results.detector_us;
     record.outcomes.assign(trial.detector->configurations.size(), not_run);
     for (std::size_t i = 0; i < trial.configurations.size(); ++i) conclude_configuration(trial, i);
     auto& measures = record.counts.measures;
     measures.contact_trials = trial.has_contact ? 1 : 0;
-    measures.repeated_trials = examined.again.empty() ? 0 : 1;
+    measures.repeated_trials = results.again.empty() ? 0 : 1;
     count_steps(trial);
-    if (has_forms(request_.detector, examined.c)) count_forms(trial);
+    if (has_forms(request_.detector, results.c)) count_forms(trial);
   }
 
   // The laws of a plug-in, in cases that hold: what fails anyway shows nothing of a form.
   void count_forms(Trial& trial) const {
     const auto every = request_.plan.laws_every;
-    if (every == 0 || trial.planned->index % every != 0) return;
-    const auto& run = trial.examined.runs.front();
-    const auto* again = trial.examined.second(0);
+    if (every == 0 || trial.key->index % every != 0) return;
+    const auto& run = trial.results.runs.front();
+    const auto* again = trial.results.second(0);
     if (run.end != RunEnd::completed) return;
     auto& counts = trial.record.counts.laws;
     if (again && request_.description.parts.takes_threads && again->end == RunEnd::completed) {
@@ -293,7 +293,7 @@ class Trials {
     if (trial.record.outcomes.front() != letter_of(Outcome::holds)) return;
     for (const auto& law : laws()) {
       if (!law.change || !is_given_in_form(law, trial.record.id)) continue;
-      auto check = check_in_form(law, trial.examined.c, run, request_.detector, *trial.first);
+      auto check = check_in_form(law, trial.results.c, run, request_.detector, *trial.first);
       if (check.count.premise > 0) counts[std::string(law.name)] += check.count;
       trial.record.disturbed += check.disturbances;
       if (check.failure) trial.failures.push_back(std::move(*check.failure));
@@ -301,126 +301,126 @@ class Trials {
   }
 
   // Counts what the trials met, keeps them, and empties the list.
-  void finish(std::vector<Trial>& judged) {
-    if (request_.detector.built_in) count_cases(judged);
-    for (auto& trial : judged) keep(trial);
-    judged.clear();
+  void finish(std::vector<Trial>& ended_trials) {
+    if (request_.detector.built_in) count_cases(ended_trials);
+    for (auto& trial : ended_trials) keep(trial);
+    ended_trials.clear();
   }
 
-  Trial make(const PlannedTrial& planned, Workers& workers) const {
+  Trial make(const TrialKey& key, Workers& workers) const {
     Trial trial;
-    trial.planned = &planned;
-    trial.first = &workers.first(*planned.family);
-    trial.second = &workers.second(*planned.family);
-    const auto& detector = *(trial.detector = &asked_.find(planned.family->name)->second);
-    auto drawn = case_within(detector.contract, *planned.family, id_of(planned));
-    trial.tags = std::move(drawn.made.tags);
-    trial.is_within = drawn.seen.has_value();
-    if (drawn.seen) trial.examined.c = std::move(*drawn.seen);
-    const bool vouched = is_vouched_for(detector, drawn.made.c, planned.index);
+    trial.key = &key;
+    trial.first = &workers.first(*key.family);
+    trial.second = &workers.second(*key.family);
+    const auto& detector = *(trial.detector = &detectors_.find(key.family->name)->second);
+    auto trial_case = case_within(detector.contract, *key.family, id_of(key));
+    trial.tags = std::move(trial_case.source.tags);
+    trial.is_within = trial_case.input.has_value();
+    if (trial_case.input) trial.results.c = std::move(*trial_case.input);
+    const bool vouched = is_vouched_for(detector, trial_case.source.c, key.index);
     trial.configurations =
         vouched ? with_clean_start(detector.configurations) : detector.configurations;
     // Without a tree every pair of triangles is looked at.
     constexpr std::uint64_t most_without_tree = 20'000;
-    if (planned.family->triangles > most_without_tree && detector.built_in)
+    if (key.family->triangles > most_without_tree && detector.built_in)
       std::erase_if(trial.configurations, [](const Configuration& configuration) {
         return configuration.options.culling == detector::Culling::none;
       });
     auto& record = trial.record;
     if (detector.built_in) ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
-    record.counts.measures.redrawn = drawn.redrawn;
-    record.counts.measures.steps_left_out = drawn.steps_left_out;
-    record.id = id_of(planned);
-    record.family = planned.family->name;
-    record.index = planned.index;
-    record.mesh = mesh_hash(drawn.made.c);
+    record.counts.measures.redrawn = trial_case.redrawn;
+    record.counts.measures.steps_left_out = trial_case.steps_left_out;
+    record.id = id_of(key);
+    record.family = key.family->name;
+    record.index = key.index;
+    record.mesh = mesh_hash(trial_case.source.c);
     return trial;
   }
 
   void conclude_configuration(Trial& trial, std::size_t i) const {
     const auto& configuration = trial.configurations[i];
-    const auto& run = trial.examined.runs[i];
-    auto& judged = trial.examined.verdicts[i];
+    const auto& run = trial.results.runs[i];
+    auto& verdict = trial.results.verdicts[i];
     // What is special about the first of many contacts says little, and would tell apart what a
     // large mesh shows of one cause.
-    if (judged.failure && !request_.detector.built_in && trial.planned->family->triangles > 0)
-      judged.failure->cause = "large mesh";
-    trial.record.outcomes[place_of(configuration, *trial.detector)] = letter_of(judged.outcome);
-    if (run.end == RunEnd::beyond_capacity && judged.outcome == Outcome::refused)
-      trial.record.counts.measures.refused += trial.examined.truth.size();
-    trial.has_contact |= has_judged_contact(judged.steps);
+    if (verdict.failure && !request_.detector.built_in && trial.key->family->triangles > 0)
+      verdict.failure->cause = "large mesh";
+    trial.record.outcomes[place_of(configuration, *trial.detector)] = letter_of(verdict.outcome);
+    if (run.end == RunEnd::beyond_capacity && verdict.outcome == Outcome::refused)
+      trial.record.counts.measures.refused += trial.results.truth.size();
+    trial.has_contact |= has_judged_contact(verdict.steps);
     if (!request_.detector.built_in) {
       auto& measures = trial.record.counts.measures;
-      measures += measures_of(judged.steps, run.steps);
-      measures.left_out_misses += judged.left_out_misses;
+      measures += measures_of(verdict.steps, run.steps);
+      measures.left_out_misses += verdict.left_out_misses;
     }
-    if (!judged.failure) return;
+    if (!verdict.failure) return;
     // A failing case is run again before it is reported. If the two runs differ, that is a failure
     // by itself.
-    const auto alone = run_alone(*trial.first, trial.examined.c, configuration);
+    const auto alone = run_alone(*trial.first, trial.results.c, configuration);
     throw_if_not_run(alone);
     note(trial.record, alone);
-    trial.failures.push_back(stored_failure(Source::trial, trial.examined.c, configuration,
-                                            *trial.detector, *judged.failure,
-                                            !same_answers(run, alone), trial.examined.printed(i)));
+    trial.failures.push_back(stored_failure(Source::trial, trial.results.c, configuration,
+                                            *trial.detector, *verdict.failure,
+                                            !same_answers(run, alone), trial.results.output(i)));
     trial.failures.back().case_id = trial.record.id;
   }
 
   static std::size_t place_of(const Configuration& configuration,
                               const DetectorUnderTest& detector) {
     const auto& all = detector.configurations;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
+    const auto place = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
       return one.name == configuration.name;
     });
-    return static_cast<std::size_t>(found - all.begin());
+    return static_cast<std::size_t>(place - all.begin());
   }
 
   static void count_steps(Trial& trial) {
     auto& record = trial.record;
-    const auto& examined = trial.examined;
-    record.triangles = static_cast<std::uint64_t>(examined.c.triangles.rows());
-    for (const auto& step : examined.truth) {
+    const auto& results = trial.results;
+    record.triangles = static_cast<std::uint64_t>(results.c.triangles.rows());
+    for (const auto& step : results.truth) {
       ++record.steps;
       record.collisions += step.pairs.empty() ? 0 : 1;
       record.pairs += step.pairs.size();
     }
     if (!record.is_judged() || is_query_family(record.family)) return;
-    record.counts.extremes = extremes_of(examined.c, examined.truth);
-    const auto* counted = corpus::counted_of(examined.c);
-    record.counts.measures.relation_trials = counted && !counted->count_all() ? 1 : 0;
+    record.counts.extremes = extremes_of(results.c, results.truth);
+    const auto* counted_pairs = corpus::counted_of(results.c);
+    record.counts.measures.relation_trials = counted_pairs && !counted_pairs->count_all() ? 1 : 0;
   }
 
   // Counts tags, set pairs and laws. The contract of the built-in detector leaves no case out.
-  void count_cases(std::span<Trial> judged) const {
-    std::vector<CountedCase> cases;
-    for (const auto& trial : judged) {
+  void count_cases(std::span<Trial> trials) const {
+    std::vector<TallyInput> cases;
+    for (const auto& trial : trials) {
       const auto every = request_.plan.laws_every;
-      const auto& family = *trial.planned->family;
-      const bool with_laws = every > 0 && trial.planned->index % every == 0 &&
-                             family.triangles == 0 && !is_question_family(family.name);
-      cases.push_back({trial.examined, trial.configurations, trial.tags, with_laws});
+      const auto& family = *trial.key->family;
+      const bool with_laws = every > 0 && trial.key->index % every == 0 && family.triangles == 0 &&
+                             !is_question_family(family.name);
+      cases.push_back({trial.results, trial.configurations, trial.tags, with_laws});
     }
     const auto tallies = tally_cases(cases);
-    for (std::size_t i = 0; i < judged.size(); ++i) {
-      auto& trial = judged[i];
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      auto& trial = trials[i];
       trial.record.counts += tallies[i].counts;
-      trial.failures.insert(trial.failures.end(), tallies[i].broken.begin(),
-                            tallies[i].broken.end());
+      trial.failures.insert(trial.failures.end(), tallies[i].failures.begin(),
+                            tallies[i].failures.end());
     }
   }
 
   void keep(Trial& trial) {
     const std::lock_guard lock(mutex_);
     for (auto& failure : trial.failures) {
-      const std::uint64_t most = trial.planned->family->triangles > 0 ? 1 : meshes_kept;
-      if (met_[failure.signature()]++ >= most) failure.mesh.clear();
+      const std::uint64_t most = trial.key->family->triangles > 0 ? 1 : meshes_kept;
+      if (signatures_[failure.signature()]++ >= most) failure.mesh.clear();
     }
     // The trial and its failures are stored in one transaction, so that nothing is counted twice
     // when a killed run goes on.
     store_.add(trial.record, trial.failures);
     ++end_.trials;
-    ++state_.done;
-    state_.planned = planned_.size();
+    ++state_.done_trials;
+    state_.quota = keys_.size();
     const auto& record = trial.record;
     state_.defects += record.has(Outcome::defect) ? 1 : 0;
     const bool is_open = record.has(Outcome::undecided) || record.has(Outcome::error);
@@ -433,13 +433,13 @@ class Trials {
   Store& store_;
   const RunDeadline deadline_;
   const std::function<void(const TrialProgress&)>& progress_;
-  const std::vector<PlannedTrial> planned_;
-  std::map<std::string, DetectorUnderTest, std::less<>> asked_;  // by family
+  const std::vector<TrialKey> keys_;
+  std::map<std::string, DetectorUnderTest, std::less<>> detectors_;  // by family
   std::mutex mutex_;
   std::size_t next_ = 0;
   TrialProgress state_;
   TrialsEnd end_;
-  Counts met_;
+  Counts signatures_;
   const Clock::time_point begin_ = Clock::now();
 };
 

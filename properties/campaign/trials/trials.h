@@ -30,11 +30,11 @@ namespace assay::properties {
 // Finds the case of a trial for a detector with a contract.
 
 // A case of a family, and what the contract takes of it.
-struct PlannedCase {
-  GeneratedCase made;
+struct TrialCase {
+  RandomCase source;
   // The case as the detector and the oracle are given it; nothing if no attempt led to a case that
   // the contract takes.
-  std::optional<corpus::Case> seen;
+  std::optional<corpus::Case> input;
   std::uint64_t redrawn = 0;         // cases before this one, which did not serve
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
@@ -49,7 +49,7 @@ struct PlannedCase {
 // and a case of which every step starts within it does not serve. Without a contract this is, of a
 // mesh, the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
-PlannedCase case_within(const Contract& contract, const Family& family, const std::string& id);
+TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
 // The case scaled by a power of two, so that the contract may take it. Its features can hardly lie
 // start_distance apart if the whole mesh is smaller than eight times that, so it becomes that
@@ -89,12 +89,12 @@ std::vector<std::size_t> new_starts(const corpus::Case& c);
 
 struct CaseTally {
   TrialCounts counts;
-  std::vector<StoredFailure> broken;  // laws
+  std::vector<FailureRecord> failures;  // laws
 };
 
 // A case that the built-in detector was examined on, in these configurations.
-struct CountedCase {
-  const Examined& examined;
+struct TallyInput {
+  const CaseResults& results;
   std::span<const Configuration> configurations;
   std::span<const std::string> tags = {};
   bool with_laws = true;
@@ -103,7 +103,7 @@ struct CountedCase {
 // Counts each of the cases. If `with_laws` is set, the laws are checked in each configuration that
 // has view sets and asks for all pairs; those of all cases together, in one copy of this process
 // (check_in_copies).
-std::vector<CaseTally> tally_cases(std::span<const CountedCase> cases);
+std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases);
 
 // The reducer's judge for a law, in a configuration of the built-in detector.
 Judge judge_of_law(const Law& law, const Configuration& configuration);
@@ -132,7 +132,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
 struct FormCheck {
   // Premise and differs are steps, and broken is 0 or 1; nothing if the form did not apply.
   LawCount count;
-  std::optional<StoredFailure> failure;  // of the form, if the law is broken
+  std::optional<FailureRecord> failure;  // of the form, if the law is broken
   std::uint64_t disturbances = 0;
 };
 
@@ -148,10 +148,10 @@ bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c);
 
 // Runs the trials of a campaign in threads, each with a worker process of its own.
 
-// Numbers of trials of the run. `stored` counts those that an earlier call stored; `done`
-// includes them, the numbers of the second line do not.
+// Numbers of trials of the run. `stored_trials` counts those that an earlier call stored;
+// `done_trials` includes them, the numbers of the second line do not.
 struct TrialProgress {
-  std::uint64_t done = 0, planned = 0, stored = 0;
+  std::uint64_t done_trials = 0, quota = 0, stored_trials = 0;
   std::uint64_t defects = 0, undecided = 0, disturbed = 0;
 };
 
@@ -183,12 +183,12 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
                           const DetectorUnderTest& detector, const Failure& failure);
 // The failure as it is stored, under the id of the case. One that a second run does not show is
 // flaky.
-StoredFailure stored_failure(Source source, const corpus::Case& c,
+FailureRecord stored_failure(Source source, const corpus::Case& c,
                              const Configuration& configuration, const DetectorUnderTest& detector,
-                             const Failure& failure, bool flaky, const std::string& printed);
+                             const Failure& failure, bool flaky, const std::string& output);
 
 // Both throw StoreProblem if there was no worker; so they are for campaign/ alone.
-void throw_if_not_run(const Examined& examined);
+void throw_if_not_run(const CaseResults& results);
 void throw_if_not_run(const CaseRun& run);
 
 }  // namespace assay::properties

@@ -57,9 +57,9 @@ Draft sharing_a_vertex(Random& random, int size) {
     if (at(b.rest(), v)[0] < at(b.rest(), low)[0]) low = v;
   }
   scale_and_move(b, 1, at(a.rest(), high) - at(b.rest(), low));
-  const std::int32_t kept = high, gone = a.vertices() + low;
+  const std::int32_t first_vertex = high, second_vertex = a.vertices() + low;
   Draft d = joined(std::move(a), b);
-  for (auto& f : d.faces) std::replace(f.begin(), f.end(), gone, kept);
+  for (auto& f : d.faces) std::replace(f.begin(), f.end(), second_vertex, first_vertex);
   drop_unused_vertices(d);
   d.tag("pieces:at-a-vertex");
   return d;
@@ -191,12 +191,12 @@ Draft split_sphere(Random& random, int size) {
       if (is_new) place->second = d.vertex(0.5 * (at(d.rest(), a) + at(d.rest(), b)));
       return place->second;
     };
-    std::vector<Face> split;
+    std::vector<Face> parts;
     for (const auto [a, b, c] : d.faces) {
       const auto ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      split.insert(split.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+      parts.insert(parts.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
     }
-    d.faces = std::move(split);
+    d.faces = std::move(parts);
   }
   for (auto& p : d.rest()) p = (1 / std::sqrt(dot(p, p))) * p;
   return d;

@@ -119,7 +119,7 @@ Draft open_ring(Random& random, int size) {
   const double ramp = random.one_in(2) ? 0 : 0.25 * random.signed_unit();
   const double gap = random.one_in(3) ? 0.5 : 0.25 * (0.125 + random.unit());
   constexpr std::array over = {0.0, 0.0, 0x1p-30, -0x1p-30, 0x1p-8, -0x1p-8, 0x1p-4};
-  const double closed = 1 + one_of(random, over);
+  const double full_turn = 1 + one_of(random, over);
   // A rolled sheet keeps the length of its columns.
   const auto place = [=](int i, int j, double turns) -> Point {
     const double share = 2.0 * j / along - 1, turn = turns * share / 2;
@@ -130,7 +130,7 @@ Draft open_ring(Random& random, int size) {
   Draft d = grid(rows, along, false, [&](int i, int j) { return place(i, j, 1 - gap); });
   for (int i = 0; i <= rows; ++i) {
     for (int j = 0; j <= along; ++j)
-      d.closing.push_back(place(i, j, closed) - place(i, j, 1 - gap));
+      d.closing.push_back(place(i, j, full_turn) - place(i, j, 1 - gap));
   }
   d.holes.push_back({0, 0, 0});
   d.tag(flat ? "shape:flat-ring" : "shape:rolled-ring");

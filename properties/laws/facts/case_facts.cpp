@@ -58,8 +58,8 @@ CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& option
   assert(results.size() == script_.size() && judgements.size() == script_.size());
   std::optional<std::size_t> committed;
   for (std::size_t s = 0; s < script_.size(); ++s) {
-    const bool known = committed && same_places(x_t1(*committed), x_t0(s));
-    known_from_.push_back(known ? committed : std::nullopt);
+    const bool is_known = committed && same_places(x_t1(*committed), x_t0(s));
+    known_from_.push_back(is_known ? committed : std::nullopt);
     if (script_[s].commit && is_answered(results_[s])) committed = s;
   }
   const auto own = surface_.mesh.triangles.size();
@@ -175,7 +175,7 @@ const oracle::Candidates& CaseFacts::candidates(std::size_t s) {
 
 std::optional<int> CaseFacts::winding_at_start(std::size_t s, std::size_t component) {
   auto& winding = facts_[s].winding;
-  if (const auto found = winding.find(component); found != winding.end()) return found->second;
+  if (const auto place = winding.find(component); place != winding.end()) return place->second;
   const auto& all = surface_.all();
   const oracle::Instant start(all_t0(s));
   const oracle::WindingField field(start, rows_of(all, all.components[component].triangles));
@@ -294,15 +294,15 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
 TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question,
                            const TriangleFlags& in_doubt) {
   const auto& layers = facts.layers_at_start(s);
-  OptionalLayers wanted(facts.surface().mesh.components.size());
+  OptionalLayers layers_in_doubt(facts.surface().mesh.components.size());
   for (std::size_t t = 0; t < in_doubt.size(); ++t) {
-    auto& layer = wanted[component_of(facts, t)];
+    auto& layer = layers_in_doubt[component_of(facts, t)];
     if (!layer && !in_doubt[t]) layer = layers.layer[t];
   }
   TriangleFlags clean(in_doubt.size(), 0);
   for (std::size_t t = 0; t < in_doubt.size(); ++t) {
     if (!in_question[t] || layers.touched[t]) continue;
-    const auto& layer = wanted[component_of(facts, t)];
+    const auto& layer = layers_in_doubt[component_of(facts, t)];
     clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
   }
   return clean;
@@ -315,10 +315,10 @@ bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t compo
 }
 
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
-                              const TriangleFlags& held) {
+                              const TriangleFlags& is_held) {
   OptionalLayers shared(facts.surface().mesh.components.size());
-  for (std::size_t t = 0; t < held.size(); ++t) {
-    if (!held[t]) continue;
+  for (std::size_t t = 0; t < is_held.size(); ++t) {
+    if (!is_held[t]) continue;
     if (layers.touched[t]) return fmt::format("triangle {} is touched", t);
     auto& layer = shared[component_of(facts, t)];
     if (!layer) layer = layers.layer[t];

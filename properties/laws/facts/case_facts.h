@@ -287,10 +287,10 @@ PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_viola
 
 using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
 
-// Says what contradicts that the triangles marked in `held` are untouched and that those of one
+// Says what contradicts that the triangles marked in `is_held` are untouched and that those of one
 // component share a layer. Empty if nothing contradicts it.
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
-                              const TriangleFlags& held);
+                              const TriangleFlags& is_held);
 
 // Which triangles of `in_question` are clean at the start of step s, by the oracle. Such a
 // triangle is untouched, and lies in the layer of those other triangles of its component that were

@@ -30,14 +30,14 @@ class TraditionalScheme::PatchFinder {
         motion_(motion),
         moving_(motion_),
         cones_(tree_.node_count()) {
-    found_.patch_of.assign(mesh_.triangles.size(), CertifiedPatches::none);
+    result_.patch_of.assign(mesh_.triangles.size(), CertifiedPatches::none);
   }
 
   CertifiedPatches run() {
     merge_cones();
     look_at(BoundingVolumeTree::root);
     join_neighbours();
-    return std::move(found_);
+    return std::move(result_);
   }
 
  private:
@@ -75,8 +75,8 @@ class TraditionalScheme::PatchFinder {
       patches_.push_back({node, {}});
       auto& triangles = patches_.back().triangles;
       gather(node, triangles);
-      for (const auto t : triangles) found_.patch_of[at(t)] = patch;
-      found_.largest = std::max(found_.largest, triangles.size());
+      for (const auto t : triangles) result_.patch_of[at(t)] = patch;
+      result_.largest = std::max(result_.largest, triangles.size());
       if (triangles.size() > 1) measure(triangles, *bit);
     } else if (!tree_.is_leaf(node)) {
       look_at(tree_.child(node));
@@ -98,7 +98,7 @@ class TraditionalScheme::PatchFinder {
     for (const auto t : triangles) {
       const auto p = triangle(t);
       const auto n = detector::cross(difference(p[1], p[0]), difference(p[2], p[0]));
-      for (const auto& b : {n.b0, n.b1, n.b2}) found_.facing.widen(std::abs(detector::dot(b, d)));
+      for (const auto& b : {n.b0, n.b1, n.b2}) result_.facing.widen(std::abs(detector::dot(b, d)));
     }
   }
 
@@ -108,7 +108,7 @@ class TraditionalScheme::PatchFinder {
       const auto row = mesh_.edge_triangles.row(static_cast<std::int32_t>(e));
       for (const auto t : row) {
         for (const auto u : row) {
-          const auto a = found_.patch_of[at(t)], b = found_.patch_of[at(u)];
+          const auto a = result_.patch_of[at(t)], b = result_.patch_of[at(u)];
           if (a != CertifiedPatches::none && a < b) neighbours.insert({a, b});
         }
       }
@@ -120,8 +120,8 @@ class TraditionalScheme::PatchFinder {
           certified(cones_[at(a.node)] & cones_[at(b.node)],
                     contour_union.join(scheme_.contours_.of(a.node), scheme_.contours_.of(b.node)));
       if (!bit) continue;
-      found_.unions.insert({i, j});
-      found_.largest = std::max(found_.largest, a.triangles.size() + b.triangles.size());
+      result_.unions.insert({i, j});
+      result_.largest = std::max(result_.largest, a.triangles.size() + b.triangles.size());
       measure(a.triangles, *bit);
       measure(b.triangles, *bit);
     }
@@ -134,7 +134,7 @@ class TraditionalScheme::PatchFinder {
   detector::MovingContour moving_;
   std::vector<DirectionSet> cones_;  // by node
   std::vector<Patch> patches_;
-  CertifiedPatches found_;
+  CertifiedPatches result_;
 };
 
 bool CertifiedPatches::hold(const TrianglePair& pair) const {
@@ -169,13 +169,13 @@ std::set<TrianglePair> TraditionalScheme::candidates(const SteppedMesh& motion) 
   search->fit(tree_, mesh_, motion, pace);
   const detector::Marks marks(tree_);  // normal cones know no view sets
   const detector::PairTables tables = detector::EveryPair().candidates();
-  std::set<TrianglePair> found;
+  std::set<TrianglePair> pairs;
   detector::SearchCounts counts;
   search->search({mesh_, tree_, marks, tables}, counts, [&](std::int32_t a, std::int32_t b) {
-    found.insert({std::min(a, b), std::max(a, b)});
+    pairs.insert({std::min(a, b), std::max(a, b)});
     return true;
   });
-  return found;
+  return pairs;
 }
 
 }  // namespace assay::properties

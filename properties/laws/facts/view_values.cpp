@@ -16,15 +16,15 @@ constexpr int weight_bits = 4;
 // The least exponent e such that every coordinate is a multiple of 2^e.
 int common_exponent(std::span<const detector::MovingPoint* const> points) {
   int least = 0;
-  bool found = false;
+  bool is_found = false;
   for (const auto* p : points) {
     for (const auto& place : {p->t0, p->t1}) {
       for (const double c : place) {
         if (c == 0) continue;
         int exponent = 0;
         std::frexp(c, &exponent);
-        least = found ? std::min(least, exponent - mantissa_bits) : exponent - mantissa_bits;
-        found = true;
+        least = is_found ? std::min(least, exponent - mantissa_bits) : exponent - mantissa_bits;
+        is_found = true;
       }
     }
   }

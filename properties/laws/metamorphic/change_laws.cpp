@@ -179,7 +179,7 @@ constexpr Law law_of(std::string_view name, std::string_view statement,
           needs,
           check_change<change>,
           one_case_in_16,
-          MetUnder::any_culling,
+          PremiseScope::any_culling,
           &change};
 }
 
@@ -187,7 +187,7 @@ constexpr Law change_law_table[] = {
     {"L18_RefinedMeshHasTheSameContacts", "L18",
      "With edges split in all triangles that have them, at places that are exact, none of which "
      "loses its area, a mesh has the same pairs, up to which part of a triangle meets, and times.",
-     "nothing", check_form<changes::split_edges>, one_case_in_16, MetUnder::any_culling,
+     "nothing", check_form<changes::split_edges>, one_case_in_16, PremiseScope::any_culling,
      &changes::split_edges},
     law_of<changes::vertex_numbers>(
         "Change_VertexNumbers",

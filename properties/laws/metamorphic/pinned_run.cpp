@@ -127,13 +127,13 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
   auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);
   stages.boundary = boundary;
-  auto made = detector::assemble(run.triangles, run.frames.front(), options, std::move(stages));
+  auto creation = detector::assemble(run.triangles, run.frames.front(), options, std::move(stages));
   PinnedPlayer player(run, boundary);
-  if (!made) {
-    player.problem_ = std::move(made).error();
+  if (!creation) {
+    player.problem_ = std::move(creation).error();
     return player;
   }
-  player.detector_ = std::move(made).value();
+  player.detector_ = std::move(creation).value();
   const auto& surface = player.detector_->surface();
   const auto pinned = pinned_ghosts(run);
   auto holes = holes_of(pinned, surface.first_apex);
@@ -141,7 +141,7 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
   for (const auto& hole :
        holes_of(all.subspan(surface.mesh.triangles.size()), surface.first_apex)) {
     const auto same = std::find_if(holes.begin(), holes.end(),
-                                   [&](const auto& known) { return known.second == hole.second; });
+                                   [&](const auto& other) { return other.second == hole.second; });
     if (same == holes.end()) return std::nullopt;
     player.apex_of_loop_.push_back(same->first);
     holes.erase(same);
@@ -164,9 +164,9 @@ StepResult PinnedPlayer::evaluate(std::size_t step) {
 StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsView& x_t0,
                                   const detector::PositionsView& x_t1) {
   if (problem_) {
-    StepResult refused;
-    refused.problem = problem_;
-    return refused;
+    StepResult refusal;
+    refusal.problem = problem_;
+    return refusal;
   }
   const auto& points = run_->ghosts->apexes;
   const auto path = [&, &of_step = run_->script[step]](std::int32_t place) {

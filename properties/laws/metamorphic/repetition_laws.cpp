@@ -23,9 +23,9 @@ using detector::TimeEnclosure;
 // exact. A time that no double equals has a closer enclosure in the second half, which lies inside
 // of the one that is computed here.
 bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
-  const TimeEnclosure wanted = {2 * t.lo - half, 2 * t.hi - half};
-  if (t.lo == t.hi) return u == wanted;
-  return wanted.lo <= u.lo && u.lo < u.hi && u.hi <= wanted.hi;
+  const TimeEnclosure doubled = {2 * t.lo - half, 2 * t.hi - half};
+  if (t.lo == t.hi) return u == doubled;
+  return doubled.lo <= u.lo && u.lo < u.hi && u.hi <= doubled.hi;
 }
 
 std::string compare_first(const StepResult& whole, const StepResult& first,
@@ -47,8 +47,8 @@ std::string compare_pairs(const StepResult& whole, const StepResult& first,
   for (const auto& contact : second.pairs) in_halves.try_emplace(contact.pair, 1, contact.time);
   for (const auto& [pair, time, feature] : whole.pairs) {
     const int half = time.hi <= 0.5 ? 0 : 1;
-    const auto found = in_halves.extract(pair);
-    if (!found || found.mapped().first != half || !corresponds(time, found.mapped().second, half))
+    const auto node = in_halves.extract(pair);
+    if (!node || node.mapped().first != half || !corresponds(time, node.mapped().second, half))
       return fmt::format("({}, {}) is missing in its half, or has another time", pair.a, pair.b);
   }
   if (in_halves.empty()) return {};
@@ -130,35 +130,35 @@ void check_reset(CaseFacts& facts, LawTally& tally) {
 // step is committed, and another one is evaluated and not committed.
 std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   const auto& frames = facts.source().frames;
-  auto made = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
-                                 facts.stages_of()(facts.options()));
-  if (!made) return std::nullopt;
-  made.value().step(frames.back(), frames.back());
-  made.value().evaluate(frames.back(), frames.front());
-  return std::move(made.value());
+  auto creation = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
+                                     facts.stages_of()(facts.options()));
+  if (!creation) return std::nullopt;
+  creation.value().step(frames.back(), frames.back());
+  creation.value().evaluate(frames.back(), frames.front());
+  return std::move(creation.value());
 }
 
 // Restores the same state with one primitive too few among those that view-auto has chosen since.
 // This has to be refused.
-bool is_taken_with_one_too_few(const detector::SavedState& saved, detector::Detector& detector) {
-  detector::StateFields fields = saved.fields();
+bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Detector& detector) {
+  detector::StateFields fields = state.fields();
   if (!fields.committed || fields.anchors.empty()) return false;
-  auto chosen = fields.anchors;
-  chosen.pop_back();
+  auto anchors = fields.anchors;
+  anchors.pop_back();
   fields.committed->policy.anchors =
-      std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(chosen));
+      std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(anchors));
   return !detector.restore(detector::SavedState(std::move(fields)));
 }
 
-std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& saved,
+std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& state,
                     CasePlayer& other) {
-  const auto read = detector::SavedState::read(saved.bytes());
+  const auto state_read = detector::SavedState::read(state.bytes());
   auto busy = busy_detector(facts);
-  if (!read || !busy) return "no detector for the state, or no state:";
-  if (is_taken_with_one_too_few(saved, *busy)) return "a state that does not fit is taken, which";
-  if (busy->restore(read.value())) return "the restored state is refused, which";
+  if (!state_read || !busy) return "no detector for the state, or no state:";
+  if (is_taken_with_one_too_few(state, *busy)) return "a state that does not fit is taken, which";
+  if (busy->restore(state_read.value())) return "the restored state is refused, which";
   if (!busy->commit()) return "an evaluation outlives what is restored, which";
-  if (busy->state().bytes() != saved.bytes()) return "the restored state";
+  if (busy->state().bytes() != state.bytes()) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
   // The counts may differ, because the trees are shaped by other positions.
@@ -170,13 +170,13 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
 // mesh rests there.
 std::string rests_alike(const CaseFacts& facts, detector::Detector& detector,
                         const detector::Positions& x) {
-  const auto read = detector::SavedState::read(detector.state().bytes());
+  const auto state_read = detector::SavedState::read(detector.state().bytes());
   auto restored = busy_detector(facts);
-  if (!read || !restored || restored->restore(read.value())) return "the state";
-  const StepResult expected = detector.evaluate(x, x);
+  if (!state_read || !restored || restored->restore(state_read.value())) return "the state";
+  const StepResult expectation = detector.evaluate(x, x);
   StepResult result = restored->evaluate(x, x);
-  result.counts = expected.counts;  // as in goes_on
-  const auto differing = difference(expected, result);
+  result.counts = expectation.counts;  // as in goes_on
+  const auto differing = difference(expectation, result);
   return differing.empty() ? "" : differing + " of a step at rest";
 }
 
@@ -189,8 +189,8 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     std::string differing = goes_on(facts, s, player.value().detector().state(), other.value());
     player.value().play(s);
-    const auto expected = player.value().detector().state().bytes();
-    if (differing.empty() && other.value().detector().state().bytes() != expected)
+    const auto expectation = player.value().detector().state().bytes();
+    if (differing.empty() && other.value().detector().state().bytes() != expectation)
       differing = "the state after the step";
     if (differing.empty()) differing = rests_alike(facts, player.value().detector(), facts.x_t1(s));
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
@@ -209,14 +209,14 @@ struct WideRows {
 void check_row_stride(CaseFacts& facts, LawTally& tally) {
   const auto& c = facts.source();
   const WideRows first(c.frames[0]);
-  auto made = detector::assemble(c.triangles, first.rows.leftCols<3>(), facts.options(),
-                                 facts.stages_of()(facts.options()));
-  for (std::size_t s = 0; made && s < facts.steps(); ++s) {
-    const auto given = given_view(corpus::view_of_step(c, s), facts.options().culling);
+  auto creation = detector::assemble(c.triangles, first.rows.leftCols<3>(), facts.options(),
+                                     facts.stages_of()(facts.options()));
+  for (std::size_t s = 0; creation && s < facts.steps(); ++s) {
+    const auto view = given_view(corpus::view_of_step(c, s), facts.options().culling);
     const WideRows x_t0(facts.x_t0(s)), x_t1(facts.x_t1(s));
     const StepResult result =
-        made.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), given);
-    if (facts.script(s).commit && is_answered(result)) made.value().commit();
+        creation.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), view);
+    if (facts.script(s).commit && is_answered(result)) creation.value().commit();
     const std::string differing = difference(facts.result(s), result);
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
@@ -244,19 +244,19 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
     options.threads = count;
     return CasePlayer::make(facts.source(), options, facts.stages_of()(options));
   };
-  auto alone = make(1), shared = make(threads), ordered = make(1);
+  auto alone = make(1), shared = make(threads), in_order = make(1);
   const Random random(Random::hash(facts.source().id), Random::hash("order of pieces"));
   const auto& c = facts.source();
-  auto drawn = detector::assemble(
+  auto in_drawn_order = detector::assemble(
       c.triangles, c.frames.front(), facts.options(), facts.stages_of()(facts.options()), {},
       detector::Workers(std::make_unique<DrawnOrder>(random, threads), threads));
-  if (!alone || !shared || !ordered || !drawn) return;
-  ordered.value().detector() = std::move(drawn.value());
+  if (!alone || !shared || !in_order || !in_drawn_order) return;
+  in_order.value().detector() = std::move(in_drawn_order.value());
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     alone.value().play(s);
     const auto state = alone.value().detector().state().bytes();
     std::string differing;
-    for (auto* other : {&ordered, &shared}) {
+    for (auto* other : {&in_order, &shared}) {
       if (!differing.empty()) break;
       differing = difference(facts.result(s), other->value().play(s));
       if (differing.empty() && other->value().detector().state().bytes() != state)
@@ -291,7 +291,7 @@ constexpr Law repetition_law_table[] = {
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
      "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
      "first time.",
-     "nothing", check_halves, one_case_in_16, MetUnder::any_culling, &changes::halves},
+     "nothing", check_halves, one_case_in_16, PremiseScope::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
      check_equal_ends, one_case_in_16},
@@ -300,7 +300,7 @@ constexpr Law repetition_law_table[] = {
      "nothing", check_repeated_call, one_case_in_16},
     {"Change_EvaluateChangesNothing", "change",
      "Steps that are evaluated and not committed leave no trace in the results that follow.",
-     "nothing", check_evaluate_changes_nothing, one_case_in_16, MetUnder::any_culling,
+     "nothing", check_evaluate_changes_nothing, one_case_in_16, PremiseScope::any_culling,
      &changes::other_evaluations},
     {"Change_ResetStartsAnew", "change",
      "After a reset the first step gives the same bytes as it did at first.", "nothing",
@@ -321,12 +321,12 @@ constexpr Law repetition_law_table[] = {
     {"Change_StepReversed", "change",
      "A sequence played back, each step from its end to its start, has the pairs of each step, and "
      "is free where it was free.",
-     "nothing", check_form<changes::played_back>, one_case_in_16, MetUnder::any_culling,
+     "nothing", check_form<changes::played_back>, one_case_in_16, PremiseScope::any_culling,
      &changes::played_back},
     {"Change_StepsBeforeDoNotShow", "change",
      "Played after its own steps in another order, a sequence has the answers, pairs and times "
      "that it has at first.",
-     "nothing", check_form<changes::other_steps_first>, one_case_in_16, MetUnder::any_culling,
+     "nothing", check_form<changes::other_steps_first>, one_case_in_16, PremiseScope::any_culling,
      &changes::other_steps_first},
 };
 

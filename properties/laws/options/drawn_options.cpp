@@ -18,8 +18,8 @@ class PairsOfValues {
       first_.push_back(values_);
       values_ += size;
     }
-    met_.assign(values_ * values_, 0);
-    may_meet_ = met_;
+    is_met_.assign(values_ * values_, 0);
+    may_meet_ = is_met_;
     for (std::size_t f = 0; f < sizes.size(); ++f) {
       for (std::size_t g = f + 1; g < sizes.size(); ++g) {
         for (std::uint8_t a = 0; a < sizes[f]; ++a) {
@@ -33,15 +33,15 @@ class PairsOfValues {
     }
   }
 
-  bool met(std::size_t f, std::uint8_t a, std::size_t g, std::uint8_t b) const {
-    return met_[place(f, a, g, b)] != 0;
+  bool is_met(std::size_t f, std::uint8_t a, std::size_t g, std::uint8_t b) const {
+    return is_met_[place(f, a, g, b)] != 0;
   }
   bool may_meet(std::size_t f, std::uint8_t a, std::size_t g, std::uint8_t b) const {
     return may_meet_[place(f, a, g, b)] != 0;
   }
   void add(const FactorRow& row) {
     for (std::size_t f = 0; f < row.size(); ++f) {
-      for (std::size_t g = 0; g < row.size(); ++g) met_[place(f, row[f], g, row[g])] = 1;
+      for (std::size_t g = 0; g < row.size(); ++g) is_met_[place(f, row[f], g, row[g])] = 1;
     }
   }
 
@@ -54,7 +54,7 @@ class PairsOfValues {
 
   std::vector<std::size_t> first_;
   std::size_t values_ = 0;
-  std::vector<std::uint8_t> met_, may_meet_;
+  std::vector<std::uint8_t> is_met_, may_meet_;
 };
 
 }  // namespace
@@ -66,7 +66,7 @@ std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t see
   std::vector<FactorRow> rows;
   for (auto open = shuffled(random, pairs.open); !open.empty(); open.pop_back()) {
     const auto [f, g, a, b] = open.back();
-    if (pairs.met(f, a, g, b)) continue;
+    if (pairs.is_met(f, a, g, b)) continue;
     FactorRow row(sizes.size());
     std::vector<std::size_t> set = {f, g};
     row[f] = a;
@@ -81,7 +81,7 @@ std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t see
         bool fits = true;
         for (const auto other : set) {
           fits &= pairs.may_meet(h, value, other, row[other]);
-          fresh += pairs.met(h, value, other, row[other]) ? 0 : 1;
+          fresh += pairs.is_met(h, value, other, row[other]) ? 0 : 1;
         }
         if (!fits || fresh <= most) continue;
         most = fresh;
@@ -204,10 +204,10 @@ std::string DrawnOptions::text() const {
 DrawnOptions drawn_options(const CaseFacts& facts) {
   constexpr std::uint64_t arrays = 16;
   static const auto all = [] {
-    std::vector<std::vector<FactorRow>> made;
+    std::vector<std::vector<FactorRow>> tables;
     for (std::uint64_t seed = 0; seed < arrays; ++seed)
-      made.push_back(covering_rows(factor_sizes(), seed, may_meet));
-    return made;
+      tables.push_back(covering_rows(factor_sizes(), seed, may_meet));
+    return tables;
   }();
   const auto own = static_cast<std::uint64_t>(facts.options().culling);
   Random random(Random::hash(facts.source().id), own);

@@ -25,9 +25,9 @@ using detector::Answer, detector::StepLimit, detector::StepResult, detector::Sto
 
 // What the oracle is asked about, and what the detector is given instead: behind the step that the
 // state asks for, and with its far body.
-struct Posed {
-  corpus::Case judged, played;
-  DrawnOptions drawn;
+struct PosedCase {
+  corpus::Case judged_case, played_case;
+  DrawnOptions draw;
 };
 
 // The case behind the step that the state asks for.
@@ -64,43 +64,43 @@ double separation_of(const DrawnOptions& d, Random& random, const corpus::Case& 
   return std::ldexp(1, std::ilogb(extent) - halvings);
 }
 
-Posed posed(const CaseFacts& facts) {
-  Posed p{facts.source(), {}, drawn_options(facts)};
-  auto& d = p.drawn;
-  Random random(Random::hash(p.judged.id), Random::hash("what is asked"));
-  auto scaled = d.is_scaled ? form_of(changes::power_of_two, p.judged) : std::nullopt;
+PosedCase posed(const CaseFacts& facts) {
+  PosedCase p{facts.source(), {}, drawn_options(facts)};
+  auto& d = p.draw;
+  Random random(Random::hash(p.judged_case.id), Random::hash("what is asked"));
+  auto scaled = d.is_scaled ? form_of(changes::power_of_two, p.judged_case) : std::nullopt;
   d.is_scaled = scaled.has_value();
-  if (scaled) p.judged = std::move(scaled->c);
-  leave_out(d, random, facts, p.judged);
-  d.options.separation = separation_of(d, random, p.judged);
+  if (scaled) p.judged_case = std::move(scaled->c);
+  leave_out(d, random, facts, p.judged_case);
+  d.options.separation = separation_of(d, random, p.judged_case);
   if (d.options.separation == 0) d.apart = Apart::none;
   // Two features that only just come within it, or only just do not.
   if (d.apart != Apart::none && d.options.start != detector::Start::clean && random.one_in(2))
-    p.judged = with_approach(std::move(p.judged), d.options.separation, random);
-  auto large = d.has_far_body ? with_far_body(p.judged, d.options.separation)
+    p.judged_case = with_approach(std::move(p.judged_case), d.options.separation, random);
+  auto large = d.has_far_body ? with_far_body(p.judged_case, d.options.separation)
                               : std::optional<corpus::Case>();
   d.has_far_body = large.has_value();
-  p.played = with_step_before(large ? std::move(*large) : p.judged, d.state);
+  p.played_case = with_step_before(large ? std::move(*large) : p.judged_case, d.state);
   return p;
 }
 
 // What the oracle says of each step of the posed case. It is asked anew only where what it said of
 // the case does not tell.
-std::vector<oracle::StepJudgement> truth_of(const Posed& p, const CaseFacts& facts) {
-  const auto* counted = corpus::counted_of(p.judged);
-  const auto features = oracle::mesh_features(p.judged.triangles);
-  const auto relation = counted
-                            ? std::optional<oracle::PairRelation>(std::in_place, *counted, features)
-                            : std::nullopt;
-  oracle::JudgeOptions asked;
-  asked.counted = counted;
+std::vector<oracle::StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) {
+  const auto* counted_pairs = corpus::counted_of(p.judged_case);
+  const auto features = oracle::mesh_features(p.judged_case.triangles);
+  const auto relation =
+      counted_pairs ? std::optional<oracle::PairRelation>(std::in_place, *counted_pairs, features)
+                    : std::nullopt;
+  oracle::JudgeOptions options;
+  options.counted = counted_pairs;
   std::vector<oracle::StepJudgement> truth;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
-    if (p.drawn.options.separation > 0 || (relation && relation->is_of_features())) {
+    if (p.draw.options.separation > 0 || (relation && relation->is_of_features())) {
       const auto& step = facts.script(s);
-      truth.push_back(judge_under(contract_of(p.drawn.options),
-                                  {start_of(p.judged, step), end_of(p.judged, step)},
-                                  p.judged.triangles, asked));
+      truth.push_back(judge_under(contract_of(p.draw.options),
+                                  {start_of(p.judged_case, step), end_of(p.judged_case, step)},
+                                  p.judged_case.triangles, options));
       continue;
     }
     truth.push_back(facts.judgement(s));
@@ -121,18 +121,18 @@ std::vector<oracle::StepJudgement> truth_of(const Posed& p, const CaseFacts& fac
 bool go_on_elsewhere(CasePlayer& player, const corpus::Case& c, detector::Options options,
                      const StagesOf& stages_of) {
   options.counted = corpus::counted_of(c);
-  const auto saved = detector::SavedState::read(player.detector().state().bytes());
+  const auto state = detector::SavedState::read(player.detector().state().bytes());
   const auto& elsewhere = c.frames.back();
-  auto made = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
-  if (!saved || !made) return false;
-  made.value().step(elsewhere, elsewhere);
-  if (made.value().restore(saved.value())) return false;
-  player.detector() = std::move(made.value());
+  auto creation = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
+  if (!state || !creation) return false;
+  creation.value().step(elsewhere, elsewhere);
+  if (creation.value().restore(state.value())) return false;
+  player.detector() = std::move(creation.value());
   return true;
 }
 
 // What a question before a step showed.
-struct Asked {
+struct Reply {
   std::string wrong;
   std::optional<StepLimit> limit;  // to be judged
 };
@@ -147,19 +147,19 @@ bool is_the_same(const StepLimit& a, const StepLimit& b) {
 template <class Ask>
 std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask& ask) {
   const auto state = detector.state().bytes();
-  int times = 0, asked = 0;
+  int times = 0, questions = 0;
   ask([&] { return ++times, false; }, false);
   if (times == 0) return "";
   const int last = random.between(1, times);
   // With several threads it may be asked less often than before.
-  std::string wrong = ask([&] { return ++asked == last; }, true);
-  if (asked < last) return "";
+  std::string wrong = ask([&] { return ++questions == last; }, true);
+  if (questions < last) return "";
   if (wrong.empty() && !detector.commit()) wrong = "what was stopped is committed";
   if (wrong.empty() && detector.state().bytes() != state) wrong = "what was stopped leaves a trace";
   return wrong;
 }
 
-Asked ask_before(Question question, Random& random, CasePlayer& player, std::size_t s) {
+Reply ask_before(Question question, Random& random, CasePlayer& player, std::size_t s) {
   auto& detector = player.detector();
   const auto &x_t0 = player.x_t0(s), &x_t1 = player.x_t1(s);
   const auto stopped_step = [&](const StopFunction& stop, bool is_stopped) -> std::string {
@@ -197,91 +197,91 @@ Asked ask_before(Question question, Random& random, CasePlayer& player, std::siz
 
 struct PlayedStep {
   StepResult result;
-  Asked asked;
+  Reply reply;
 };
 
 // One for each step of the case; fewer if a state was not taken, or the mesh is refused.
-std::vector<PlayedStep> play(const Posed& p, const StagesOf& stages_of) {
-  const auto& [options, state] = std::tie(p.drawn.options, p.drawn.state);
-  auto player = CasePlayer::make(p.played, options, stages_of(options));
+std::vector<PlayedStep> play(const PosedCase& p, const StagesOf& stages_of) {
+  const auto& [options, state] = std::tie(p.draw.options, p.draw.state);
+  auto player = CasePlayer::make(p.played_case, options, stages_of(options));
   if (!player) return {};
   const auto steps = player.value().steps();
   if (state == StateBefore::reset) {
     for (std::size_t s = 0; s < steps; ++s) player.value().play(s);
     player.value().detector().reset();
   }
-  Random random(Random::hash(p.played.id), Random::hash("where it is stopped"));
-  std::vector<PlayedStep> played;
+  Random random(Random::hash(p.played_case.id), Random::hash("where it is stopped"));
+  std::vector<PlayedStep> list;
   for (std::size_t s = 0; s < steps; ++s) {
     if (state == StateBefore::restored &&
-        !go_on_elsewhere(player.value(), p.played, options, stages_of))
+        !go_on_elsewhere(player.value(), p.played_case, options, stages_of))
       break;
-    Asked asked = ask_before(p.drawn.question, random, player.value(), s);
-    played.push_back({player.value().play(s), std::move(asked)});
+    Reply reply = ask_before(p.draw.question, random, player.value(), s);
+    list.push_back({player.value().play(s), std::move(reply)});
   }
-  return played;
+  return list;
 }
 
 // What is wrong with a limit, or empty.
-std::string fault_of(const StepLimit& limit, const Posed& p, const corpus::CaseStep& step,
+std::string fault_of(const StepLimit& limit, const PosedCase& p, const corpus::CaseStep& step,
                      const oracle::StepJudgement& truth) {
   if (limit.problem) return "a limit is refused";
-  Contract contract = contract_of(p.drawn.options);
+  Contract contract = contract_of(p.draw.options);
   contract.progress = built_in_progress;
   // Bounded arithmetic may see a contact too early, or where there is none.
-  const Claims claims = p.drawn.options.arithmetic == detector::Arithmetic::exact
+  const Claims claims = p.draw.options.arithmetic == detector::Arithmetic::exact
                             ? claims_on_limits
                             : Claims{Claim::commit_free, Claim::path_free};
-  oracle::JudgeOptions asked;
-  asked.counted = corpus::counted_of(p.judged);
-  const auto& x_t0 = start_of(p.judged, step);
+  oracle::JudgeOptions options;
+  options.counted = corpus::counted_of(p.judged_case);
+  const auto& x_t0 = start_of(p.judged_case, step);
   StepDiff diff;
   judge_limit(LimitAnswer{limit.share, limit.positions.topRows(x_t0.rows())},
-              {{x_t0, end_of(p.judged, step)}, p.judged.triangles, asked}, truth, claims, contract,
-              diff);
-  return diff.broken.empty() ? "" : fmt::format("limit: {}", name_of(diff.broken.front()));
+              {{x_t0, end_of(p.judged_case, step)}, p.judged_case.triangles, options}, truth,
+              claims, contract, diff);
+  return diff.breaches.empty() ? "" : fmt::format("limit: {}", name_of(diff.breaches.front()));
 }
 
 // Whether what the caller vouches for is true (CaseFacts::is_trusted). A step without views does
 // not tell its apexes. All that it takes from a clean start is that nothing pierces its own
 // component there; what has ghosts it leaves dirty (L15). So it will do if with the apexes of
 // `facts` all is clean.
-bool is_vouched_rightly(CaseFacts& told, CaseFacts& facts, std::size_t s, std::size_t before) {
-  if (told.is_trusted(s)) return true;
-  if (const auto& known = told.known_from(s))
-    return is_vouched_rightly(told, facts, *known, before);
-  if (s < before || told.has_views(s) || !facts.has_views(s - before)) return false;
+bool is_vouched_rightly(CaseFacts& tail, CaseFacts& facts, std::size_t s, std::size_t before) {
+  if (tail.is_trusted(s)) return true;
+  if (const auto& known_step = tail.known_from(s))
+    return is_vouched_rightly(tail, facts, *known_step, before);
+  if (s < before || tail.has_views(s) || !facts.has_views(s - before)) return false;
   const auto& clean = facts.layers_at_start(s - before).clean;
   return std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
 }
 
 void check_options(CaseFacts& facts, LawTally& tally) {
   if (!facts.stages_of()) return;
-  const Posed p = posed(facts);
-  const auto& options = p.drawn.options;
-  const auto played = play(p, facts.stages_of());
-  const std::size_t steps = corpus::steps_of(p.played).size(), before = steps - facts.steps();
-  if (played.size() < steps) {
-    note(facts, 0, p.drawn.text() + ": refused", tally);
+  const PosedCase p = posed(facts);
+  const auto& options = p.draw.options;
+  const auto played_steps = play(p, facts.stages_of());
+  const std::size_t steps = corpus::steps_of(p.played_case).size(), before = steps - facts.steps();
+  if (played_steps.size() < steps) {
+    note(facts, 0, p.draw.text() + ": refused", tally);
     return;
   }
   const auto truth = truth_of(p, facts);
   std::vector<StepResult> results;
-  for (const auto& step : played) results.push_back(step.result);
+  for (const auto& step : played_steps) results.push_back(step.result);
   std::vector<oracle::StepJudgement> judgements(before);
   judgements.insert(judgements.end(), truth.begin(), truth.end());
-  CaseFacts told(p.played, options, results, judgements, facts.surface(), facts.stages_of());
+  CaseFacts tail(p.played_case, options, results, judgements, facts.surface(), facts.stages_of());
   const Claims claims = claims_of(options);
   const Contract contract = contract_of(options);
   for (std::size_t s = 0; s < facts.steps(); ++s) {
-    if (!truth[s].complete || !is_vouched_rightly(told, facts, s + before, before)) continue;
-    const auto& [result, asked] = played[s + before];
-    const auto diff = compare(result, truth[s], claims, contract, p.played.triangles);
+    if (!truth[s].complete || !is_vouched_rightly(tail, facts, s + before, before)) continue;
+    const auto& [result, reply] = played_steps[s + before];
+    const auto diff = compare(result, truth[s], claims, contract, p.played_case.triangles);
     std::string wrong = diff.outcome == Outcome::defect
                             ? failure_of(diff, result, contract).explanation
-                            : asked.wrong;
-    if (wrong.empty() && asked.limit) wrong = fault_of(*asked.limit, p, facts.script(s), truth[s]);
-    note(facts, s, wrong.empty() ? holds() : fmt::format("{}: {}", p.drawn.text(), wrong), tally);
+                            : reply.wrong;
+    if (wrong.empty() && reply.limit) wrong = fault_of(*reply.limit, p, facts.script(s), truth[s]);
+    note(facts, s, wrong.empty() ? holds() : fmt::format("{}: {}", p.draw.text(), wrong), tally);
   }
 }
 

@@ -36,7 +36,7 @@ class Escape {
     // Proposals that the cache answers cost no call. They are counted by `rounds`, so that they
     // end the walk too.
     for (std::uint64_t rounds = 0; rounds < budget && search_.calls() < end; ++rounds) {
-      if (search_.ended() || walk() || merge_and_change() || change_small_sphere()) return;
+      if (search_.has_ended() || walk() || merge_and_change() || change_small_sphere()) return;
     }
   }
 
@@ -162,7 +162,7 @@ class Escape {
     constexpr int moves = 40;
     Case here = search_.best();
     const std::size_t most = search_.size().triangles;
-    for (int m = 0; m < moves && !search_.ended(); ++m) {
+    for (int m = 0; m < moves && !search_.has_ended(); ++m) {
       Case next = here;
       for (int n = random_.between(1, 2); n > 0; --n) change(next);
       if (static_cast<std::size_t>(next.triangles.rows()) > most || !search_.ask(next)) continue;
@@ -179,10 +179,10 @@ class Escape {
       const auto u = at(index_below(n));
       const auto v = index_below(n);
       targets[u] = v;
-      Case merged = merge_vertices(search_.best(), targets);
-      if (merged.triangles.rows() == 0) continue;
-      for (int changes = random_.between(1, 4); changes > 0; --changes) change(merged);
-      if (offer_seen_anew(merged)) return true;
+      Case candidate = merge_vertices(search_.best(), targets);
+      if (candidate.triangles.rows() == 0) continue;
+      for (int changes = random_.between(1, 4); changes > 0; --changes) change(candidate);
+      if (offer_seen_anew(candidate)) return true;
     }
     return false;
   }

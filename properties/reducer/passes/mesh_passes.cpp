@@ -55,14 +55,14 @@ bool offer_without(ReductionSearch& search, const std::vector<std::int32_t>& ord
 void keep_the_nearest(ReductionSearch& search) {
   constexpr std::size_t fewest = 8, times = 4;
   std::size_t passes = 0;
-  for (std::size_t count = fewest; count < triangle_count(search) && !search.ended();
+  for (std::size_t count = fewest; count < triangle_count(search) && !search.has_ended();
        count *= times) {
     const auto order = near_first(search);
     if (offer_without(search, order, count, order.size())) break;
     passes = count;
   }
   while (triangle_count(search) > passes + 1 && triangle_count(search) > most_for_the_passes &&
-         !search.ended()) {
+         !search.has_ended()) {
     const auto order = near_first(search);
     const std::size_t middle = passes + (order.size() - passes) / 2;
     if (!offer_without(search, order, middle, order.size())) passes = middle;
@@ -72,7 +72,7 @@ void keep_the_nearest(ReductionSearch& search) {
 // Leaves out a half, or a quarter, wherever it lies. Returns whether that made the mesh smaller.
 bool leave_out_parts(ReductionSearch& search) {
   for (const std::size_t parts : {2, 4}) {
-    for (std::size_t part = 0; part < parts && !search.ended(); ++part) {
+    for (std::size_t part = 0; part < parts && !search.has_ended(); ++part) {
       const auto order = near_first(search);
       const auto place = [&](std::size_t p) { return p * order.size() / parts; };
       if (offer_without(search, order, place(part), place(part + 1))) return true;
@@ -90,7 +90,7 @@ std::size_t cut_large_mesh(ReductionSearch& search) {
     keep_the_nearest(search);
   } while (triangle_count(search) > most_for_the_passes && leave_out_parts(search));
   search.match_kind_alone(false);
-  const bool is_known = !search.ended() && triangle_count(search) > most_for_the_passes;
+  const bool is_known = !search.has_ended() && triangle_count(search) > most_for_the_passes;
   return is_known ? triangle_count(search) : 0;
 }
 
@@ -179,20 +179,20 @@ bool offer_merge(ReductionSearch& search, const Numbers& targets) {
 // within `radius` edges of it. Each vertex is in one group at most, and groups of a single vertex
 // are left out.
 std::vector<std::vector<std::int32_t>> balls(const Rings& rings, int radius) {
-  std::vector<std::uint8_t> taken(rings.distance.size(), 0);
+  std::vector<std::uint8_t> is_taken(rings.distance.size(), 0);
   std::vector<std::vector<std::int32_t>> all;
   for (const auto centre : rings.far_first) {
-    if (taken[at(centre)] != 0 || rings.distance[at(centre)] == 0) {
+    if (is_taken[at(centre)] != 0 || rings.distance[at(centre)] == 0) {
       continue;
     }
-    taken[at(centre)] = 1;
+    is_taken[at(centre)] = 1;
     std::vector<std::int32_t> ball = {centre};
     std::size_t begin = 0;
     for (int r = 0; r < radius; ++r) {
       for (const std::size_t end = ball.size(); begin < end; ++begin) {
         for (const auto v : rings.neighbours[at(ball[begin])]) {
-          if (taken[at(v)] != 0 || rings.distance[at(v)] == 0) continue;
-          taken[at(v)] = 1;
+          if (is_taken[at(v)] != 0 || rings.distance[at(v)] == 0) continue;
+          is_taken[at(v)] = 1;
           ball.push_back(v);
         }
       }
@@ -208,7 +208,7 @@ constexpr std::size_t most_corners = 12;
 }  // namespace
 
 void cone_outside(ReductionSearch& search) {
-  for (int ring = 0; ring <= rings_of(search).farthest && !search.ended(); ++ring) {
+  for (int ring = 0; ring <= rings_of(search).farthest && !search.has_ended(); ++ring) {
     const Rings rings = rings_of(search);
     std::vector<std::int32_t> outside;
     for (const auto v : rings.far_first) {
@@ -225,11 +225,11 @@ void cone_outside(ReductionSearch& search) {
 }
 
 void cut_and_close(ReductionSearch& search) {
-  for (int ring = 0; ring < rings_of(search).farthest && !search.ended(); ++ring) {
-    const auto cut = within(search.best(), rings_of(search), ring);
-    if (cut.triangles.rows() == 0) continue;
+  for (int ring = 0; ring < rings_of(search).farthest && !search.has_ended(); ++ring) {
+    const auto part = within(search.best(), rings_of(search), ring);
+    if (part.triangles.rows() == 0) continue;
     for (std::size_t corner = 0; corner < most_corners; ++corner) {
-      if (search.offer(close_loops(cut, corner))) return;
+      if (search.offer(close_loops(part, corner))) return;
     }
   }
 }
@@ -265,7 +265,7 @@ void collapse_edges(ReductionSearch& search) {
   // Vertices that share no edge may be merged too. If there are few vertices, this is cheap to
   // try.
   constexpr std::size_t few = 16;
-  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
+  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.has_ended();) {
     const Rings rings = rings_of(search);
     const auto u = rings.far_first[i];
     const auto n = vertex_count(search.best());
@@ -301,7 +301,7 @@ void merge_twice(ReductionSearch& search) {
 
 void remove_and_close(ReductionSearch& search) {
   // Removes the star of a vertex, and closes the hole by a fan from a vertex of its rim.
-  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
+  for (std::size_t i = 0; i < vertex_count(search.best()) && !search.has_ended();) {
     const auto v = rings_of(search).far_first[i];
     const auto triangles = triangles_of(search.best());
     std::vector<std::uint8_t> keep(triangles.size(), 1);

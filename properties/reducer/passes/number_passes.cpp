@@ -21,12 +21,12 @@ void translate(ReductionSearch& search) {
     const Case c = search.best();
     std::set<double> origins;
     for (const double* x : numbers_along(c, axis)) origins.insert(*x);
-    std::size_t tried = 0;
+    std::size_t tries = 0;
     for (const double origin : origins) {
-      if (++tried > most_origins || search.ended()) break;
-      Case moved = c;
-      for (double* x : numbers_along(moved, axis)) *x -= origin;
-      search.offer(moved);
+      if (++tries > most_origins || search.has_ended()) break;
+      Case candidate = c;
+      for (double* x : numbers_along(candidate, axis)) *x -= origin;
+      search.offer(candidate);
     }
   }
 }
@@ -54,7 +54,7 @@ void round_all(ReductionSearch& search) {
 void round_vertices(ReductionSearch& search) {
   for (Eigen::Index v = 0; v < search.best().frames.front().rows(); ++v) {
     for (const int digits : {1, 2, 3, 4, 5, 6, 8, 10, 12, 14}) {
-      if (search.ended()) return;
+      if (search.has_ended()) return;
       Case rounded = search.best();
       for (auto& frame : rounded.frames) {
         for (int k = 0; k < 3; ++k) frame(v, k) = rounded_to_digits(frame(v, k), digits);
@@ -66,7 +66,7 @@ void round_vertices(ReductionSearch& search) {
 
 void simplify_numbers(ReductionSearch& search) {
   Case c = search.best();
-  for (std::size_t g = 0; g < number_groups(c).size() && !search.ended(); ++g) {
+  for (std::size_t g = 0; g < number_groups(c).size() && !search.has_ended(); ++g) {
     const double value = *number_groups(c)[g].front();
     for (const double simpler : simpler_values(value)) {
       Case candidate = c;
@@ -82,7 +82,7 @@ void simplify_numbers(ReductionSearch& search) {
 void simplify_together(ReductionSearch& search) {
   constexpr int failures = 400;
   Random random(0x70e7, search.calls());
-  for (int failed = 0; failed < failures && !search.ended(); ++failed) {
+  for (int failure_count = 0; failure_count < failures && !search.has_ended(); ++failure_count) {
     Case c = search.best();
     const auto groups = number_groups(c);
     for (int n = random.between(2, 4); n > 0; --n) {
@@ -96,7 +96,7 @@ void simplify_together(ReductionSearch& search) {
               : values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
       for (double* x : group) *x = value;
     }
-    if (search.offer(c)) failed = 0;
+    if (search.offer(c)) failure_count = 0;
   }
 }
 
@@ -112,12 +112,12 @@ Case with_vertices_by_use(const Case& c) {
   };
   for (const auto& corners : triangles_of(c)) std::for_each(corners.begin(), corners.end(), use);
   for (const auto v : in_order(number.size())) use(v);  // of which no triangle is, if any
-  Case ordered = c;
-  renumber_vertices(ordered, number);
+  Case candidate = c;
+  renumber_vertices(candidate, number);
   if (c.counted)
-    ordered.counted->pairs =
-        carried_over(c.counted->pairs, c.triangles, ordered.triangles, {number, was});
-  return ordered;
+    candidate.counted->pairs =
+        carried_over(c.counted->pairs, c.triangles, candidate.triangles, {number, was});
+  return candidate;
 }
 
 Case with_lowest_corners_first(const Case& c) {

@@ -43,20 +43,20 @@ SphereMesh bipyramid(int vertices) {
 
 std::vector<SphereMesh> all_by_flips(int vertices) {
   if (vertices == 4) return {canonical({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})};
-  std::vector<SphereMesh> found = {canonical(bipyramid(vertices))};
-  std::set<SphereMesh> known(found.begin(), found.end());
-  for (std::size_t next = 0; next < found.size(); ++next) {
-    const SphereMesh mesh = found[next];
+  std::vector<SphereMesh> meshes = {canonical(bipyramid(vertices))};
+  std::set<SphereMesh> known_meshes(meshes.begin(), meshes.end());
+  for (std::size_t next = 0; next < meshes.size(); ++next) {
+    const SphereMesh mesh = meshes[next];
     for (std::size_t t = 0; t < mesh.size(); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
         auto other = flipped(mesh, t, i);
         if (other.empty()) continue;
         other = canonical(std::move(other));
-        if (known.insert(other).second) found.push_back(std::move(other));
+        if (known_meshes.insert(other).second) meshes.push_back(std::move(other));
       }
     }
   }
-  return found;
+  return meshes;
 }
 
 }  // namespace
@@ -104,22 +104,22 @@ namespace {
 // when `take` returns true.
 template <class Take>
 bool any_subset(std::size_t pool, std::size_t count, Take take) {
-  std::vector<std::size_t> chosen(count);
-  for (std::size_t i = 0; i < count; ++i) chosen[i] = i;
+  std::vector<std::size_t> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = i;
   while (true) {
-    if (take(chosen)) return true;
+    if (take(places)) return true;
     std::size_t i = count;
-    while (i > 0 && chosen[i - 1] == pool - count + i - 1) --i;
+    while (i > 0 && places[i - 1] == pool - count + i - 1) --i;
     if (i == 0) return false;
-    ++chosen[i - 1];
-    for (std::size_t k = i; k < count; ++k) chosen[k] = chosen[k - 1] + 1;
+    ++places[i - 1];
+    for (std::size_t k = i; k < count; ++k) places[k] = places[k - 1] + 1;
   }
 }
 
-bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& wanted) {
-  return std::all_of(wanted.begin(), wanted.end(), [&](const Corners& corners) {
+bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& triangles) {
+  return std::all_of(triangles.begin(), triangles.end(), [&](const Corners& corners) {
     return std::any_of(mesh.begin(), mesh.end(),
-                       [&](const Corners& other) { return sorted(other) == sorted(corners); });
+                       [&](const Corners& other) { return as_set(other) == as_set(corners); });
   });
 }
 
@@ -138,12 +138,12 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
 
   for (std::size_t n = 4; n <= std::min<std::size_t>(7, pool.size()); ++n) {
     if (search.size().triangles <= 2 * n - 4) return;
-    const bool smaller = any_subset(pool.size(), n, [&](const std::vector<std::size_t>& chosen) {
+    const bool smaller = any_subset(pool.size(), n, [&](const std::vector<std::size_t>& places) {
       std::vector<std::int32_t> place(static_cast<std::size_t>(start.frames.front().rows()), -1);
       for (std::size_t i = 0; i < n; ++i) {
-        place[at(pool[chosen[i]])] = static_cast<std::int32_t>(i);
+        place[at(pool[places[i]])] = static_cast<std::int32_t>(i);
       }
-      std::vector<Corners> wanted;
+      std::vector<Corners> triangles;
       if (n >= many) {
         if (search.finding().focus.size() < 2) return true;
         for (const auto t : search.finding().focus) {
@@ -151,16 +151,16 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
           for (int i = 0; i < 3; ++i) {
             corners[at(i)] = place[at(start.triangles(t, i))];
           }
-          if (sorted(corners)[0] < 0) return false;
-          wanted.push_back(corners);
+          if (as_set(corners)[0] < 0) return false;
+          triangles.push_back(corners);
         }
       }
       for (const SphereMesh& sphere : sphere_meshes(static_cast<int>(n))) {
-        if (!holds_all(sphere, wanted)) continue;
+        if (!holds_all(sphere, triangles)) continue;
         for (SphereMesh mesh : {sphere, mirrored(sphere)}) {
-          if (search.ended()) return true;
+          if (search.has_ended()) return true;
           for (Corners& corners : mesh) {
-            for (auto& v : corners) v = pool[chosen[at(v)]];
+            for (auto& v : corners) v = pool[places[at(v)]];
           }
           const corpus::Case small = with_triangles(start, mesh);
           if (search.offer(small)) return true;

@@ -27,7 +27,7 @@ void drop_steps(ReductionSearch& search) {
 }
 
 void merge_steps(ReductionSearch& search) {
-  for (std::size_t s = 0; s + 1 < corpus::steps_of(search.best()).size() && !search.ended();) {
+  for (std::size_t s = 0; s + 1 < corpus::steps_of(search.best()).size() && !search.has_ended();) {
     auto steps = corpus::steps_of(search.best());
     steps[s].to = steps[s + 1].to;
     steps[s].commit = steps[s + 1].commit;
@@ -53,7 +53,7 @@ Places fixed(const Places& places, std::size_t frame) {
 }
 
 // Moves everything so that `origin` comes to (0,0,0).
-Case moved(const Case& c, const detector::Point& origin) {
+Case with_origin(const Case& c, const detector::Point& origin) {
   Case result = c;
   for (int axis = 0; axis < 3; ++axis) {
     for (double* x : numbers_along(result, axis)) *x -= origin[at(axis)];
@@ -75,7 +75,7 @@ void simplify_view(ReductionSearch& search) {
   const Places at_origin(search.best().frames.size(), {0, 0, 0});
   offer_view(search, CaseView{at_origin, view().q1});
   if (!view().q1.empty()) offer_view(search, CaseView{view().q0, at_origin});
-  search.offer(moved(search.best(), view().q0.front()));
+  search.offer(with_origin(search.best(), view().q0.front()));
 }
 
 void drop_view(ReductionSearch& search) {

@@ -24,39 +24,39 @@ corpus::Problem no_file(const std::string& reason) { return {reason}; }
 
 }  // namespace
 
-std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& named,
+std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& word,
                                                        const fs::path& worker) {
   static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const JudgedLibrary>> kept;
+  static std::map<std::string, std::weak_ptr<const JudgedLibrary>> libraries;
   std::error_code ignored;
-  const bool is_word = names_python(named.string());
+  const bool is_word = names_python(word.string());
   const std::lock_guard lock(mutex);
-  auto& known = kept[is_word ? named.string() : fs::absolute(named, ignored).string()];
-  auto library = known.lock();
+  auto& entry = libraries[is_word ? word.string() : fs::absolute(word, ignored).string()];
+  auto library = entry.lock();
   if (!library) {
-    library.reset(new JudgedLibrary(named, worker));
-    known = library;
+    library.reset(new JudgedLibrary(word, worker));
+    entry = library;
   }
   return library;
 }
 
-JudgedLibrary::JudgedLibrary(const fs::path& named, const fs::path& worker)
-    : files_{{named, {}}}, digest_(no_file("")) {
+JudgedLibrary::JudgedLibrary(const fs::path& word, const fs::path& worker)
+    : files_{{word, {}}}, digest_(no_file("")) {
   std::error_code error;
-  if (!names_python(named.string())) {
+  if (!names_python(word.string())) {
     // Reading a pipe would wait for its writer.
-    if (!fs::is_regular_file(named, error)) {
-      digest_ = no_file(fs::exists(named, error) ? "not a file" : "no such file");
+    if (!fs::is_regular_file(word, error)) {
+      digest_ = no_file(fs::exists(word, error) ? "not a file" : "no such file");
       return;
     }
-    std::vector<fs::path> files = {named};
-    const auto needed = needed_files(named);
-    files.insert(files.end(), needed.begin(), needed.end());
+    std::vector<fs::path> files = {word};
+    const auto dependencies = needed_files(word);
+    files.insert(files.end(), dependencies.begin(), dependencies.end());
     take(files);
     return;
   }
-  const auto serving = python_plugin(named.string(), worker);
-  const auto module = python_module_files(named.string());
+  const auto serving = python_plugin(word.string(), worker);
+  const auto module = python_module_files(word.string());
   if (serving && module) {
     std::vector<fs::path> files = {serving.value()};
     files.insert(files.end(), module.value().begin(), module.value().end());
@@ -202,28 +202,28 @@ std::optional<fs::path> find(const std::string& name, const Needs& needs,
   return std::nullopt;
 }
 
-void add_needed(const fs::path& file, const Strings& inherited, std::vector<fs::path>& found) {
+void add_needed(const fs::path& file, const Strings& inherited, std::vector<fs::path>& files) {
   const Needs needs = needs_of(file);
   Strings handed_on = inherited;
   if (needs.runpath.empty())
     handed_on.insert(handed_on.begin(), needs.rpath.begin(), needs.rpath.end());
   for (const auto& name : needs.names) {
-    const auto needed = find(name, needs, inherited);
+    const auto dependency = find(name, needs, inherited);
     std::error_code ignored;
-    if (!needed || is_of_the_system(fs::canonical(*needed, ignored)) ||
-        std::find(found.begin(), found.end(), *needed) != found.end())
+    if (!dependency || is_of_the_system(fs::canonical(*dependency, ignored)) ||
+        std::find(files.begin(), files.end(), *dependency) != files.end())
       continue;
-    found.push_back(*needed);
-    add_needed(*needed, handed_on, found);
+    files.push_back(*dependency);
+    add_needed(*dependency, handed_on, files);
   }
 }
 
 }  // namespace
 
 std::vector<fs::path> needed_files(const fs::path& library) {
-  std::vector<fs::path> found;
-  add_needed(library, {}, found);
-  return found;
+  std::vector<fs::path> files;
+  add_needed(library, {}, files);
+  return files;
 }
 
 }  // namespace assay::properties

@@ -21,7 +21,7 @@ class JudgedLibrary {
  public:
   // The library of that name, or the one that serves the detector in Python of that name. As long
   // as somebody in this process keeps it, everybody gets the same.
-  static std::shared_ptr<const JudgedLibrary> of(const std::filesystem::path& named,
+  static std::shared_ptr<const JudgedLibrary> of(const std::filesystem::path& word,
                                                  const std::filesystem::path& worker);
 
   // What a worker loads.
@@ -36,7 +36,7 @@ class JudgedLibrary {
   Expected<void> is_as_it_was() const;
 
  private:
-  JudgedLibrary(const std::filesystem::path& named, const std::filesystem::path& worker);
+  JudgedLibrary(const std::filesystem::path& word, const std::filesystem::path& worker);
   void take(const std::vector<std::filesystem::path>& files);
 
   struct File {

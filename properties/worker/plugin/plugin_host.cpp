@@ -33,22 +33,22 @@ class PluginRun {
   Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
                                                            const detector::Positions& x_t1) {
     assay_candidates raw = {};
-    const auto asked =
-        called("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw));
-    if (!asked) return asked.error();
+    const auto ok =
+        status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw));
+    if (!ok) return ok.error();
     return candidate_pairs(raw, triangle_count_);
   }
 
   // What the limiter allows in a step, or why it allows nothing.
-  // `told` is x_t1, or the displacement to it, as the contract has it.
+  // `way` is x_t1, or the displacement to it, as the contract has it.
   Expected<LimitAnswer> limit(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                              const detector::Positions& told,
+                              const detector::Positions& way,
                               const PluginDescription& description) {
     assay_limit raw = {};
     raw.share = -1;
-    const auto asked = called("limit", api_.limit(handle_.get(), x_t0.data(), told.data(), &raw));
-    if (!asked) return asked.error();
-    return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, told);
+    const auto ok = status("limit", api_.limit(handle_.get(), x_t0.data(), way.data(), &raw));
+    if (!ok) return ok.error();
+    return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, way);
   }
 
   // The result of a step, or why it has none: the same reasons.
@@ -59,7 +59,7 @@ class PluginRun {
     if (!result) return result;
     const Answer answer = result.value().answer;
     if (commit && (answer == Answer::free || answer == Answer::collision)) {
-      const auto committed = called("commit", api_.commit(handle_.get()));
+      const auto committed = status("commit", api_.commit(handle_.get()));
       if (!committed) return committed.error();
     }
     return result;
@@ -69,11 +69,11 @@ class PluginRun {
   Expected<StepResult> evaluated_step(const detector::Positions& x_t0,
                                       const detector::Positions& x_t1) {
     const auto evaluated =
-        called("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
+        status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
     if (!evaluated) return evaluated.error();
     assay_result raw = {};
-    const auto asked = called("result", api_.result(handle_.get(), &raw));
-    if (!asked) return asked.error();
+    const auto ok = status("result", api_.result(handle_.get(), &raw));
+    if (!ok) return ok.error();
     if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
       if (auto text = text_of_error(api_); !text.empty()) return Problem{std::move(text)};
     }
@@ -81,7 +81,7 @@ class PluginRun {
   }
 
   // Says why the call did not do its work, if it did not.
-  Expected<void> called(const char* function, std::int32_t code) const {
+  Expected<void> status(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
     if (code == ASSAY_OUT_OF_MEMORY) return Problem{"out of memory", ProblemKind::out_of_memory};
     if (code == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(text_of_error(api_));
@@ -105,30 +105,30 @@ std::string tell_what_counts(const assay_detector_api& table, assay_handle* hand
   const auto numbers = [](const auto& list) {
     return list.empty() ? nullptr : reinterpret_cast<const std::int32_t*>(list.data());
   };
-  assay_counted_pairs counted = {};
-  counted.level = static_cast<std::int32_t>(pairs.level);
-  counted.body = numbers(pairs.body);
-  counted.apart_count = pairs.apart.size();
-  counted.apart = numbers(pairs.apart);
-  counted.rings = pairs.rings;
-  counted.rest_distance = pairs.rest_distance;
-  counted.rest = pairs.rest.empty() ? nullptr : pairs.rest.front().data();
-  counted.triangle_pair_count = pairs.triangle_pairs.size();
-  counted.triangle_pairs = numbers(pairs.triangle_pairs);
-  counted.vertex_face_count = pairs.vertex_faces.size();
-  counted.vertex_faces = numbers(pairs.vertex_faces);
-  counted.edge_pair_count = pairs.edge_pairs.size();
-  counted.edge_pairs = numbers(pairs.edge_pairs);
-  const std::int32_t code = table.count(handle, &counted);
+  assay_counted_pairs counted_pairs = {};
+  counted_pairs.level = static_cast<std::int32_t>(pairs.level);
+  counted_pairs.body = numbers(pairs.body);
+  counted_pairs.apart_count = pairs.apart.size();
+  counted_pairs.apart = numbers(pairs.apart);
+  counted_pairs.rings = pairs.rings;
+  counted_pairs.rest_distance = pairs.rest_distance;
+  counted_pairs.rest = pairs.rest.empty() ? nullptr : pairs.rest.front().data();
+  counted_pairs.triangle_pair_count = pairs.triangle_pairs.size();
+  counted_pairs.triangle_pairs = numbers(pairs.triangle_pairs);
+  counted_pairs.vertex_face_count = pairs.vertex_faces.size();
+  counted_pairs.vertex_faces = numbers(pairs.vertex_faces);
+  counted_pairs.edge_pair_count = pairs.edge_pairs.size();
+  counted_pairs.edge_pairs = numbers(pairs.edge_pairs);
+  const std::int32_t code = table.count(handle, &counted_pairs);
   return code == ASSAY_OK ? "" : text_of_code(table, "count", code);
 }
 
 }  // namespace
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
-                                      const std::string& called) {
+                                      const std::string& name) {
   const auto problem = [&](const std::string& explanation) {
-    return Problem{line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
+    return Problem{line_of(name.empty() ? library.c_str() : name.c_str()) + ": " +
                    line_of(explanation.c_str())};
   };
   std::error_code ignored;
@@ -138,12 +138,12 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
     return problem("not a detector plug-in: not a file");
   // An absolute path has a slash in it, so that no search path is asked.
   const auto path = std::filesystem::absolute(library, ignored);
-  void* loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!loaded) {
+  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) {
     return problem(std::string("not a detector plug-in: ") + ::dlerror());
   }
   const auto entry =
-      reinterpret_cast<const assay_detector_api* (*)()>(::dlsym(loaded, "assay_detector"));
+      reinterpret_cast<const assay_detector_api* (*)()>(::dlsym(handle, "assay_detector"));
   if (!entry) {
     return problem("not a detector plug-in: it exports no assay_detector()");
   }
@@ -173,7 +173,7 @@ CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const 
   const std::int32_t code =
       table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
                    x_t0.data(), x_t1.data(), &raw);
-  clock.answered();
+  clock.end_step();
   CaseRun run;
   run.times = clock.take();
   StepResult& result = run.steps.emplace_back();
@@ -187,12 +187,12 @@ CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const 
     alike.answer = raw.answer;
     alike.first_lo = raw.first_lo;
     alike.first_hi = raw.first_hi;
-    auto read = step_result(alike, 0);
-    if (read) {
-      result = std::move(read.value());
+    auto step = step_result(alike, 0);
+    if (step) {
+      result = std::move(step.value());
     } else {
       const auto text = raw.answer == ASSAY_ERROR ? text_of_error(table_) : "";
-      run.explanation = text.empty() ? read.error().message : text;
+      run.explanation = text.empty() ? step.error().message : text;
     }
   }
   return run;
@@ -208,7 +208,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {
-    frames.push_back(contracted(frame, description_.contract.coordinates));
+    frames.push_back(round_to(frame, description_.contract.coordinates));
     if (frames.back().allFinite()) continue;
     return {RunEnd::refused,
             std::string("a coordinate is beyond ") + name_of(description_.contract.coordinates),
@@ -243,7 +243,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     const auto& x_t0 = frames[static_cast<std::size_t>(step.from)];
     const auto& x_t1 = frames[static_cast<std::size_t>(step.to)];
     const bool is_displaced = description_.contract.motion == MotionGiven::displacement;
-    const auto told = is_displaced ? displacement(x_t0, end_of(c, step)) : x_t1;
+    const auto way = is_displaced ? displacement(x_t0, end_of(c, step)) : x_t1;
     StepResult& result = run.steps.emplace_back();
     result.answer = Answer::undecided;
     const auto fail = [&](const Problem& problem) {
@@ -256,26 +256,26 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     // Candidates and limits are asked for before the step is evaluated, because nothing may stand
     // between that and its commit.
     std::optional<Problem> problem;
-    const auto ask = [&](auto& list, auto&& given) {
+    const auto ask = [&](auto& list, auto&& answer) {
       list.emplace_back();
-      if (given) {
-        list.back() = std::move(given.value());
+      if (answer) {
+        list.back() = std::move(answer.value());
       } else {
-        problem = given.error();
+        problem = answer.error();
       }
     };
-    if (parts.candidates) ask(run.candidates, plugin.candidates(x_t0, told));
-    if (parts.limit) ask(run.limits, plugin.limit(x_t0, x_t1, told, description_));
+    if (parts.candidates) ask(run.candidates, plugin.candidates(x_t0, way));
+    if (parts.limit) ask(run.limits, plugin.limit(x_t0, x_t1, way, description_));
     clock.begin();
     if (parts.steps) {
-      auto answered = plugin.step(x_t0, told, step.commit);
-      if (answered) {
-        result = std::move(answered.value());
+      auto answer = plugin.step(x_t0, way, step.commit);
+      if (answer) {
+        result = std::move(answer.value());
       } else {
-        fail(answered.error());
+        fail(answer.error());
       }
     }
-    clock.answered();
+    clock.end_step();
     if (problem) fail(*problem);
   }
   if (!run.over_capacity.empty()) run.over_capacity.resize(run.steps.size());

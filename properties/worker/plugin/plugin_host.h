@@ -18,11 +18,11 @@ namespace assay::properties {
 class PluginHost {
  public:
   // Loads a library, which is never unloaded again. `threads` is told to a library that asks how
-  // many it may use. `called` is the user's name for it in problems; empty: its file. Refuses
+  // many it may use. `name` is the user's name for it in problems; empty: its file. Refuses
   // what is no file or no shared library, one without assay_detector(), another version of the
   // interface, a table with a gap, and a description that makes no sense.
   static Expected<PluginHost> open(const std::filesystem::path& library, std::uint32_t threads = 1,
-                                   const std::string& called = {});
+                                   const std::string& name = {});
 
   const PluginDescription& description() const { return description_; }
 

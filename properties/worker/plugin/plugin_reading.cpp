@@ -25,7 +25,7 @@ std::size_t description_bytes(std::uint32_t version) {
   return sizeof(assay_description);
 }
 
-Problem broken(std::string explanation) { return {std::move(explanation)}; }
+Problem breach(std::string explanation) { return {std::move(explanation)}; }
 
 std::string gap_in(const assay_detector_api& table) {
   if (!table.describe) return "a function is missing in its table: describe";
@@ -49,14 +49,14 @@ std::string nothing_described(const assay_detector_api& table) {
 // Says what in the description makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
   std::string unknown;
-  visit_members(raw, contract, [&]<class T>(const char* name, const auto& given, T& member) {
+  visit_members(raw, contract, [&]<class T>(const char* name, const auto& value, T& member) {
     if constexpr (Listed<T>) {
-      const auto named = from_number<T>(given);
-      member = named.value_or(member);
-      if (!named && unknown.empty())
-        unknown = std::string("unknown ") + name + " " + std::to_string(given);
+      const auto name_value = from_number<T>(value);
+      member = name_value.value_or(member);
+      if (!name_value && unknown.empty())
+        unknown = std::string("unknown ") + name + " " + std::to_string(value);
     } else {
-      member = given;
+      member = value;
     }
   });
   if (!unknown.empty()) return unknown;
@@ -99,19 +99,19 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api) {
   }
   assay_detector_api table = {};
   std::memcpy(&table, api, table_bytes(version));
-  if (auto gap = gap_in(table); !gap.empty()) return broken(std::move(gap));
+  if (auto gap = gap_in(table); !gap.empty()) return breach(std::move(gap));
   return table;
 }
 
 Expected<PluginDescription> read_description(const assay_detector_api& table) {
-  const assay_description* given = table.describe();
-  if (!given) return broken(nothing_described(table));
+  const assay_description* raw_description = table.describe();
+  if (!raw_description) return breach(nothing_described(table));
   assay_description raw = {};
-  std::memcpy(&raw, given, description_bytes(table.abi_version));
-  Claims known;
+  std::memcpy(&raw, raw_description, description_bytes(table.abi_version));
+  Claims claims;
   for (const auto& row : all_rows<Claim>)
-    if (row.since <= table.abi_version) known = known.with(Claims::of_bits(row.bit));
-  if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
+    if (row.since <= table.abi_version) claims = claims.with(Claims::of_bits(row.bit));
+  if (raw.claims & ~claims.bits()) return breach("unknown bits in its claims");
 
   const PluginParts parts = {table.evaluate != nullptr, table.query != nullptr,
                              table.candidates != nullptr, table.limit != nullptr,
@@ -122,28 +122,28 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
 }
 
 Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts) {
-  if (raw.claims & ~claims_from_outside.bits()) return broken("unknown bits in its claims");
+  if (raw.claims & ~claims_from_outside.bits()) return breach("unknown bits in its claims");
   PluginDescription description;
   if (auto fault = read_contract(raw, description.contract); !fault.empty())
-    return broken(std::move(fault));
+    return breach(std::move(fault));
   description.name = line_of(raw.name);
   description.version = line_of(raw.version);
-  if (description.name.empty()) return broken("it has no name");
+  if (description.name.empty()) return breach("it has no name");
   for (const auto& text : {description.name, description.version}) {
-    if (const auto fault = fault_of_name(text); !fault.empty()) return broken("it has " + fault);
+    if (const auto fault = fault_of_name(text); !fault.empty()) return breach("it has " + fault);
   }
   description.claims = Claims::of_bits(raw.claims);
   description.parts = parts;
   if (description.claims.has(Claim::candidates) && !description.parts.candidates)
-    return broken("it claims candidates, and has no such function");
+    return breach("it claims candidates, and has no such function");
   if (description.parts.candidates && !description.claims.has(Claim::candidates))
-    return broken("it has a function for candidates, and does not claim candidates");
+    return breach("it has a function for candidates, and does not claim candidates");
   if (const auto fault =
           fault_of_limits(description.claims, description.contract, description.parts.limit);
       !fault.empty())
-    return broken("it has " + fault);
+    return breach("it has " + fault);
   if (description.parts.query && description.claims.empty())
-    return broken("it has a query function, and claims nothing");
+    return breach("it has a query function, and claims nothing");
   return description;
 }
 
@@ -246,8 +246,8 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
     return Problem{"gives pairs, and says that it reports none"};
   }
   detector::StepResult result;
-  std::string broken = read_result(raw, triangle_count, result);
-  if (!broken.empty()) return Problem{std::move(broken)};
+  std::string problem = read_result(raw, triangle_count, result);
+  if (!problem.empty()) return Problem{std::move(problem)};
   return result;
 }
 
@@ -277,12 +277,12 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
+  if (raw.pair_count > 0 && !raw.pairs) return breach("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;
   for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
     detector::TrianglePair pair;
     if (!read_pair(raw.pairs + 2 * i, triangle_count, pair))
-      return broken("candidate " + std::to_string(i) + " names no two triangles");
+      return breach("candidate " + std::to_string(i) + " names no two triangles");
     pairs.push_back(pair);
   }
   std::sort(pairs.begin(), pairs.end());

@@ -103,9 +103,9 @@ Expected<std::filesystem::path> python_plugin(std::string_view word,
 }
 
 Expected<std::vector<fs::path>> python_module_files(std::string_view word) {
-  const auto named = python_word_of(word);
-  if (!named) return not_here(word, no_word);
-  const auto packages = parts_of(named->module, '.');
+  const auto python = python_word_of(word);
+  if (!python) return not_here(word, no_word);
+  const auto packages = parts_of(python->module, '.');
   std::vector<std::string> folders = {"."};
   if (const char* more = std::getenv("PYTHONPATH")) {
     for (auto& folder : parts_of(more, ':')) folders.push_back(std::move(folder));
@@ -128,7 +128,7 @@ Expected<std::vector<fs::path>> python_module_files(std::string_view word) {
     }
     return files;
   }
-  return not_here(word, "no module " + named->module + " in this folder or those of PYTHONPATH");
+  return not_here(word, "no module " + python->module + " in this folder or those of PYTHONPATH");
 }
 
 }  // namespace assay::properties

@@ -57,8 +57,8 @@ std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
   const std::string word = query_word(c);
   const bool is_vertex_face = word == vertex_face_word;
   if (!is_vertex_face && word != edge_edge_word) return std::nullopt;
-  const detector::Triangles expected = triangles_of_queries();
-  if (c.triangles.rows() != expected.rows() || c.triangles != expected) return std::nullopt;
+  const detector::Triangles triangles = triangles_of_queries();
+  if (c.triangles.rows() != triangles.rows() || c.triangles != triangles) return std::nullopt;
   const auto steps = corpus::steps_of(c);
   if (steps.size() != 1) return std::nullopt;
   const auto &x_t0 = start_of(c, steps[0]), &x_t1 = end_of(c, steps[0]);

@@ -38,9 +38,9 @@ struct Comparison::Group {
 namespace {
 
 bool same_steps(const corpus::Case& a, const corpus::Case& b) {
-  const auto *counted = corpus::counted_of(a), *other = corpus::counted_of(b);
+  const auto *counted_pairs = corpus::counted_of(a), *other = corpus::counted_of(b);
   return a.frames == b.frames && corpus::steps_of(a) == corpus::steps_of(b) &&
-         (counted && other ? *counted == *other : counted == other);
+         (counted_pairs && other ? *counted_pairs == *other : counted_pairs == other);
 }
 
 // Whether one judgement of the oracle serves both contracts.
@@ -74,23 +74,23 @@ Comparison::Comparison(const std::vector<BenchSubject>& subjects, ComparisonPlan
 std::vector<Comparison::Group> Comparison::groups_of(const corpus::Case& c,
                                                      std::vector<FamilyRow>& rows) const {
   std::vector<Group> groups;
-  const auto planned = corpus::steps_of(c).size();
+  const auto all_steps = corpus::steps_of(c).size();
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
     if (!takes_part(subjects_[i], c)) continue;
     ++rows[i].cases;
     rows[i].triangles_of_case = static_cast<std::uint64_t>(c.triangles.rows());
     const auto& contract = subjects_[i].contract_of_steps();
-    auto seen = properties::contracted(c, contract);
-    const auto left_out = planned - (seen ? corpus::steps_of(*seen).size() : 0);
+    auto input = properties::contract_case(c, contract);
+    const auto left_out = all_steps - (input ? corpus::steps_of(*input).size() : 0);
     rows[i].counts.left_out += left_out;
-    if (!seen) continue;
+    if (!input) continue;
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-      return asks_alike(group.contract, contract) && same_steps(group.c, *seen);
+      return asks_alike(group.contract, contract) && same_steps(group.c, *input);
     });
     if (same != groups.end()) {
       same->subjects.push_back(i);
     } else {
-      groups.push_back({std::move(*seen), contract, {i}, left_out});
+      groups.push_back({std::move(*input), contract, {i}, left_out});
     }
   }
   return groups;
@@ -101,85 +101,85 @@ void Comparison::run(const std::vector<CaseFamily>& families) {
     progress_.phase(family.name);
     std::vector<FamilyRow> rows;
     for (const auto& subject : subjects_) rows.push_back({subject.name, family.name, family.kind});
-    for (const auto& timed : family.cases()) {
-      for (const auto& group : groups_of(timed.c, rows)) run_group(family, timed, group, rows);
+    for (const auto& entry : family.cases()) {
+      for (const auto& group : groups_of(entry.c, rows)) run_group(family, entry, group, rows);
     }
     std::erase_if(rows, [](const FamilyRow& row) { return row.cases == 0; });
     std::move(rows.begin(), rows.end(), std::back_inserter(rows_));
   }
 }
 
-void Comparison::run_group(const CaseFamily& family, const TimedCase& timed, const Group& group,
+void Comparison::run_group(const CaseFamily& family, const BenchCase& entry, const Group& group,
                            std::vector<FamilyRow>& rows) {
   const bool has_reference = group.subjects.front() == 0;
   std::vector<std::size_t> places = group.subjects;
   if (!has_reference) places.insert(places.begin(), 0);
-  PlayedCase played{group.c};
+  Match match{group.c};
   for (const std::size_t i : places) {
     const auto& subject = subjects_[i];
     auto options = subject.options;
     // A gap in the sequence makes a new start, and nobody says that it is clean.
     options.start =
-        group.left_out == 0 && subject.is_vouched_for ? timed.start : detector::Start::verified;
-    options.culling = timed.culling.value_or(options.culling);
+        group.left_out == 0 && subject.is_vouched_for ? entry.start : detector::Start::verified;
+    options.culling = entry.culling.value_or(options.culling);
     auto& worker = workers_[i][family.is_large() ? 1 : 0];
-    played.subjects.push_back(
+    match.subjects.push_back(
         {subject.is_here ? nullptr : &worker, {subject.name, options, {}, true}, subject.stages});
   }
   auto plan = plan_.sweep;
   plan.rounds = family.rounds;
   plan.tick = progress_.tick;
-  played.runs = sweep(group.c, played.subjects, plan);
+  match.runs = sweep(group.c, match.subjects, plan);
   progress_.tick();
-  if (plan_.is_judged) played.truth = properties::judge_case(group.c, group.contract, plan_.jobs);
-  played.verdicts.resize(places.size());
-  const auto& reference = played.runs.front();
+  if (plan_.is_judged) match.truth = properties::judge_case(group.c, group.contract, plan_.jobs);
+  match.verdicts.resize(places.size());
+  const auto& reference = match.runs.front();
   for (std::size_t k = has_reference ? 0 : 1; k < places.size(); ++k) {
     auto& row = rows[places[k]];
-    const auto& runs = played.runs[k];
+    const auto& runs = match.runs[k];
     row.counts.slow += runs.is_once ? 1 : 0;
-    row.counts.ended += runs.ended.empty() ? 0 : 1;
-    if (row.first_end.empty() && !runs.ended.empty())
-      row.first_end = timed.c.id + ": " + runs.ended;
-    if (plan_.is_judged) played.verdicts[k] = judge(played, runs, subjects_[places[k]], row);
-    if (!runs.ended.empty() || !reference.ended.empty()) continue;
+    row.counts.ended += runs.ending.empty() ? 0 : 1;
+    if (row.first_end.empty() && !runs.ending.empty())
+      row.first_end = entry.c.id + ": " + runs.ending;
+    if (plan_.is_judged) match.verdicts[k] = judge(match, runs, subjects_[places[k]], row);
+    if (!runs.ending.empty() || !reference.ending.empty()) continue;
     ++row.cases_timed;
-    row.steps_timed += played.truth.size();
+    row.steps_timed += match.truth.size();
     add(row.ms, runs.sums());
     add(row.reference_ms, reference.sums());
     add(row.create_ms, runs.create_ms());
     add(row.reference_create_ms, reference.create_ms());
   }
-  plan_.on_case(played);
+  plan_.on_case(match);
 }
 
-PlayedCase::Verdict Comparison::judge(const PlayedCase& played, const SweptRuns& runs,
-                                      const BenchSubject& subject, FamilyRow& row) {
-  const auto& c = played.c;
+Match::Verdict Comparison::judge(const Match& match, const SweptRuns& runs,
+                                 const BenchSubject& subject, FamilyRow& row) {
+  const auto& c = match.c;
   const auto& run = *runs.first;
   const auto& claims = subject.detector.claims;
   const auto& contract = subject.detector.contract;
-  const auto counted = judge_run(c, run, played.truth, subject.counted, contract),
-             own = judge_run(c, run, played.truth, claims, contract);
-  PlayedCase::Verdict verdict{{}, counted.outcome, own.outcome};
+  const auto on_errors = judge_run(c, run, match.truth, subject.error_claims, contract),
+             own = judge_run(c, run, match.truth, claims, contract);
+  Match::Verdict verdict{{}, on_errors.outcome, own.outcome};
   // A run that broke off has no steps.
-  if (counted.steps.empty()) verdict.errors.steps = verdict.errors.undecided = played.truth.size();
+  if (on_errors.steps.empty()) verdict.errors.steps = verdict.errors.undecided = match.truth.size();
   const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
-  for (std::size_t s = 0; s < counted.steps.size(); ++s) {
-    const auto& diff = counted.steps[s];
+  for (std::size_t s = 0; s < on_errors.steps.size(); ++s) {
+    const auto& diff = on_errors.steps[s];
     const auto& result = run.steps[s];
     const auto errors = errors_of(diff);
     verdict.errors += errors;
     const bool is_timed = result.first.lo > 0 || result.first.hi < 1;
     row.counts.timed_collisions += result.answer == detector::Answer::collision && is_timed ? 1 : 0;
     if (errors.unsafe > 0 && !subject.is_here) {
-      const bool confirmed = is_confirmed(c, s, diff, result, contract);
-      row.counts.confirmed += confirmed ? 1 : 0;
+      const bool is_confirmed_here = is_confirmed(c, s, diff, result, contract);
+      row.counts.confirmed += is_confirmed_here ? 1 : 0;
       unsafe_.push_back({subject.name, c.id, s,
                          diff.answered_free ? "missed"
                          : diff.late_first  ? "late"
                                             : "pairs missing",
-                         confirmed});
+                         is_confirmed_here});
     }
     const auto hash = result_hash(result);
     const auto& search = result.counts.search;
@@ -197,19 +197,19 @@ PlayedCase::Verdict Comparison::judge(const PlayedCase& played, const SweptRuns&
         narrow.elementary_tests, "errors", errors, "ms", runs.of_step(s)));
   }
   row.counts.errors += verdict.errors;
-  auto broken = own.broken;
+  auto breaches = own.breaches;
   if (runs.has_differing_runs && claims.has(properties::Claim::deterministic))
-    broken.push_back(properties::Claim::deterministic);
+    breaches.push_back(properties::Claim::deterministic);
   std::vector<std::string> complaints;
-  for (const auto claim : broken) complaints.push_back(fmt::format("breaks {}", name_of(claim)));
+  for (const auto claim : breaches) complaints.push_back(fmt::format("breaks {}", name_of(claim)));
   if (subject.detector.built_in && complaints.empty() && own.outcome != Outcome::holds)
     complaints.push_back(fmt::format("is {}", name_of(own.outcome)));
   const auto place = c.id == row.family ? c.id : fmt::format("{}, case {}", row.family, c.id);
   for (const auto& complaint : complaints) {
     if (subject.must_hold)
       report_.wrong_answers.push_back(fmt::format("{}: {} {}", place, subject.name, complaint));
-    if (std::find(row.broken.begin(), row.broken.end(), complaint) == row.broken.end())
-      row.broken.push_back(complaint);
+    if (std::find(row.breaches.begin(), row.breaches.end(), complaint) == row.breaches.end())
+      row.breaches.push_back(complaint);
   }
   return verdict;
 }
@@ -286,7 +286,7 @@ BenchSubject variant_of(Arithmetic arithmetic, Culling culling, Pairs pairs) {
   subject.options = {culling, detector::Start::verified, pairs, arithmetic};
   subject.is_here = true;
   subject.detector.claims = properties::claims_of(subject.options);
-  subject.counted = properties::claims_of({.pairs = pairs});
+  subject.error_claims = properties::claims_of({.pairs = pairs});
   return subject;
 }
 
@@ -311,7 +311,7 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
   subject.options = options;
   subject.detector.claims = properties::claims_of(options);
   subject.detector.contract = properties::contract_of(options);
-  subject.counted = properties::claims_of({}).only(properties::claims_from_outside);
+  subject.error_claims = properties::claims_of({}).only(properties::claims_from_outside);
   return subject;
 }
 
@@ -321,35 +321,35 @@ namespace {
 // it is always built.
 using KnownPeer = std::pair<std::string, std::string>;
 std::vector<KnownPeer> known_peers() {
-  std::vector<KnownPeer> known = {
+  std::vector<KnownPeer> peers = {
       {"cubic_double", ""}, {"cubic_float", ""}, {"cubic_eigen", "libeigen3-dev was not there"},
       {"sampled_1", ""},    {"sampled_10", ""},  {"sampled_100", ""}};
-  known.emplace_back("fcl_elementary", "libfcl-dev was not there");
-  known.emplace_back("bullet_bernstein", "libbullet-dev was not there");
+  peers.emplace_back("fcl_elementary", "libfcl-dev was not there");
+  peers.emplace_back("bullet_bernstein", "libbullet-dev was not there");
   std::istringstream of_sources(
       "tight_inclusion ipc_tight_inclusion ipc_additive fast_approximate_root eltopo_cubic ctcd "
       "eltopo_root_parity bsc tight_ccd arcsim codim_ipc libuipc ppf");
   for (std::string name; of_sources >> name;)
-    known.emplace_back(name, "its source was not found when it was built (corpus/peers/README.md)");
-  return known;
+    peers.emplace_back(name, "its source was not found when it was built (corpus/peers/README.md)");
+  return peers;
 }
 
 void add_library(const std::filesystem::path& file, Peers& peers) {
-  auto opened = properties::Subject::open(properties::worker_program(), file.string(),
+  auto plugin = properties::Subject::open(properties::worker_program(), file.string(),
                                           properties::DetectorPart::by_library, {});
   const std::string file_name = file.stem().string();
-  const auto why = !opened                                           ? opened.error().message
-                   : !opened.value().description.parts.steps         ? "it holds no steps"
-                   : opened.value().detector.contract.separation > 0 ? "it is asked for a distance"
+  const auto why = !plugin                                           ? plugin.error().message
+                   : !plugin.value().description.parts.steps         ? "it holds no steps"
+                   : plugin.value().detector.contract.separation > 0 ? "it is asked for a distance"
                                                                      : "";
   if (!why.empty()) {
     peers.absent.push_back({file_name, why});
     return;
   }
-  BenchSubject subject{std::move(opened.value())};
+  BenchSubject subject{std::move(plugin.value())};
   subject.name = subject.description.name;
   subject.must_hold = false;
-  subject.counted = subject.detector.claims;
+  subject.error_claims = subject.detector.claims;
   if (std::any_of(peers.subjects.begin(), peers.subjects.end(),
                   [&](const BenchSubject& other) { return other.name == subject.name; }))
     subject.name += fmt::format(" ({})", file_name);
@@ -358,9 +358,9 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
 
 // Known detectors stand in the order of their list. Others stand behind them, by name.
 std::size_t place_of(const std::filesystem::path& file) {
-  const auto known = known_peers();
-  const auto found = std::ranges::find(known, file.stem().string(), &KnownPeer::first);
-  return static_cast<std::size_t>(found - known.begin());
+  const auto all = known_peers();
+  const auto place = std::ranges::find(all, file.stem().string(), &KnownPeer::first);
+  return static_cast<std::size_t>(place - all.begin());
 }
 
 }  // namespace

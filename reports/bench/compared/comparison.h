@@ -37,39 +37,39 @@ namespace assay::reports {
 // answer (at_most(0)), every answer the same (at_least(100) %).
 
 // What a row is held against.
-struct Wanted {
+struct Goal {
   bool is_most;  // else it is the least
   double bound;
 };
-constexpr Wanted at_most(double bound) { return {true, bound}; }
-constexpr Wanted at_least(double bound) { return {false, bound}; }
-inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
-  return condition ? std::optional(wanted) : std::nullopt;
+constexpr Goal at_most(double bound) { return {true, bound}; }
+constexpr Goal at_least(double bound) { return {false, bound}; }
+inline std::optional<Goal> goal_if(bool condition, Goal goal) {
+  return condition ? std::optional(goal) : std::nullopt;
 }
 
-namespace wanted {
+namespace goal {
 
 // The whole step of any mesh. view-auto falls back to bvh if views do not pay, so it may lose only
 // what it takes to find that out.
-inline constexpr Wanted view_auto_over_bvh = at_most(1.05);
-inline constexpr Wanted exact_over_double = at_most(1.3);
+inline constexpr Goal view_auto_over_bvh = at_most(1.05);
+inline constexpr Goal exact_over_double = at_most(1.3);
 
 // Whole sequences with culling auto, over the one culling that takes the least for the whole of
 // each sequence: the ratio of the sums, of the median steps, and of any step of a millisecond or
 // more. Then a first step over that of bvh, whose pairs it has to look at; and one thread over
 // two.
-inline constexpr Wanted auto_over_best_culling = at_most(1.05);
-inline constexpr Wanted auto_step_over_best_culling = at_most(1.15);
-inline constexpr Wanted first_step_over_bvh = at_most(1.1);
-inline constexpr Wanted two_threads_gain = at_least(1.8);
+inline constexpr Goal auto_over_best_culling = at_most(1.05);
+inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
+inline constexpr Goal first_step_over_bvh = at_most(1.1);
+inline constexpr Goal two_threads_gain = at_least(1.8);
 
-}  // namespace wanted
+}  // namespace goal
 
 struct BenchRow {
   std::string label;
   std::string unit;                  // "ns", "times", "%", ...; may be empty
-  std::optional<Estimate> measured;  // none: no data
-  std::optional<Wanted> wanted;      // none: for information
+  std::optional<Estimate> estimate;  // none: no data
+  std::optional<Goal> goal;          // none: for information
   std::string note;                  // may be empty
 
   // "holds", "fails", "no data", or "-" if nothing is wanted. Decided by the median alone; the
@@ -91,8 +91,8 @@ struct BenchReport {
   std::vector<std::string> columns = {};
   std::vector<std::pair<std::size_t, std::string>> samples = {};
 
-  void add(std::string label, std::string unit, Estimate measured,
-           std::optional<Wanted> wanted = std::nullopt, std::string note = {});
+  void add(std::string label, std::string unit, Estimate estimate,
+           std::optional<Goal> goal = std::nullopt, std::string note = {});
   // Adds a row that says that the folder or file `missing` is not there.
   void add_no_data(std::string label, const std::string& missing);
   // Adds a line to `samples`. A field that is an object itself has a column for each of its own
@@ -102,7 +102,7 @@ struct BenchReport {
   void add_left_out(std::string label, std::string why);
 };
 
-std::string text_of(const Wanted& wanted);
+std::string text_of(const Goal& goal);
 
 // A word of a table, the heading of its column, and the width that it fills. A word ends at the
 // right of its column, or begins at the left if the width is below 0. The last column has width 0
@@ -155,12 +155,12 @@ struct BenchSubject : properties::Subject {
   // The claims by which its errors are counted. Every form of the built-in detector is asked for
   // what exact arithmetic claims, so that the errors of all forms are seen: otherwise doubles,
   // which claim no pair, could miss none. A plug-in is asked for what it claims.
-  properties::Claims counted = {};
+  properties::Claims error_claims = {};
   // The contract by which it is given steps, if that is not its own.
-  std::optional<properties::Contract> given = std::nullopt;
+  std::optional<properties::Contract> contract_of_input = std::nullopt;
 
   const properties::Contract& contract_of_steps() const {
-    return given ? *given : detector.contract;
+    return contract_of_input ? *contract_of_input : detector.contract;
   }
   // A worker that runs it, not yet started.
   properties::WorkerProcess make_worker(double seconds) const;
@@ -224,8 +224,8 @@ struct FamilyRow {
   // that of the reference, the first subject, on the same steps.
   std::vector<double> ms = {}, reference_ms = {}, create_ms = {}, reference_create_ms = {};
   std::uint64_t cases = 0, cases_timed = 0, steps_timed = 0;
-  std::string first_end = {};            // how the first ended that ended early
-  std::vector<std::string> broken = {};  // claims, each once
+  std::string first_end = {};              // how the first ended that ended early
+  std::vector<std::string> breaches = {};  // claims, each once
 
   std::optional<Estimate> over() const;  // over the reference, round by round
   std::optional<double> create_over() const;
@@ -256,7 +256,7 @@ std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
                                    const std::vector<BenchSubject>& subjects);
 
 // A case that subjects have played who are asked the same question.
-struct PlayedCase {
+struct Match {
   const corpus::Case& c;  // as the contract of the subjects has it
   std::vector<SweptSubject> subjects = {};
   std::vector<SweptRuns> runs = {};
@@ -265,7 +265,7 @@ struct PlayedCase {
   std::vector<oracle::StepJudgement> truth = {};
   struct Verdict {
     properties::StepErrors errors = {};
-    properties::Outcome counted = properties::Outcome::holds, own = properties::Outcome::holds;
+    properties::Outcome outcome = properties::Outcome::holds, own = properties::Outcome::holds;
   };
   std::vector<Verdict> verdicts = {};
 };
@@ -277,7 +277,7 @@ struct ComparisonPlan {
   int jobs = 1;               // threads of the oracle
   bool is_judged = true;      // else cases are played and timed alone
   // What a suite does with each case beside what all have.
-  std::function<void(const PlayedCase&)> on_case = [](const PlayedCase&) {};
+  std::function<void(const Match&)> on_case = [](const Match&) {};
 };
 
 // What a suite tells while it runs: what it turns to, and that it is alive. `tick` is called often.
@@ -308,10 +308,10 @@ class Comparison {
  private:
   struct Group;
   std::vector<Group> groups_of(const corpus::Case& c, std::vector<FamilyRow>& rows) const;
-  void run_group(const CaseFamily& family, const TimedCase& timed, const Group& group,
+  void run_group(const CaseFamily& family, const BenchCase& entry, const Group& group,
                  std::vector<FamilyRow>& rows);
-  PlayedCase::Verdict judge(const PlayedCase& played, const SweptRuns& runs,
-                            const BenchSubject& subject, FamilyRow& row);
+  Match::Verdict judge(const Match& match, const SweptRuns& runs, const BenchSubject& subject,
+                       FamilyRow& row);
 
   const std::vector<BenchSubject>& subjects_;
   const ComparisonPlan plan_;

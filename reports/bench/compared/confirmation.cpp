@@ -49,18 +49,18 @@ struct StepWitness {
   const detector::TrianglesView triangles;
   bool takes_triangles;
 
-  // Whether the features of the contact, or its triangles, meet at some time before `told`. If no
-  // time was told, whether they meet at all.
-  bool meets_before(const PairContact& contact, std::optional<double> told) const {
-    const double end = told.value_or(1), first = contact.time.hi;
-    const double until = told ? std::nextafter(end, 0.) : 1;
+  // Whether the features of the contact, or its triangles, meet at some time before `answer_time`,
+  // or at all if it is empty.
+  bool meets_before(const PairContact& contact, std::optional<double> answer_time) const {
+    const double end = answer_time.value_or(1), first = contact.time.hi;
+    const double until = answer_time ? std::nextafter(end, 0.) : 1;
     const auto query = query_of(contact.feature);
     if (query && until > 0 && oracle::referee(*query, {.until = until}) == detector::Decision::yes)
       return true;
     std::vector<oracle::StaticTime> times = {contact.time.lo, first};
     for (const double share : {1. / 1024, 1. / 16, 1. / 2})
       times.emplace_back(first + (end - first) * share);
-    if (!told) times.emplace_back(1.);
+    if (!answer_time) times.emplace_back(1.);
     if (contact.time.lo < contact.time.hi) {
       times.emplace_back(simplest_between(contact.time.lo, contact.time.hi));
       for (int eighth = 7; eighth > 0; --eighth) {
@@ -70,7 +70,7 @@ struct StepWitness {
     }
     const bool is_seen = std::any_of(times.begin(), times.end(), [&](const auto& time) {
       if (oracle::compare(time, 0) < 0 || oracle::compare(time, end) > 0) return false;
-      if (told && oracle::compare(time, *told) >= 0) return false;
+      if (answer_time && oracle::compare(time, *answer_time) >= 0) return false;
       return meet_at(contact, time);
     });
     const double from = std::nextafter(contact.time.lo, 0.);
@@ -108,9 +108,9 @@ bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDi
   const StepWitness witness{{start_of(c, step), end_of(c, step)},
                             c.triangles,
                             contract.features == properties::TestedFeatures::both};
-  const auto told = diff.answered_free ? std::nullopt : std::optional(result.first.lo);
+  const auto answer_time = diff.answered_free ? std::nullopt : std::optional(result.first.lo);
   if (diff.answered_free || diff.late_first)
-    return diff.first_contact && witness.meets_before(*diff.first_contact, told);
+    return diff.first_contact && witness.meets_before(*diff.first_contact, answer_time);
   return std::any_of(diff.missing.begin(), diff.missing.end(), [&](const PairContact& pair) {
     return witness.meets_before(pair, std::nullopt);
   });

@@ -23,8 +23,8 @@ void keep_smallest_sequences(std::vector<CaseFamily>& families, BenchReport& rep
     if (family.kind == "real") sizes.emplace_back(triangles_of(family), family.name);
   }
   std::sort(sizes.begin(), sizes.end());
-  constexpr std::size_t kept = 2;
-  for (std::size_t i = kept; i < sizes.size(); ++i) {
+  constexpr std::size_t most_built_in = 2;
+  for (std::size_t i = most_built_in; i < sizes.size(); ++i) {
     const auto& name = sizes[i].second;
     std::erase_if(families, [&](const auto& family) { return family.name == name; });
     report.add_left_out(name, "left out: --quick takes the two smallest sequences");
@@ -63,13 +63,13 @@ std::vector<BenchSubject> beside_built_in(const properties::Subject& plugin) {
       .separation = contract.separation};
   std::vector<BenchSubject> subjects = {built_in_in_worker(options)};
   subjects[0].name = "built-in";
-  subjects[0].counted = subjects[0].detector.claims;
-  subjects[0].given = contract;
+  subjects[0].error_claims = subjects[0].detector.claims;
+  subjects[0].contract_of_input = contract;
   subjects[0].is_vouched_for = contract.start != properties::StartRule::any;
   BenchSubject subject{plugin};
   subject.name = plugin.description.name;
   if (subject.name == subjects[0].name) subject.name += " (plug-in)";
-  subject.counted = claims;
+  subject.error_claims = claims;
   subjects.push_back(std::move(subject));
   return subjects;
 }

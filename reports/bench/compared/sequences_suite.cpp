@@ -50,15 +50,15 @@ constexpr std::size_t singles = 4, automatic = 4, bvh_of_all = 5, automatic_of_a
 
 // All runs must agree in answers, pairs and times of contact, and runs with one culling in
 // everything that result_hash() covers, whatever their threads.
-void find_differences(const PlayedCase& played, BenchReport& report) {
+void find_differences(const Match& match, BenchReport& report) {
   std::map<std::pair<std::size_t, Culling>, std::uint64_t> hashes;
-  for (std::size_t i = 0; i < played.runs.size(); ++i) {
-    const auto& steps = played.runs[i].first->steps;
+  for (std::size_t i = 0; i < match.runs.size(); ++i) {
+    const auto& steps = match.runs[i].first->steps;
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto &result = steps[s], &first = played.runs[0].first->steps[s];
-      const auto label = fmt::format("{}, step {}", played.c.id, s + 1);
+      const auto &result = steps[s], &first = match.runs[0].first->steps[s];
+      const auto label = fmt::format("{}, step {}", match.c.id, s + 1);
       const auto hash = result_hash(result);
-      const auto of_culling = std::pair(s, played.subjects[i].configuration.options.culling);
+      const auto of_culling = std::pair(s, match.subjects[i].configuration.options.culling);
       if (hashes.try_emplace(of_culling, hash).first->second != hash)
         report.wrong_answers.push_back(label + ": the same culling gives another result");
       const bool same =
@@ -69,8 +69,8 @@ void find_differences(const PlayedCase& played, BenchReport& report) {
                      });
       if (!same) report.wrong_answers.push_back(label + ": two cullings find different pairs");
     }
-    if (played.runs[i].has_differing_runs)
-      report.wrong_answers.push_back(played.c.id + ": two runs differ");
+    if (match.runs[i].has_differing_runs)
+      report.wrong_answers.push_back(match.c.id + ": two runs differ");
   }
 }
 
@@ -80,21 +80,21 @@ Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>
   return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));
 }
 
-void add_rows(const PlayedCase& played, std::uint32_t cores, BenchReport& report) {
-  const auto& runs = played.runs;
+void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
+  const auto& runs = match.runs;
   const auto steps = runs[0].first->steps.size();
   std::vector<std::vector<double>> sums;
   for (const auto& of_subject : runs) sums.push_back(of_subject.sums());
-  const auto add = [&](const std::string& what, const Estimate& measured,
-                       std::optional<Wanted> wanted, const std::string& note) {
-    report.add(played.c.id + ", " + what, "times", measured, wanted, note);
+  const auto add = [&](const std::string& what, const Estimate& estimate, std::optional<Goal> goal,
+                       const std::string& note) {
+    report.add(match.c.id + ", " + what, "times", estimate, goal, note);
   };
   const auto culling = [&](std::size_t i) {
-    return std::string(name_of(played.subjects[i].configuration.options.culling));
+    return std::string(name_of(match.subjects[i].configuration.options.culling));
   };
   // All cullings over bvh, for users who want to choose by themselves.
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto threads = played.subjects[i].configuration.options.threads;
+    const auto threads = match.subjects[i].configuration.options.threads;
     add(fmt::format("{}, {} thread{}: sum over bvh's", culling(i), threads,
                     threads == 1 ? "" : "s"),
         ratio_in_common(sums[i], sums[0]), {},
@@ -107,7 +107,7 @@ void add_rows(const PlayedCase& played, std::uint32_t cores, BenchReport& report
                                                 }) -
                                sums.begin());
   const std::string name = "auto over the best single culling";
-  add(name + ", sum", ratio_in_common(sums[automatic], sums[best]), wanted::auto_over_best_culling,
+  add(name + ", sum", ratio_in_common(sums[automatic], sums[best]), goal::auto_over_best_culling,
       culling(best));
   std::vector<double> ratios;
   double worst = 0;
@@ -121,19 +121,19 @@ void add_rows(const PlayedCase& played, std::uint32_t cores, BenchReport& report
       worst_step = s + 1;
     }
   }
-  add(name + ", median step", median_of(ratios), wanted::auto_over_best_culling, culling(best));
+  add(name + ", median step", median_of(ratios), goal::auto_over_best_culling, culling(best));
   if (worst > 0) {
-    add(name + ", worst step of 1 ms", exactly(worst), wanted::auto_step_over_best_culling,
+    add(name + ", worst step of 1 ms", exactly(worst), goal::auto_step_over_best_culling,
         fmt::format("step {}", worst_step));
   }
   add("auto over bvh, first step", ratio_in_common(runs[automatic].of_step(0), runs[0].of_step(0)),
-      wanted::first_step_over_bvh, "");
+      goal::first_step_over_bvh, "");
   if (cores == 1) return;
-  const bool is_asked = cores == 2 && (played.c.id == "rod-twist" || played.c.id == "kick");
+  const bool is_asked = cores == 2 && (match.c.id == "rod-twist" || match.c.id == "kick");
   for (const auto& [alone, all] :
        {std::pair(std::size_t{0}, bvh_of_all), std::pair(automatic, automatic_of_all)})
     add(fmt::format("{}: one thread over {}", culling(alone), cores),
-        ratio_in_common(sums[alone], sums[all]), wanted_if(is_asked, wanted::two_threads_gain), "");
+        ratio_in_common(sums[alone], sums[all]), goal_if(is_asked, goal::two_threads_gain), "");
 }
 
 }  // namespace
@@ -158,9 +158,9 @@ BenchReport sequences_suite(const BenchSettings& settings, const BenchProgress& 
   // A culling that takes three times as long as another one is no choice, and two rounds suffice to
   // tell how far off it is.
   ComparisonPlan plan{.sweep = {.clock = wall_ns_of, .far_off = 3}, .is_judged = false};
-  plan.on_case = [&](const PlayedCase& played) {
-    find_differences(played, report);
-    add_rows(played, cores, report);
+  plan.on_case = [&](const Match& match) {
+    find_differences(match, report);
+    add_rows(match, cores, report);
   };
   Comparison(subjects, plan, report, progress).run(families);
   for (const auto& file : missing) report.add_no_data("a public sequence", file);

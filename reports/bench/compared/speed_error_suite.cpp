@@ -35,18 +35,19 @@ void add_errors(std::span<const SubjectRow> rows, BenchReport& report) {
       if (row.subject->options.arithmetic == arithmetic) all += row.counts.errors;
     }
     const bool exact = arithmetic == Arithmetic::exact,
-               proved = exact || arithmetic == Arithmetic::bounded;
-    const auto add = [&](const char* label, std::uint64_t count, bool claimed, std::string note) {
+               is_proved = exact || arithmetic == Arithmetic::bounded;
+    const auto add = [&](const char* label, std::uint64_t count, bool is_claimed,
+                         std::string note) {
       report.add(fmt::format("{}, {}", label, name_of(arithmetic)), "",
-                 exactly(static_cast<double>(count)), wanted_if(claimed, at_most(0)),
+                 exactly(static_cast<double>(count)), goal_if(is_claimed, at_most(0)),
                  std::move(note));
     };
     const std::string of = fmt::format("of {} steps, all cullings, all pairs and first", all.steps);
     add("wrong answers", all.missed + all.false_alarms, exact, of);
-    add("free against a contact", all.missed, proved, of);
-    add("missing pairs", all.missing, proved, "");
+    add("free against a contact", all.missed, is_proved, of);
+    add("missing pairs", all.missing, is_proved, "");
     add("spurious pairs", all.spurious, exact, "");
-    add("first times late", all.late.steps, proved, "steps");
+    add("first times late", all.late.steps, is_proved, "steps");
     add("first times late or early", all.late.steps + all.early.steps, exact, "steps");
   }
 }
@@ -73,9 +74,9 @@ void add_ratios(std::span<const FamilyRow> rows, BenchReport& report) {
   const auto name = [](Arithmetic arithmetic, Culling culling) {
     return variant_of(arithmetic, culling, Pairs::all).name;
   };
-  const auto chosen = name(Arithmetic::exact, Culling::automatic);
+  const auto default_name = name(Arithmetic::exact, Culling::automatic);
   for (const auto& row : rows) {
-    if (row.subject != chosen) continue;
+    if (row.subject != default_name) continue;
     const auto over = [&](const std::string& other) {
       return bootstrap_ratio(row.ms, std::find_if(rows.begin(), rows.end(), [&](const auto& one) {
                                        return one.family == row.family && one.subject == other;
@@ -86,13 +87,12 @@ void add_ratios(std::span<const FamilyRow> rows, BenchReport& report) {
     const bool large = row.kind == "scene" || row.kind == "real";
     const double ns = 1e6 * median_of(row.ms).value / static_cast<double>(row.triangles);
     report.add("auto over bvh, " + row.family, "times", *row.over(),
-               wanted_if(large, wanted::view_auto_over_bvh),
-               fmt::format("{:.0f} ns a triangle", ns));
+               goal_if(large, goal::view_auto_over_bvh), fmt::format("{:.0f} ns a triangle", ns));
     report.add("auto over normal-cone, " + row.family, "times",
                over(name(Arithmetic::exact, Culling::normal_cone)));
     report.add("exact over double, auto, " + row.family, "times",
                over(name(Arithmetic::double_precision, Culling::automatic)),
-               wanted_if(large, wanted::exact_over_double));
+               goal_if(large, goal::exact_over_double));
   }
 }
 

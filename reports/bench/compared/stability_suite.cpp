@@ -50,7 +50,7 @@ struct Cell {
 };
 
 // What was found in a family.
-struct Found {
+struct FamilyCells {
   const corpus::HardFamily& family;
   const BenchSubject& subject;
   std::map<int, Cell> cells = {};  // by strength
@@ -71,7 +71,7 @@ struct Found {
 
 // How many answers stay the same under a change, of those cases in which the change is exact.
 struct Survival {
-  std::uint64_t changed = 0, same = 0;
+  std::uint64_t changes = 0, same = 0;
 };
 using Survivals = std::vector<std::vector<Survival>>;  // [change][subject]
 
@@ -87,53 +87,53 @@ std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& pri
 
 // Whether the oracle finds what the case was built for: answer, first time, view signs.
 bool agrees_with_construction(const corpus::Case& c, const oracle::StepJudgement& judgement) {
-  const auto& known = c.expected.steps.front();
+  const auto& step = c.expected.steps.front();
   const auto view = corpus::view_of_step(c, 0);
-  return judgement.answer == known.answer &&
-         (!known.first_time || judgement.first == *known.first_time) &&
-         (!known.view_signs || oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles,
-                                                  {&*view, 1}, 1) == *known.view_signs);
+  return judgement.answer == step.answer &&
+         (!step.first_time || judgement.first == *step.first_time) &&
+         (!step.view_signs || oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles,
+                                                 {&*view, 1}, 1) == *step.view_signs);
 }
 
-Cell cell_of(const PlayedCase& played, std::size_t subject) {
-  const auto& [e, counted, own] = played.verdicts[subject];
-  const auto& result = played.runs[subject].first->steps[0];
+Cell cell_of(const Match& match, std::size_t subject) {
+  const auto& [e, outcome, own] = match.verdicts[subject];
+  const auto& result = match.runs[subject].first->steps[0];
   bool has_all_signs = true, is_wrong = false;
   if (!result.signs.empty()) {
-    const auto signs = signs_from(result.primitives, played.c);
+    const auto signs = signs_from(result.primitives, match.c);
     for (std::size_t t = 0; t < signs.size(); ++t) {
       has_all_signs &= result.signs[t] == signs[t];
       is_wrong |= result.signs[t] != signs[t] && result.signs[t] != ViewSign::zero;
     }
   }
   const bool finds_all = e.undecided + e.missed + e.missing + e.alarming == 0,
-             is_right = finds_all && !(is_wrong && played.c.view),
-             is_exact = is_right && has_all_signs && counted == Outcome::holds,
+             is_right = finds_all && !(is_wrong && match.c.view),
+             is_exact = is_right && has_all_signs && outcome == Outcome::holds,
              is_refuted = is_wrong || own != Outcome::holds;
   Cell cell{
       e, is_right, is_exact, is_refuted, is_wrong, result.counts.narrow.rungs, result.counts.view};
-  if (!is_exact) cell.first_wrong = played.c.id;
-  if (is_refuted) cell.first_refuted = played.c.id;
+  if (!is_exact) cell.first_wrong = match.c.id;
+  if (is_refuted) cell.first_refuted = match.c.id;
   return cell;
 }
 
 // Plays the case in all changes.
-void add_changes(const PlayedCase& played, Survivals& survivals) {
+void add_changes(const Match& match, Survivals& survivals) {
   // Crowds of more triangles than this take long, so they are run as they are and not changed.
   constexpr Eigen::Index most_triangles_changed = 600;
-  if (played.c.triangles.rows() > most_triangles_changed) return;
+  if (match.c.triangles.rows() > most_triangles_changed) return;
   for (std::size_t k = 0; k < survivals.size(); ++k) {
-    auto form = case_changes()[k].second(played.c);
+    auto form = case_changes()[k].second(match.c);
     if (!form) continue;
-    const auto runs = sweep(form->c, played.subjects, {.rounds = 0});
+    const auto runs = sweep(form->c, match.subjects, {.rounds = 0});
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const auto& options = played.subjects[i].configuration.options;
+      const auto& options = match.subjects[i].configuration.options;
       form->same_times = options.arithmetic == Arithmetic::exact;
-      const auto &before = played.runs[i].first->steps[0], &after = runs[i].first->steps[0];
+      const auto &before = match.runs[i].first->steps[0], &after = runs[i].first->steps[0];
       const bool are_refused = before.problem && after.problem;
       const bool is_same =
           are_refused || properties::difference_in_form(before, *form, after).empty();
-      ++survivals[k][i].changed;
+      ++survivals[k][i].changes;
       survivals[k][i].same += is_same ? 1 : 0;
     }
   }
@@ -145,20 +145,19 @@ double percent(std::uint64_t part, std::uint64_t whole) {
 
 Estimate number(std::uint64_t count) { return exactly(static_cast<double>(count)); }
 
-std::string break_text(const Found& found) {
-  const auto& family = found.family;
+std::string break_text(const FamilyCells& row) {
+  const auto& family = row.family;
   const auto knob = [&](int strength) {
     if (family.touches(strength)) return std::string("0 (touching)");
     return fmt::format("2^{}{}{}", family.exponent(strength), family.unit.empty() ? "" : " ",
                        family.unit);
   };
-  const auto at = found.breaks_at();
-  if (at == found.cells.end())
+  const auto at = row.breaks_at();
+  if (at == row.cells.end())
     return fmt::format("never wrong, {} to {}", family.knob, knob(family.last_strength()));
   const auto text = fmt::format("{} {}", family.knob, knob(at->first));
-  return at == found.cells.begin()
-             ? "wrong at once, " + text
-             : fmt::format("{}, right at {}", text, knob(std::prev(at)->first));
+  return at == row.cells.begin() ? "wrong at once, " + text
+                                 : fmt::format("{}, right at {}", text, knob(std::prev(at)->first));
 }
 
 // How far first times are off, at most and at the median.
@@ -169,34 +168,34 @@ std::string time_text(const char* side, const properties::TimesOff& off) {
       off.steps, off.worst_share, off.worst_ulps, off.quantile(0.5));
 }
 
-nlohmann::ordered_json json_of(const Found& found, int strength, const Cell& cell) {
-  const auto& family = found.family;
+nlohmann::ordered_json json_of(const FamilyCells& row, int strength, const Cell& cell) {
+  const auto& family = row.family;
   const auto exponent =
       family.touches(strength) ? std::nullopt : std::optional(family.exponent(strength));
   const auto knob =
       fmt::format("{}{}{}", family.knob, family.unit.empty() ? "" : ", ", family.unit);
   const auto cases = cell.errors.steps;
-  return json_object("family", family.name, "arithmetic", found.subject.name, "strength", strength,
+  return json_object("family", family.name, "arithmetic", row.subject.name, "strength", strength,
                      "exponent", exponent, "knob", knob, "cases", cases, "right", cell.right,
                      "share_right", static_cast<double>(cell.right) / static_cast<double>(cases),
                      "exactly_right", cell.exactly_right, "wrong_signs", cell.wrong_signs, "errors",
                      cell.errors);
 }
 
-void add_family_rows(const Found& found, BenchReport& report) {
-  const auto all = found.total();
+void add_family_rows(const FamilyCells& row, BenchReport& report) {
+  const auto all = row.total();
   const auto& e = all.errors;
-  const auto label = found.label();
+  const auto label = row.label();
   const auto note = fmt::format(
       "breaks: {}; of {} steps {} unsafe ({} missed, {} late), {} alarming, {} wrong V+ or V-{}{}",
-      break_text(found), e.steps, e.unsafe, e.missed, e.late.steps, e.alarming, all.wrong_signs,
+      break_text(row), e.steps, e.unsafe, e.missed, e.late.steps, e.alarming, all.wrong_signs,
       time_text("late", e.late), time_text("early", e.early));
-  if (found.arithmetic() == Arithmetic::exact) {
+  if (row.arithmetic() == Arithmetic::exact) {
     report.add(label + ": wrong", "steps", number(e.steps - all.exactly_right), at_most(0), note);
     if (!all.first_wrong.empty())
       report.wrong_answers.push_back(label + ": first wrong in " + all.first_wrong);
   } else {
-    if (found.arithmetic() == Arithmetic::bounded) {
+    if (row.arithmetic() == Arithmetic::bounded) {
       report.add(label + ": missed, late, wrong V+ or V-", "steps", number(all.refuted),
                  at_most(0));
       if (!all.first_refuted.empty())
@@ -204,29 +203,28 @@ void add_family_rows(const Found& found, BenchReport& report) {
     }
     report.add(label + ": right", "%", exactly(percent(all.right, e.steps)), {}, note);
   }
-  for (const auto& [strength, cell] : found.cells) {
-    report.figures["heat"].push_back(json_of(found, strength, cell));
+  for (const auto& [strength, cell] : row.cells) {
+    report.figures["heat"].push_back(json_of(row, strength, cell));
     report.add_sample(report.figures["heat"].back());
   }
 }
 
 // Adds which rung settled the elementary tests and the view tests of one family.
-void add_rung_rows(const Found& found, BenchReport& report) {
-  if (found.arithmetic() != Arithmetic::exact && found.arithmetic() != Arithmetic::bounded) return;
-  const auto all = found.total();
+void add_rung_rows(const FamilyCells& row, BenchReport& report) {
+  if (row.arithmetic() != Arithmetic::exact && row.arithmetic() != Arithmetic::bounded) return;
+  const auto all = row.total();
   const auto& r = all.rungs;
   const auto share = [&](std::uint64_t n) { return percent(n, r.total()); };
   if (r.total() > 0) {
     report.add(
-        found.label() + ": elementary tests settled by the filter", "%", exactly(share(r.filter)),
-        {},
+        row.label() + ": elementary tests settled by the filter", "%", exactly(share(r.filter)), {},
         fmt::format("of {}; axis {:.1f} %, fixed {:.1f} %, unbounded {:.1f} %, left open {:.1f} %",
                     r.total(), share(r.axis), share(r.fixed), share(r.unbounded), share(r.open)));
   }
   const auto& v = all.views;
   const auto views = v.lanes + v.filter + v.exact + v.open;
   if (views > 0) {
-    report.add(found.label() + ": view tests settled by lanes or filter", "%",
+    report.add(row.label() + ": view tests settled by lanes or filter", "%",
                exactly(percent(v.lanes + v.filter, views)), {},
                fmt::format("of {}; integers {:.1f} %, left open {:.1f} %", views,
                            percent(v.exact, views), percent(v.open, views)));
@@ -237,14 +235,14 @@ void add_survival_rows(const std::vector<BenchSubject>& subjects, const Survival
                        BenchReport& report) {
   for (std::size_t k = 0; k < survivals.size(); ++k) {
     for (std::size_t i = 0; i < subjects.size(); ++i) {
-      const auto& [changed, same] = survivals[k][i];
+      const auto& [changes, same] = survivals[k][i];
       const bool must = subjects[i].options.arithmetic == Arithmetic::exact;
       const auto label =
           fmt::format("answers that survive {}, {}", case_changes()[k].first, subjects[i].name);
       report.add(
-          label, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
-          fmt::format("{} of {} changed steps{}", same, changed, must ? ", times included" : ""));
-      if (must && same < changed) report.wrong_answers.push_back(label + ": not all");
+          label, "%", exactly(percent(same, changes)), goal_if(must, at_least(100)),
+          fmt::format("{} of {} changed steps{}", same, changes, must ? ", times included" : ""));
+      if (must && same < changes) report.wrong_answers.push_back(label + ": not all");
     }
   }
 }
@@ -263,12 +261,12 @@ bool takes_strength(const corpus::HardFamily& family, int strength, const BenchS
 CaseFamily cases_at(const corpus::HardFamily& family, int strength, bool is_quick) {
   const int rounds = family.touches(strength) ? (is_quick ? 2 : 10) : (is_quick ? 1 : 2);
   return {std::string(family.name), "hard", 0, [&family, strength, rounds] {
-            std::vector<TimedCase> cases;
+            std::vector<BenchCase> cases;
             for (int v = 0; v < rounds * family.kinds_at(strength); ++v) {
-              auto& timed = cases.emplace_back();
-              timed.c = corpus::hard_case(family, strength, v);
-              if (timed.c.options.contains("culling"))
-                timed.culling = properties::options_of(timed.c).culling;
+              auto& entry = cases.emplace_back();
+              entry.c = corpus::hard_case(family, strength, v);
+              if (entry.c.options.contains("culling"))
+                entry.culling = properties::options_of(entry.c).culling;
             }
             return cases;
           }};
@@ -289,40 +287,40 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
                          const BenchProgress& progress) {
   BenchReport report{"stability"}, of_comparison;
-  std::vector<std::vector<Found>> all;  // [family][subject]
+  std::vector<std::vector<FamilyCells>> all;  // [family][subject]
   Survivals survivals(case_changes().size(), std::vector<Survival>(subjects.size()));
   int strength = 0;
   ComparisonPlan plan;
-  plan.on_case = [&](const PlayedCase& played) {
+  plan.on_case = [&](const Match& match) {
     for (std::size_t i = 0; i < subjects.size(); ++i)
-      all.back()[i].cells[strength] += cell_of(played, i);
-    add_changes(played, survivals);
-    if (!agrees_with_construction(played.c, played.truth[0]))
-      report.wrong_answers.push_back(played.c.id +
+      all.back()[i].cells[strength] += cell_of(match, i);
+    add_changes(match, survivals);
+    if (!agrees_with_construction(match.c, match.truth[0]))
+      report.wrong_answers.push_back(match.c.id +
                                      ": the oracle finds another answer than it was built for");
   };
   Comparison comparison(subjects, plan, of_comparison, progress);
   for (const auto& family : families) {
-    auto& found = all.emplace_back();
-    for (const auto& subject : subjects) found.push_back({family, subject});
+    auto& row = all.emplace_back();
+    for (const auto& subject : subjects) row.push_back({family, subject});
     for (strength = 0; strength <= family.last_strength(); ++strength) {
       if (takes_strength(family, strength, settings))
         comparison.run({cases_at(family, strength, settings.is_quick())});
     }
-    for (const auto& of_subject : found) add_family_rows(of_subject, report);
+    for (const auto& of_subject : row) add_family_rows(of_subject, report);
   }
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     std::vector<std::string_view> never_wrong;
-    for (const auto& found : all) {
-      if (found[i].breaks_at() == found[i].cells.end()) never_wrong.push_back(found[i].family.name);
+    for (const auto& row : all) {
+      if (row[i].breaks_at() == row[i].cells.end()) never_wrong.push_back(row[i].family.name);
     }
     report.add("families in which " + subjects[i].name + " is never wrong", "",
                number(never_wrong.size()), {},
                fmt::format("of {}: {}", all.size(), fmt::join(never_wrong, ", ")));
   }
   add_survival_rows(subjects, survivals, report);
-  for (const auto& found : all) {
-    for (const auto& of_subject : found) add_rung_rows(of_subject, report);
+  for (const auto& row : all) {
+    for (const auto& of_subject : row) add_rung_rows(of_subject, report);
   }
   return report;
 }
@@ -375,7 +373,7 @@ std::optional<Form> translated(const corpus::Case& c) {
     const double unit = std::ldexp(1, exponent);
     if (unit == 0) break;
     const detector::Point by = {3 * sign[0] * unit, sign[1] * unit, 5 * sign[2] * unit};
-    if (const auto moved = properties::translated(c, by)) return in_order(moved);
+    if (const auto copy = properties::translated(c, by)) return in_order(copy);
   }
   return std::nullopt;
 }

@@ -32,9 +32,10 @@ std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading
   const auto starred = [&](std::uint64_t count, const ShareOfSteps& share) {
     return text(count) + (share.on_pareto_line ? " *" : subject.is_here ? "  " : "");
   };
-  const auto asked = [&](std::uint64_t count, const std::string& words) {
-    return count == 0 || subject.counted.has(properties::Claim::free_sound) ? words
-                                                                            : "(" + words + ")";
+  const auto words_of = [&](std::uint64_t count, const std::string& words) {
+    return count == 0 || subject.error_claims.has(properties::Claim::free_sound)
+               ? words
+               : "(" + words + ")";
   };
   const auto answers = [&](const char* what, const char* mark, const char* otherwise) {
     return row.answers.find(what) != std::string::npos ? mark : otherwise;
@@ -48,9 +49,9 @@ std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading
       {Of::both,
        {"time", -19,
         row.over ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", over.value, over.lo, over.hi) : "-"}},
-      {Of::both, {"unsafe", 9, asked(e.unsafe, starred(e.unsafe, row.unsafe))}},
+      {Of::both, {"unsafe", 9, words_of(e.unsafe, starred(e.unsafe, row.unsafe))}},
       {Of::here, {"alarming", 9, starred(e.alarming, row.alarming)}},
-      {Of::both, {"missed", 7, asked(e.missed, text(e.missed))}},
+      {Of::both, {"missed", 7, words_of(e.missed, text(e.missed))}},
       {Of::both, {"alarms", 7, text(e.false_alarms)}},
       {Of::here, {"missing", 8, text(e.missing)}},
       {Of::here, {"spurious", 9, text(e.spurious)}},
@@ -64,11 +65,11 @@ std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading
       {Of::workers, {"create", 7, row.create_over ? fmt::format("{:.2g}", *row.create_over) : "-"}},
       {Of::workers,
        {"bytes", 6, row.bytes_a_triangle ? fmt::format("{:.0f}", *row.bytes_a_triangle) : "-"}}};
-  std::vector<Column> shown;
+  std::vector<Column> columns;
   for (const auto& [of, column] : all) {
-    if (of != (has_workers ? Of::here : Of::workers)) shown.push_back(column);
+    if (of != (has_workers ? Of::here : Of::workers)) columns.push_back(column);
   }
-  return shown;
+  return columns;
 }
 
 }  // namespace
@@ -150,7 +151,7 @@ Json json_of(const FamilyRow& f) {
                      "create_over_reference", f.create_over(), "cases", f.cases, "cases_timed",
                      f.cases_timed, "slow", f.counts.slow, "ended_early", f.counts.ended,
                      "first_end", f.first_end.empty() ? std::nullopt : std::optional(f.first_end),
-                     "broken", f.broken, "counts", json_of(f.counts));
+                     "broken", f.breaches, "counts", json_of(f.counts));
 }
 
 }  // namespace

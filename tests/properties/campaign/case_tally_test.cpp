@@ -21,7 +21,7 @@ class FormCheckOf {
 
   FormCheck operator()(std::string_view law, const corpus::Case& c) {
     auto worker = request_.process();
-    const auto seen = contracted(c, request_.detector.contract).value();
+    const auto seen = contract_case(c, request_.detector.contract).value();
     const auto run = worker.run(seen, request_.detector.configurations).front();
     return check_in_form(*law_named(law), seen, run, request_.detector, worker);
   }
@@ -229,7 +229,7 @@ TEST(LawChecks, AnExitIsACrashToo) {
   for (const int code : {0, 3}) {
     const auto tallies = checks_with(3, 2, [&] { std::_Exit(code); });
     ASSERT_EQ(tallies.size(), 3u);
-    EXPECT_EQ(tallies[2].broken, 1u);
+    EXPECT_EQ(tallies[2].broken_steps, 1u);
     EXPECT_TRUE(says(tallies[2].first_broken, "exited with code " + std::to_string(code)));
   }
 }

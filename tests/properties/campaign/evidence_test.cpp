@@ -61,7 +61,7 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   EXPECT_EQ(facts.faults.at(0).status, FaultStatus::open);
   expect_survives(PowerSource{"smoke", "built-in", 3, "p", "w", "g", "r"}, &EvidenceFacts::power);
   expect_survives(World{"square-2", 3, 4, 5, 1, false, "pairs differ"}, &EvidenceFacts::worlds);
-  expect_survives(Asked{{"harness", "speed"}, true}, &EvidenceFacts::asked);
+  expect_survives(VerbRequest{{"harness", "speed"}, true}, &EvidenceFacts::request);
   expect_survives(Versions{"0.2.0", std::nullopt, "CGAL 5.5.1", "c"}, &EvidenceFacts::versions);
   JudgedSource judged{Source::own, "input", "bvh", 1, 2, 3, 4, 5, 6, 7, 8, false};
   judged.failed = {{"A1", "s", "w"}};
@@ -73,7 +73,7 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_survives(judged, &EvidenceFacts::sources);
   const SpeedFigure figure{"exact-over-double", 1.25, 1, 1.5, {1, 1.5}};
   expect_survives(figure, &EvidenceFacts::speed);
-  expect_survives(Issued{"out", "lib.so", "", "", "2026-01-31T12:00:00Z", 4.5},
+  expect_survives(Issuance{"out", "lib.so", "", "", "2026-01-31T12:00:00Z", 4.5},
                   &EvidenceFacts::issued);
 }
 
@@ -92,7 +92,7 @@ TEST(Evidence, WhatNoRunStoresIsRefused) {
 
 TEST(Evidence, AFaultIsFoundByItsCuratedCaseOrByARandomOne) {
   const auto found = [](bool curated, std::vector<std::optional<std::uint64_t>> needed) {
-    return fault_proof("x", FaultStatus::planted, curated, std::move(needed)).found();
+    return fault_proof("x", FaultStatus::planted, curated, std::move(needed)).is_found();
   };
   EXPECT_TRUE(found(true, {std::nullopt, std::nullopt}));
   EXPECT_TRUE(found(false, {7, std::nullopt}));
@@ -218,7 +218,7 @@ TEST(Records, SurviveTheirRows) {
   small.id = "q:1:broken:0";
   small.outcomes = "H";
   EXPECT_EQ(to_row(small).fields, R"({"outcomes":"H"})");
-  const StoredFailure failure{Source::own,    "A1",     "bvh",    "L3_X", "all-pairs",
+  const FailureRecord failure{Source::own,    "A1",     "bvh",    "L3_X", "all-pairs",
                               "missing pair", "t at 0", "what",   "m",    "small",
                               "of it",        true,     "printed"};
   const auto kept = to_row(failure);

@@ -14,16 +14,16 @@ using test::failure, test::forget, test::good_findings, test::good_tally;
 using Change = std::function<void(RunFindings&)>;
 
 Judgement judged_after(const std::vector<Change>& changes,
-                       const Asked& asked = asked_of_a_certificate()) {
+                       const VerbRequest& asked = asked_of_a_certificate()) {
   auto findings = good_findings();
   for (const auto& change : changes) change(findings);
   return judge(findings, asked);
 }
 
 void expect(const Judgement& judgement, Gate gate, const char* word, int code) {
-  ASSERT_TRUE(judgement.failed) << judgement.verdict;
-  EXPECT_EQ(rule_of(*judgement.failed).name, rule_of(gate).name)
-      << judgement.of(*judgement.failed).reasons[0];
+  ASSERT_TRUE(judgement.failed_gate) << judgement.verdict;
+  EXPECT_EQ(rule_of(*judgement.failed_gate).name, rule_of(gate).name)
+      << judgement.of(*judgement.failed_gate).reasons[0];
   EXPECT_EQ(judgement.verdict, word);
   EXPECT_EQ(judgement.exit_code, code);
 }
@@ -37,7 +37,7 @@ void expect_incomplete(const Judgement& judgement, const std::string& reason) {
 void expect_certified(const std::vector<Change>& changes) {
   const auto judgement = judged_after(changes);
   EXPECT_EQ(judgement.verdict, "certified");
-  if (judgement.failed) ADD_FAILURE() << judgement.of(*judgement.failed).reasons[0];
+  if (judgement.failed_gate) ADD_FAILURE() << judgement.of(*judgement.failed_gate).reasons[0];
 }
 
 // A defect of a trial with the failure that is stored of it.
@@ -82,7 +82,7 @@ TEST(Gates, AllHoldOnAGoodRun) {
   }
   EXPECT_EQ(judgement.verdict, "certified");
   EXPECT_EQ(judgement.exit_code, 0);
-  EXPECT_FALSE(judgement.failed);
+  EXPECT_FALSE(judgement.failed_gate);
 }
 
 TEST(Gates, WhatWasNotAskedForIsNotJudged) {
@@ -100,7 +100,7 @@ TEST(Gates, WhatWasNotAskedForIsNotJudged) {
   // Nor does a run owe what only `certify` does.
   EXPECT_EQ(judged_after({[](auto& f) { forget(f, Source::self_test); }}, asked_of_a_run()).verdict,
             "holds");
-  const auto nothing = judged_after({[](auto& f) { add_defect(f); }}, Asked{});
+  const auto nothing = judged_after({[](auto& f) { add_defect(f); }}, VerbRequest{});
   EXPECT_EQ(nothing.verdict, "not judged");
   EXPECT_EQ(nothing.exit_code, 0);
 }
@@ -396,7 +396,7 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   expect_certified({plug_in, claims_total, contacts(0, 0)});
   const Change void_pairs = [](auto& f) {
     f.run.detector.configurations[0].claims = {"all-pairs", "total"};
-    f.run.detector.contract.reports = Reported::no_pairs;
+    f.run.detector.contract.reports = PairReporting::no_pairs;
   };
   expect_certified({plug_in, void_pairs, contacts(0, 0)});
   // But some claim has to be judged: one whose every interval says nothing of the time is none.
@@ -536,7 +536,7 @@ TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
 // No store can have a certificate issued with a gate left out.
 TEST(Gates, ACertificateAsksForEveryGate) {
   const auto judgement =
-      judged_after({[](auto& f) { forget(f, Source::corpus); }}, Asked{{"harness"}, true});
+      judged_after({[](auto& f) { forget(f, Source::corpus); }}, VerbRequest{{"harness"}, true});
   for (const auto& result : judgement.gates) {
     if (result.gate == Gate::corpus) continue;
     EXPECT_NE(result.state, GateState::not_judged) << rule_of(result.gate).name;

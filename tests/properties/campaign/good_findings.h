@@ -22,7 +22,7 @@ inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool 
 }
 
 // Of a trial, or of the corpus. The signature is "law L3_X, claim: kind, contact", or a part of it.
-inline StoredFailure failure(const std::string& signature,
+inline FailureRecord failure(const std::string& signature,
                              const std::string& id = "tiny:1:broken:3") {
   static const std::regex form("(?:law ([^,]*)(?:, |$))?([^:]*)(?:: ([^,]*))?(?:, (.*))?");
   const std::string of_corpus = "corpus/";

@@ -18,7 +18,7 @@ constexpr std::uint64_t peer_cases_a_family = 80;
 struct JudgedPeer {
   Counts outcomes;                     // "H", "D", ...
   std::uint64_t everyday_defects = 0;  // trials of the two families of everyday numbers
-  std::vector<StoredFailure> failures;
+  std::vector<FailureRecord> failures;
   Counts met;
   DetectorUnderTest detector;
   std::filesystem::path library;
@@ -87,7 +87,7 @@ class Peers : public testing::Test {
     const auto& detector = request.detector;
     const auto c =
         corpus::read_case(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes/" + mesh + ".json");
-    const auto seen = contracted(c.value(), detector.contract);
+    const auto seen = contract_case(c.value(), detector.contract);
     if (!seen) throw std::runtime_error(mesh + " is not within the contract of " + name);
     WorkerProcess worker(ASSAY_WORKER, library_of(name), {.seconds = 20});
     const auto failure =
@@ -117,7 +117,7 @@ class Peers : public testing::Test {
         for (const auto& frame : c.frames) {
           EXPECT_EQ(beyond_range(frame, edges_of(c), contract), "") << failure.id();
           if (contract.coordinates != Coordinates::float32) continue;
-          EXPECT_EQ(frame, contracted(frame, Coordinates::float32)) << failure.id();
+          EXPECT_EQ(frame, round_to(frame, Coordinates::float32)) << failure.id();
         }
       }
     }

@@ -26,13 +26,13 @@ class Noted : public CampaignObserver {
     trials = end;
     until_trials_ended = std::chrono::duration<double>(Clock::now() - begin).count();
   }
-  void on_failures_shrunk(const KeptFailures& kept) override { failures = kept.list; }
+  void on_failures_shrunk(const FailureList& kept) override { failures = kept.list; }
 
   const Clock::time_point begin = Clock::now();
   double until_trials_ended = 0;
   std::vector<std::string> phases;
   TrialsEnd trials;
-  std::vector<StoredFailure> failures;
+  std::vector<FailureRecord> failures;
 };
 
 class Phases : public testing::Test {
@@ -67,7 +67,7 @@ TEST_F(Phases, TrialsHaveTheTimeWhileSomeAreMissing) {
   // There is time to shrink what they showed, a little, where the machine does not stand still.
   const bool stalled = noted.failures.empty() || noted.until_trials_ended > 1.1 * seconds;
   EXPECT_TRUE(stalled || std::any_of(noted.failures.begin(), noted.failures.end(),
-                                     [](const StoredFailure& f) { return !f.smallest.empty(); }));
+                                     [](const FailureRecord& f) { return !f.smallest.empty(); }));
 }
 
 TEST_F(Phases, OnceTheTrialsAreDoneEverythingElseIs) {

@@ -116,7 +116,7 @@ TEST(NotJudged, NamesWhatTheContractOrTheTimesMakeVoid) {
   EXPECT_EQ(names(counts), (Names{"first-time", "no-spurious"}));
   detector.contract.adjacency = Adjacency::no_shared_vertex;
   EXPECT_EQ(names(counts), Names{"first-time"});
-  detector.contract = {.reports = Reported::no_pairs};
+  detector.contract = {.reports = PairReporting::no_pairs};
   EXPECT_EQ(names(counts), Names{"first-pairs"});
   detector.contract = {};
   count_collision(0, 0, {0, 1}, counts);

@@ -42,13 +42,13 @@ class Stores : public testing::Test {
   static void expect_no_read(const std::string& path, std::string_view words) {
     expect_refused(Store::read(path), path, words);
   }
-  static StoredFailure failure(const std::string& id, const std::string& signature) {
-    StoredFailure failure{.case_id = id, .configuration = "view-point", .claim = signature};
+  static FailureRecord failure(const std::string& id, const std::string& signature) {
+    FailureRecord failure{.case_id = id, .configuration = "view-point", .claim = signature};
     failure.mesh = "mesh of " + id;
     return failure;
   }
   // A failure of trial i whose mesh is not kept.
-  static StoredFailure met(std::uint64_t i, const std::string& configuration,
+  static FailureRecord met(std::uint64_t i, const std::string& configuration,
                            const std::string& signature) {
     return {.case_id = record(i).id, .configuration = configuration, .claim = signature};
   }
@@ -410,9 +410,9 @@ TEST_F(FailingStore, IsAValueForWhoeverKeepsARow) {
   const auto request = test::request_of(4);
   auto opened = Store::open(store_file(scratch / ""), binding_of(request));
   ASSERT_TRUE(opened) << opened.error().message;
-  ASSERT_TRUE(opened.value().keep(to_row(Issued{"out"})));
+  ASSERT_TRUE(opened.value().keep(to_row(Issuance{"out"})));
   drop_table(store_file(scratch / ""));
-  const auto kept = opened.value().keep(to_row(Issued{"out"}));
+  const auto kept = opened.value().keep(to_row(Issuance{"out"}));
   ASSERT_FALSE(kept);
   EXPECT_TRUE(says(kept.error(), "no such table: ledger"));
 }

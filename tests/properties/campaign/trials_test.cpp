@@ -72,13 +72,13 @@ TEST_F(Trials, GoOnWhereARunEnded) {
   TrialProgress last;
   const auto whole = run_trials(request, store, in_ten_minutes(), [&](const TrialProgress& p) {
     ++calls;
-    EXPECT_GT(p.done, last.done);
+    EXPECT_GT(p.done_trials, last.done_trials);
     last = p;
   });
   EXPECT_TRUE(whole.complete);
   EXPECT_EQ(whole.trials, 12u);
   EXPECT_EQ(calls, 12u);
-  EXPECT_EQ(last.done, last.planned);
+  EXPECT_EQ(last.done_trials, last.quota);
   EXPECT_EQ(last.defects, 0u);
   const auto again = run_trials(request, store, in_ten_minutes(), {});
   EXPECT_TRUE(again.complete);
@@ -259,7 +259,7 @@ TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
   const auto judge =
       judge_of_detector(request.detector, request.detector.configurations[0], worker);
   using Shown = std::pair<int, bool>;  // vertices shared, in the first thousandth of the step
-  const auto shown_by = [&](const std::string& text) {
+  const auto sign_of = [&](const std::string& text) {
     const auto c = corpus::parse_case(text, "failure").value();
     const auto finding = judge(c);
     EXPECT_TRUE(finding && finding->focus.size() == 2);
@@ -273,8 +273,8 @@ TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
   std::array<int, 3> kinds{};
   for (const auto& failure : store.failures()) {
     if (failure.smallest.empty()) continue;
-    const Shown whole = shown_by(failure.mesh);
-    EXPECT_EQ(shown_by(failure.smallest), whole) << failure.signature();
+    const Shown whole = sign_of(failure.mesh);
+    EXPECT_EQ(sign_of(failure.smallest), whole) << failure.signature();
     ++kinds[static_cast<std::size_t>(std::clamp(whole.first, 0, 2))];
   }
   for (const int kind : kinds) EXPECT_GT(kind, 0) << kinds[0] << ' ' << kinds[1] << ' ' << kinds[2];

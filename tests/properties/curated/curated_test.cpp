@@ -15,9 +15,9 @@ namespace {
 
 class Curated : public testing::TestWithParam<std::filesystem::path> {};
 
-std::string lines(const CheckedCase& report) {
+std::string lines(const CaseCheck& report) {
   std::string out;
-  for (const auto& line : report.failed) out += "  " + line + "\n";
+  for (const auto& line : report.broken_facts) out += "  " + line + "\n";
   return out;
 }
 
@@ -26,12 +26,12 @@ TEST_P(Curated, Holds) {
   ASSERT_TRUE(c.has_value()) << c.error().message;
   ASSERT_FALSE(c.value().expected.steps.empty()) << "a case without facts checks nothing";
   const auto report = check_case(c.value());
-  EXPECT_TRUE(report.failed.empty()) << lines(report);
+  EXPECT_TRUE(report.broken_facts.empty()) << lines(report);
   for (const auto culling :
        {detector::Culling::view_auto, detector::Culling::view_point, detector::Culling::view_line,
         detector::Culling::normal_cone, detector::Culling::bvh, detector::Culling::none}) {
     const auto other = check_case(c.value(), culling);
-    EXPECT_TRUE(other.failed.empty()) << name_of(culling) << ":\n" << lines(other);
+    EXPECT_TRUE(other.broken_facts.empty()) << name_of(culling) << ":\n" << lines(other);
   }
   std::string pending;
   const auto facts = nlohmann::json::parse(c.value().pending);

@@ -145,8 +145,8 @@ TEST(ArithmeticSteps, CuratedCases) {
            {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
         const auto report = check_case(c, culling, 1, arithmetic);
         std::string lines;
-        for (const auto& line : report.failed) lines += line + "\n";
-        EXPECT_TRUE(report.failed.empty())
+        for (const auto& line : report.broken_facts) lines += line + "\n";
+        EXPECT_TRUE(report.broken_facts.empty())
             << c.id << ", " << name_of(culling) << ", " << name_of(arithmetic) << ": " << lines;
         for (const auto& diff : report.verdicts[0].steps) {
           wrong_steps[arithmetic] +=

@@ -38,7 +38,7 @@ detector::Positions judge_one(detector::Detector& detector, const corpus::Case& 
   StepDiff diff;
   judge_limit(LimitAnswer{limit.share, limit.positions}, {motion, c.triangles, options}, truth,
               claims_on_limits, contract, diff);
-  for (const auto claim : diff.broken) ADD_FAILURE() << name_of(claim) << ": " << c.id;
+  for (const auto claim : diff.breaches) ADD_FAILURE() << name_of(claim) << ": " << c.id;
   diff.oracle_complete = true;
   tally.use += errors_of(diff).limits;
   ++tally.steps;
@@ -50,7 +50,7 @@ void print(const LimitTally& tally) {
   fmt::print(
       "{} steps: {} free, {} with a contact ahead; used {:.4f} in the median, {:.4f} in 99 of 100, "
       "{:.4f} at worst; {} stalls\n",
-      tally.steps, use.free, use.contact, use.used(0.5), use.used(0.01), use.used(0),
+      tally.steps, use.free, use.contact, use.share(0.5), use.share(0.01), use.share(0),
       use.stalled());
   for (const auto& [cause, count] : use.stalls)
     fmt::print("  stalled {} times: {}\n", count, cause);

@@ -58,7 +58,7 @@ TEST(Generators, TenFamiliesWithNames) {
   for (const auto& family : families()) {
     ++names[family.name];
     EXPECT_FALSE(family.about.empty());
-    EXPECT_EQ(family.closed, family.name.starts_with("closed"));
+    EXPECT_EQ(family.is_closed, family.name.starts_with("closed"));
   }
   EXPECT_EQ(names.size(), 10u);
 }
@@ -79,7 +79,7 @@ TEST(Generators, EveryCaseIsValidInputAndHasATextThatReadsBack) {
       ASSERT_GE(made.c.triangles.rows(), 1);
       ASSERT_LE(made.c.triangles.rows(), 220);
       const bool cycle = oracle::boundary_loops(made.c.triangles).empty();
-      ASSERT_TRUE(cycle || !family.closed);
+      ASSERT_TRUE(cycle || !family.is_closed);
       ASSERT_FALSE(cycle && family.name.starts_with("unclosed"));
       ASSERT_TRUE(made.c.options.empty());
       const auto text = corpus::case_text(made.c);

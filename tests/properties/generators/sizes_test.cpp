@@ -17,11 +17,11 @@ namespace {
 
 constexpr int shape_count = 10;
 
-GeneratedCase made_by(const Family& family, int index) {
+RandomCase made_by(const Family& family, int index) {
   return make_case(family, "test:1:" + std::string(family.name) + ":" + std::to_string(index));
 }
 
-std::string shape_of(const GeneratedCase& made) {
+std::string shape_of(const RandomCase& made) {
   for (const auto& tag : made.tags) {
     if (tag.starts_with("large:")) return tag.substr(6);
   }

@@ -95,7 +95,7 @@ TEST(Claims, FollowTheArithmetic) {
 TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
   const auto diff = judged(answer(Answer::free), truth({pair_at(3, 4, .5)}));
   EXPECT_EQ(diff.outcome, Outcome::defect);
-  EXPECT_EQ(diff.broken, (List{Claim::free_sound, Claim::first_pairs, Claim::all_pairs}));
+  EXPECT_EQ(diff.breaches, (List{Claim::free_sound, Claim::first_pairs, Claim::all_pairs}));
   // A detector that promises nothing about `free` has broken nothing.
   EXPECT_EQ(judged(answer(Answer::free), truth({pair_at(3, 4, .5)}), {Claim::first_time}).outcome,
             Outcome::holds);
@@ -120,12 +120,12 @@ TEST(Claims, ARefusalBeyondTheCapacityBreaksNothing) {
   for (const auto& [contract, is_beyond] : rows) {
     const auto diff = diff_of_refusal(judgement, claimable, contract, mesh());
     EXPECT_EQ(diff.outcome, is_beyond ? Outcome::refused : Outcome::defect);
-    EXPECT_EQ(diff.broken, is_beyond ? List{} : List{Claim::total});
+    EXPECT_EQ(diff.breaches, is_beyond ? List{} : List{Claim::total});
     // Without the claim total a refusal breaks nothing, and answers nothing.
     EXPECT_EQ(diff_of_refusal(judgement, {Claim::free_sound}, contract, mesh()).outcome,
               is_beyond ? Outcome::refused : Outcome::error);
     // An answer is judged, whatever the capacity: silence is no refusal.
-    EXPECT_EQ(judged(answer(Answer::free), judgement, claimable, contract).broken.front(),
+    EXPECT_EQ(judged(answer(Answer::free), judgement, claimable, contract).breaches.front(),
               Claim::free_sound);
   }
   // Pairs that the contract leaves out fill no buffer.
@@ -139,7 +139,7 @@ TEST(Claims, ARefusalBeyondTheCapacityBreaksNothing) {
 
 TEST(Claims, CollisionAgainstNoneIsSpurious) {
   const auto alarm = collision({0, 0}, {pair_at(3, 4, 0)});
-  EXPECT_EQ(judged(alarm, truth({})).broken, List{Claim::no_spurious});
+  EXPECT_EQ(judged(alarm, truth({})).breaches, List{Claim::no_spurious});
   const Claims others = {Claim::free_sound, Claim::not_late, Claim::first_time};
   EXPECT_EQ(judged(alarm, truth({})).outcome, Outcome::defect);
   EXPECT_EQ(judged(alarm, truth({}), others).outcome, Outcome::holds);
@@ -165,16 +165,16 @@ TEST(Claims, ASlackExcusesWhatComesWithinIt) {
   };
   const auto near_miss = within({}), near = within({pair_at(3, 4, .5)});
   const auto broken_by = [&](const oracle::StepJudgement& step, double t) {
-    return judged(collision({t, t}, {pair_at(3, 4, t)}), step, claimable, slack).broken;
+    return judged(collision({t, t}, {pair_at(3, 4, t)}), step, claimable, slack).breaches;
   };
   EXPECT_EQ(broken_by(near_miss, .25), List{});
   EXPECT_EQ(broken_by(near_miss, .75), List{});
   EXPECT_EQ(broken_by(near_miss, .125), List{Claim::no_spurious});  // before it is within the slack
   EXPECT_EQ(broken_by(near, .25), List{});
   EXPECT_EQ(broken_by(near, .75), (List{Claim::not_late, Claim::all_pairs}));
-  EXPECT_EQ(judged(answer(Answer::free), near_miss, claimable, slack).broken, List{});
+  EXPECT_EQ(judged(answer(Answer::free), near_miss, claimable, slack).breaches, List{});
   // Pairs have their right times here, and the first time is before them all.
-  EXPECT_EQ(judged(collision({.125, .125}, {pair_at(3, 4, .25)}), near, claimable, slack).broken,
+  EXPECT_EQ(judged(collision({.125, .125}, {pair_at(3, 4, .25)}), near, claimable, slack).breaches,
             List{Claim::no_spurious});
   auto nowhere = near_miss;
   nowhere.within_slack.emplace();
@@ -185,7 +185,7 @@ TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   const double half_up = std::nextafter(.5, 1);
   const auto step = truth({pair_at(3, 4, .5, half_up)});  // strictly between the two
   const auto broken_by = [&](double lo, double hi) {
-    return judged(collision({lo, hi}, {pair_at(3, 4, 0, 1)}), step).broken;
+    return judged(collision({lo, hi}, {pair_at(3, 4, 0, 1)}), step).breaches;
   };
   EXPECT_EQ(broken_by(.5, half_up), List{});
   EXPECT_EQ(broken_by(.25, .75), List{});
@@ -197,7 +197,7 @@ TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   const auto early = collision({.25, .25}, {});
   EXPECT_EQ(judged(early, step, {Claim::not_late}).outcome, Outcome::holds);
   const auto late = collision({.75, .75}, {});
-  EXPECT_EQ(judged(late, step, {Claim::not_late}).broken, List{Claim::not_late});
+  EXPECT_EQ(judged(late, step, {Claim::not_late}).breaches, List{Claim::not_late});
 }
 
 // One meaning for all counts: by the lower end, by more than the tolerance.
@@ -224,10 +224,10 @@ TEST(Claims, APairWithoutATimeIsJudgedByTheFirstTimeOnly) {
       judged(collision({.5, .5}, {pair_at(0, 3, 0, 1), pair_at(3, 4, 0, 1)}), step);
   EXPECT_EQ(without.outcome, Outcome::holds);
   const auto late = judged(collision({.5, .5}, {pair_at(0, 3, .8), pair_at(3, 4, .5)}), step);
-  EXPECT_EQ(late.broken, List{Claim::all_pairs});
+  EXPECT_EQ(late.breaches, List{Claim::all_pairs});
   EXPECT_EQ(late.late.size(), 1u);
   const auto early = judged(collision({.5, .5}, {pair_at(0, 3, .7), pair_at(3, 4, .5)}), step);
-  EXPECT_EQ(early.broken, List{Claim::no_spurious});
+  EXPECT_EQ(early.breaches, List{Claim::no_spurious});
 }
 
 TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
@@ -237,12 +237,12 @@ TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
   const auto both_parts = collision({.5, .5}, {pair_at(1, 2, .5), pair_at(3, 4, .5)});
   const auto first = judged(both_parts, step, claimable.without({Claim::all_pairs}));
   EXPECT_EQ(first.outcome, Outcome::holds);
-  EXPECT_EQ(first.excused.size(), 2u);
-  EXPECT_EQ(judged(both_parts, step).broken, List{Claim::all_pairs});
+  EXPECT_EQ(first.excuses.size(), 2u);
+  EXPECT_EQ(judged(both_parts, step).breaches, List{Claim::all_pairs});
 
   const auto one_part = collision({.5, .5}, {pair_at(3, 4, .5)});
   const auto lost = judged(one_part, step, claimable.without({Claim::all_pairs}));
-  EXPECT_EQ(lost.broken, List{Claim::first_pairs});
+  EXPECT_EQ(lost.breaches, List{Claim::first_pairs});
   ASSERT_EQ(lost.missing.size(), 1u);
   EXPECT_EQ(lost.missing[0].pair, (detector::TrianglePair{1, 2}));
   // Neither claimed: a detector of times alone.
@@ -262,7 +262,7 @@ TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
   EXPECT_TRUE(judged(a, step, all, no_edges).left_out_missed);  // 0.25 is before 0.5
   EXPECT_EQ(judged(a, step).outcome, Outcome::defect);
   // The first time of the contract's pairs is 0.75 here: 0.5 is wrong, and 0-2 is no alarm.
-  EXPECT_EQ(judged(a, step, all, no_neighbours).broken, List{Claim::first_time});
+  EXPECT_EQ(judged(a, step, all, no_neighbours).breaches, List{Claim::first_time});
   EXPECT_EQ(judged(a, step, all, no_neighbours).left_out.size(), 2u);
 
   const auto neighbours_only = truth({pair_at(0, 1, .25)});
@@ -275,7 +275,7 @@ TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
 }
 
 TEST(Claims, AnErrorIsNoAnswer) {
-  EXPECT_EQ(judged(answer(Answer::error), truth({})).broken, List{Claim::total});
+  EXPECT_EQ(judged(answer(Answer::error), truth({})).breaches, List{Claim::total});
   EXPECT_EQ(judged(answer(Answer::error), truth({}), {Claim::free_sound}).outcome, Outcome::error);
   EXPECT_EQ(judged(answer(Answer::undecided), truth({pair_at(3, 4, 0)})).outcome,
             Outcome::undecided);
@@ -283,21 +283,21 @@ TEST(Claims, AnErrorIsNoAnswer) {
 
 TEST(Claims, AStoppedOracleRefutesOnlyWithWhatItFound) {
   const auto judgement = stopped({pair_at(3, 4, .5)});
-  EXPECT_EQ(judged(answer(Answer::free), judgement).broken.front(), Claim::free_sound);
+  EXPECT_EQ(judged(answer(Answer::free), judgement).breaches.front(), Claim::free_sound);
   const auto other = collision({.25, .25}, {pair_at(0, 3, .25), pair_at(3, 4, .5)});
   EXPECT_EQ(judged(other, judgement).outcome, Outcome::undecided);
   const auto late = collision({.75, .75}, {pair_at(0, 3, .75)});
-  EXPECT_EQ(judged(late, judgement, {Claim::not_late}).broken, List{Claim::not_late});
+  EXPECT_EQ(judged(late, judgement, {Claim::not_late}).breaches, List{Claim::not_late});
 }
 
 TEST(Claims, Float32RoundsToNearest) {
   detector::Positions x(1, 3);
   x << .1, 1e-60, 1e300;
-  const auto rounded = contracted(x, Coordinates::float32);
+  const auto rounded = round_to(x, Coordinates::float32);
   EXPECT_EQ(rounded(0, 0), static_cast<double>(.1f));
   EXPECT_EQ(rounded(0, 1), 0);
   EXPECT_EQ(rounded(0, 2), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(contracted(x, Coordinates::float64), x);
+  EXPECT_EQ(round_to(x, Coordinates::float64), x);
 }
 
 // The diff must find what is wrong: each kind of difference is planted once.
@@ -345,7 +345,7 @@ TEST(Agreement, L6_PairsFirstExcusesLaterPairsAndOtherPairsOfAReportedPlace) {
   const std::vector<PairContact> met = {pair_at(0, 1, .5), pair_at(1, 2, .5), pair_at(4, 5, .75)};
   const auto excused = diff_of({pair_at(0, 1, .5)}, met, first_alone);
   EXPECT_EQ(excused.outcome, Outcome::holds);
-  EXPECT_EQ(excused.excused.size(), 2u);
+  EXPECT_EQ(excused.excuses.size(), 2u);
   const std::vector<PairContact> two_places = {pair_at(0, 1, .5), pair_at(6, 7, .5)};
   const auto lost_place = diff_of({pair_at(0, 1, .5)}, two_places, first_alone);
   EXPECT_EQ(lost_place.outcome, Outcome::defect);
@@ -365,7 +365,7 @@ TEST(Agreement, StoppedOracleAndPairsFirst) {
   const auto judgement = stopped({pair_at(0, 1, .5), pair_at(2, 3, .75)});
   const auto later = compare(result_with({pair_at(0, 1, .5)}), judgement, first_alone);
   EXPECT_EQ(later.outcome, Outcome::undecided);
-  EXPECT_EQ(later.excused.size(), 1u);
+  EXPECT_EQ(later.excuses.size(), 1u);
   EXPECT_EQ(compare(result_with({pair_at(4, 5, .6)}), judgement, first_alone).outcome,
             Outcome::defect);
 }

@@ -26,29 +26,29 @@ const Contract free_start = {.start = StartRule::free};
 
 TEST(ContractedCase, WithoutAContractIsTheCase) {
   const auto c = at_heights({1, 0, 1});
-  EXPECT_EQ(corpus::case_text(*contracted(c, {})), corpus::case_text(c));
+  EXPECT_EQ(corpus::case_text(*contract_case(c, {})), corpus::case_text(c));
 }
 
 TEST(ContractedCase, LeavesOutStepsThatStartInContact) {
   const auto c = at_heights({0, 2, 1, 0, 3});
-  const auto seen = contracted(c, free_start);
+  const auto seen = contract_case(c, free_start);
   ASSERT_TRUE(seen);
   // From height 2 to 1, and from 1 to 0: a detector is made at height 2.
   EXPECT_EQ(corpus::steps_of(*seen), (std::vector<corpus::CaseStep>{{0, 1, true}, {1, 2, true}}));
   EXPECT_EQ(seen->frames[0](3, 2), 2);
   EXPECT_EQ(seen->frames.size(), 3u);
-  EXPECT_EQ(corpus::case_text(*contracted(*seen, free_start)), corpus::case_text(*seen));
-  EXPECT_FALSE(contracted(at_heights({0, 1}), free_start));
+  EXPECT_EQ(corpus::case_text(*contract_case(*seen, free_start)), corpus::case_text(*seen));
+  EXPECT_FALSE(contract_case(at_heights({0, 1}), free_start));
 }
 
 TEST(ContractedCase, LeavesOutStepsThatStartTooNear) {
   const Contract apart = {.start = StartRule::apart, .start_distance = 1.5};
-  const auto seen = contracted(at_heights({1, 2, 1}), apart);
+  const auto seen = contract_case(at_heights({1, 2, 1}), apart);
   ASSERT_TRUE(seen);
   EXPECT_EQ(corpus::steps_of(*seen).size(), 1u);
   EXPECT_EQ(seen->frames[0](3, 2), 2);
-  EXPECT_TRUE(contracted(at_heights({1.5, 0}), apart));
-  EXPECT_FALSE(contracted(at_heights({1.25, 0}), apart));
+  EXPECT_TRUE(contract_case(at_heights({1.5, 0}), apart));
+  EXPECT_FALSE(contract_case(at_heights({1.25, 0}), apart));
 }
 
 TEST(JudgedUnder, ASeparationAsksWhatComesWithinIt) {
@@ -96,8 +96,8 @@ TEST(JudgedUnder, AMarginIsWhatComesWithinTheSum) {
 
 TEST(ContractedCase, IsNoneBeyondTheRange) {
   const Contract range = {.least_nonzero = 0.5, .largest = 4};
-  EXPECT_TRUE(contracted(at_heights({0.5, 0}), range));
-  EXPECT_FALSE(contracted(at_heights({1, -5}), range));
+  EXPECT_TRUE(contract_case(at_heights({0.5, 0}), range));
+  EXPECT_FALSE(contract_case(at_heights({1, -5}), range));
   EXPECT_EQ(why_left_out(at_heights({1, -5}), range),
             "frame 2 of 2: vertex 3 has the coordinate -5, above largest, 4");
   EXPECT_EQ(why_left_out(at_heights({1, 0}), range), "");
@@ -110,24 +110,24 @@ TEST(ContractedCase, WhoStopsByAShareGetsNoWayThatOverflows) {
   const auto near = at_heights({1, -1}), far = at_heights({-0x1p1023, 0x1p1023});
   Contract contract;
   contract.limit_gives = LimitGives::start_plus;
-  EXPECT_TRUE(contracted(near, contract));
-  EXPECT_FALSE(contracted(far, contract));
+  EXPECT_TRUE(contract_case(near, contract));
+  EXPECT_FALSE(contract_case(far, contract));
   EXPECT_EQ(why_left_out(far, contract),
             "stops at start-plus: the way of a vertex is beyond the largest number");
   contract.limit_gives = LimitGives::blend;
-  EXPECT_TRUE(contracted(far, contract));
+  EXPECT_TRUE(contract_case(far, contract));
 }
 
 TEST(ContractedCase, ASmallCoordinateIsNoShortEdge) {
   const Contract range = {.least_nonzero = 0.5, .largest = 8};
-  EXPECT_TRUE(contracted(at_heights({0.25, 5e-324}), range));
+  EXPECT_TRUE(contract_case(at_heights({0.25, 5e-324}), range));
   auto c = at_heights({1, 2});
   c.frames[1].row(4) << 1.25, 1, 2.25;
-  EXPECT_FALSE(contracted(c, range));
+  EXPECT_FALSE(contract_case(c, range));
   EXPECT_EQ(why_left_out(c, range),
             "frame 2 of 2: edge 3-4 is 0.25 long, below least_nonzero, 0.5");
   c.frames[1].row(4) = c.frames[1].row(3);  // without a length
-  EXPECT_TRUE(contracted(c, range));
+  EXPECT_TRUE(contract_case(c, range));
 }
 
 TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
@@ -136,7 +136,7 @@ TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
   q.first_group = 1;
   const auto rest = [](double x, double y) { return detector::MovingPoint{{x, y, 0}, {x, y, 0}}; };
   q.points = {rest(0.1, 0), rest(0, 0), rest(1, 0), rest(0, 1)};
-  EXPECT_TRUE(contracted(case_of_query(q, "near a corner"), range));
+  EXPECT_TRUE(contract_case(case_of_query(q, "near a corner"), range));
   q.points[3] = rest(0, 0.25);
   EXPECT_EQ(why_left_out(case_of_query(q, "short"), range),
             "frame 1 of 2: edge 3-1 is 0.25 long, below least_nonzero, 0.5");
@@ -166,13 +166,13 @@ TEST(ContractedCase, IsBroughtIntoTheRange) {
   EXPECT_EQ(c.frames[0](3, 2), 2);
   EXPECT_EQ(c.frames[0](1, 0), 4. / 512);
   EXPECT_EQ(c.frames[1](3, 2), 1e-3 / 512);
-  EXPECT_TRUE(contracted(c, range));
+  EXPECT_TRUE(contract_case(c, range));
   // Short edges are enlarged, as far as the largest coordinate may grow.
   auto small = at_heights({1e-6, 2e-6});
   for (auto& frame : small.frames) frame *= 0x1p-20;
   const auto enlarged = brought_into_contract(small, range);
   EXPECT_EQ(enlarged.frames[0](1, 0), 4 * 0x1p-9);
-  EXPECT_TRUE(contracted(enlarged, range));
+  EXPECT_TRUE(contract_case(enlarged, range));
   small.frames[0](5, 0) = 1;
   EXPECT_EQ(brought_into_contract(small, range).frames[0](5, 0), 2);
 }
@@ -186,8 +186,8 @@ TEST(ContractedCase, OfEveryFamilyThereIsOneWithinEveryContract) {
     for (int i = 0; i < 10; ++i) {
       const auto id = "within:1:" + std::string(family.name) + ":" + std::to_string(i);
       const auto planned = case_within(narrow, family, id);
-      EXPECT_TRUE(planned.seen) << id;
-      EXPECT_EQ(case_within({}, family, id).made.c.id, id);
+      EXPECT_TRUE(planned.input) << id;
+      EXPECT_EQ(case_within({}, family, id).source.c.id, id);
     }
   }
 }
@@ -202,7 +202,7 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   const auto x = tests::positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
              y = tests::positions({{1, 0, 0}, {1.1, 0, 1e-7}, {0, 1, 0}});
   c.frames = {x, y, x};
-  const auto seen = contracted(c, contract);
+  const auto seen = contract_case(c, contract);
   ASSERT_TRUE(seen);
   ASSERT_EQ(seen->frames.size(), 4u);
   EXPECT_EQ(corpus::steps_of(*seen).size(), 2u);
@@ -210,20 +210,20 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   EXPECT_EQ(seen->frames[1](1, 0), 1 + static_cast<double>(static_cast<float>(1.1 - 1)));
   EXPECT_EQ(seen->frames[2](1, 0), static_cast<double>(1.1f));
   EXPECT_EQ(displacement(seen->frames[0], seen->frames[1]), seen->frames[1] - seen->frames[0]);
-  const auto again = contracted(*seen, contract);
+  const auto again = contract_case(*seen, contract);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->frames, seen->frames);
   c.frames[1](0, 0) = 1e-30;  // 0 + 1e-30f is a double, 1 + 1e-30f is none
-  EXPECT_TRUE(contracted(c, contract));
+  EXPECT_TRUE(contract_case(c, contract));
   // Such a step is left out alone, also where it is the only one.
   c.frames[1](1, 0) = 1;
   c.frames[0](1, 0) = 1e-30;
-  const auto second = contracted(c, contract);
+  const auto second = contract_case(c, contract);
   ASSERT_TRUE(second);
   EXPECT_EQ(corpus::steps_of(*second).size(), 1u);
   EXPECT_EQ(second->frames[0](1, 0), 1);
   c.frames.pop_back();
-  EXPECT_FALSE(contracted(c, contract));
+  EXPECT_FALSE(contract_case(c, contract));
   EXPECT_NE(why_left_out(c, contract).find("no double"), std::string::npos);
   EXPECT_EQ(fault_of(contract), "");
   contract.coordinates = Coordinates::float64;
@@ -235,49 +235,49 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
 // A corner of a tube passes through its own 2-ring, and then meets the far side.
 corpus::Case ignored_contact() { return tests::curated_case("F_ignored_contact"); }
 
-TEST(CountedCase, FactsSpeakOfAllPairsAndOfThoseThatCount) {
+TEST(TallyInput, FactsSpeakOfAllPairsAndOfThoseThatCount) {
   auto c = ignored_contact();
-  EXPECT_EQ(check_case(c).failed, std::vector<std::string>{});
-  EXPECT_EQ(check_case(c, detector::Culling::bvh).failed, std::vector<std::string>{});
+  EXPECT_EQ(check_case(c).broken_facts, std::vector<std::string>{});
+  EXPECT_EQ(check_case(c, detector::Culling::bvh).broken_facts, std::vector<std::string>{});
   c.counted->steps[0].pairs->pop_back();
-  const auto failed = check_case(c, detector::Culling::bvh).failed;
+  const auto failed = check_case(c, detector::Culling::bvh).broken_facts;
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_NE(failed[0].find("step 1: of what counts: "), std::string::npos) << failed[0];
 }
 
-TEST(CountedCase, OneThatCannotBeToldSeesNoRelation) {
+TEST(TallyInput, OneThatCannotBeToldSeesNoRelation) {
   const auto c = ignored_contact();
-  EXPECT_TRUE(contracted(c, {})->counted);
-  EXPECT_FALSE(contracted(c, {.takes_relations = false})->counted);
+  EXPECT_TRUE(contract_case(c, {})->counted);
+  EXPECT_FALSE(contract_case(c, {.takes_relations = false})->counted);
 }
 
 // The bodies name triangles, whoever cannot be told which of them meet.
-TEST(CountedCase, OneThatCannotBeToldKeepsTheBodies) {
+TEST(TallyInput, OneThatCannotBeToldKeepsTheBodies) {
   auto c = ignored_contact();
   c.counted->pairs.body.assign(static_cast<std::size_t>(c.frames[0].rows()), 0);
   c.counted->pairs.apart = {{0, 0}};
-  const auto seen = contracted(c, {.takes_relations = false});
+  const auto seen = contract_case(c, {.takes_relations = false});
   ASSERT_TRUE(seen && seen->counted);
   EXPECT_TRUE(seen->counted->pairs.count_all());
   EXPECT_EQ(seen->counted->pairs.body, c.counted->pairs.body);
 }
 
-TEST(CountedCase, PlacesAtRestAreRoundedAsCoordinatesAre) {
+TEST(TallyInput, PlacesAtRestAreRoundedAsCoordinatesAre) {
   auto c = ignored_contact();
   c.counted->pairs.rest_distance = 0.1;
   c.counted->pairs.rest = corpus::points_of(c.frames[0]);
   c.counted->pairs.rest[0][0] = 0.3;
   const Contract floats = {.coordinates = Coordinates::float32};
-  const auto seen = contracted(c, floats);
+  const auto seen = contract_case(c, floats);
   ASSERT_TRUE(seen);
   EXPECT_EQ(seen->counted->pairs.rest_distance, static_cast<double>(0.1f));
   EXPECT_EQ(seen->counted->pairs.rest[0][0], static_cast<double>(0.3f));
   EXPECT_TRUE(seen->counted->steps.empty()) << "facts of another relation";
   c.counted->pairs.rest[0][0] = 1e300;
-  EXPECT_FALSE(contracted(c, floats));
+  EXPECT_FALSE(contract_case(c, floats));
 }
 
-TEST(CountedCase, StepsKeepTheirFacts) {
+TEST(TallyInput, StepsKeepTheirFacts) {
   auto c = ignored_contact();
   c.frames.push_back(c.frames[1]);
   c.counted->steps.push_back({detector::Answer::free, {}, {}, {}, {}});
@@ -287,7 +287,7 @@ TEST(CountedCase, StepsKeepTheirFacts) {
 }
 
 // What is too near at rest goes by the frame that a detector is made from.
-TEST(CountedCase, StepsStayWithTheMeshAtRest) {
+TEST(TallyInput, StepsStayWithTheMeshAtRest) {
   auto c = ignored_contact();
   c.frames = {c.frames[1], c.frames[0], c.frames[1]};
   c.script = {{0, 1, true}, {1, 2, true}};
@@ -299,7 +299,7 @@ TEST(CountedCase, StepsStayWithTheMeshAtRest) {
 
 // A contract that leaves out what the case's relation leaves out: the same pairs count, and the
 // others are left out.
-TEST(CountedCase, AContractLeavesOutWhatARelationDoes) {
+TEST(TallyInput, AContractLeavesOutWhatARelationDoes) {
   const auto c = ignored_contact();
   ASSERT_TRUE(c.counted->pairs.apart.empty() && c.counted->pairs.triangle_pairs.empty());
   Contract contract;
@@ -320,18 +320,18 @@ TEST(CountedCase, AContractLeavesOutWhatARelationDoes) {
 }
 
 // Where a start must be free, or apart, only pairs that count are looked at.
-TEST(CountedCase, AStartIsFreeOfWhatCounts) {
+TEST(TallyInput, AStartIsFreeOfWhatCounts) {
   auto c = at_heights({0, 0});
-  EXPECT_FALSE(contracted(c, free_start));
+  EXPECT_FALSE(contract_case(c, free_start));
   c.counted.emplace();
   c.counted->pairs.triangle_pairs = {{0, 1}};
-  EXPECT_TRUE(contracted(c, free_start));
-  EXPECT_FALSE(contracted(c, {.start = StartRule::free, .takes_relations = false}));
+  EXPECT_TRUE(contract_case(c, free_start));
+  EXPECT_FALSE(contract_case(c, {.start = StartRule::free, .takes_relations = false}));
   c.counted.reset();
-  EXPECT_TRUE(contracted(c, {.start = StartRule::free, .rest_distance = 1}));
+  EXPECT_TRUE(contract_case(c, {.start = StartRule::free, .rest_distance = 1}));
 }
 
-TEST(CountedCase, ABodyNamesItsTriangles) {
+TEST(TallyInput, ABodyNamesItsTriangles) {
   detector::CountedPairs pairs;
   const auto triangles = tests::triangles({{0, 1, 2}, {3, 4, 5}, {0, 2, 6}});
   EXPECT_EQ(BodyNames(nullptr, triangles).text({1, 2}), "");

@@ -46,7 +46,7 @@ Verdict judged(const corpus::Case& c, const LimitAnswer& answer,
 using List = std::vector<Claim>;
 List broken_by(const corpus::Case& c, const LimitAnswer& answer,
                const Contract& contract = limiter(), const Claims& claims = claims_on_limits) {
-  return judged(c, answer, contract, claims).broken;
+  return judged(c, answer, contract, claims).breaches;
 }
 
 TEST(Limits, L17_EachClaimIsBrokenAlone) {
@@ -104,7 +104,7 @@ TEST(Limits, L17_NothingIsJudgedOfAStepThatStartsInContact) {
   auto c = tests::sinking_corner(-1);
   c.frames[0](3, 2) = 0;
   const auto verdict = judged(c, stop_at(c, 1));
-  EXPECT_EQ(verdict.broken, List{});
+  EXPECT_EQ(verdict.breaches, List{});
   EXPECT_FALSE(verdict.steps[0].limit);
   EXPECT_TRUE(verdict.steps[0].starts_near) << "it counts for no n";
 }
@@ -141,7 +141,7 @@ TEST(Limits, L17_WhereRoundingClosesTheWayNoProgressIsOwed) {
   for (const auto& pass : tests::known_close_passes()) {
     const auto [c, time] = case_of(pass);
     const auto verdict = judged(c, stop_at(c, 0.451 * time), contract);
-    EXPECT_EQ(verdict.broken, List{}) << pass.name;
+    EXPECT_EQ(verdict.breaches, List{}) << pass.name;
     EXPECT_EQ(errors_of(verdict.steps[0]).limits.excused, 1u) << pass.name;
     EXPECT_TRUE(verdict.steps[0].limit->stall.empty());
     // Nobody asks who does not claim it.
@@ -156,7 +156,7 @@ TEST(Limits, L17_ACloseWayIsNoExcuseWhereItsPlacesAreFree) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const auto [c, time] = case_of(tests::drawn_close_pass(seed));
     const auto verdict = judged(c, stop_at(c, 0.25 * time));
-    const bool is_owed = verdict.broken == List{Claim::progress};
+    const bool is_owed = verdict.breaches == List{Claim::progress};
     ++(is_owed ? owed : excused);
     EXPECT_NE(is_owed, verdict.steps[0].limit->is_excused) << seed;
   }
@@ -190,7 +190,7 @@ TEST(Limits, L17_AShareBesidePositionsThatStayIsNoProgress) {
   EXPECT_EQ(broken_by(c, {0.7, c.frames[0]}), List{Claim::progress});
   EXPECT_EQ(broken_by(c, {0.7, at(c, 0.1)}), List{Claim::progress});
   const auto use = errors_of(judged(c, {0.7, c.frames[0]}).steps[0]).limits;
-  EXPECT_EQ(use.used(0), 0);
+  EXPECT_EQ(use.share(0), 0);
   EXPECT_EQ(use.stalled(), 1u);
 }
 
@@ -203,8 +203,8 @@ TEST(Limits, L17_RoundingOfPositionsIsNoLackOfProgress) {
   ASSERT_EQ(answer.positions(1, 0), 0x1p60) << "0.4 of an ulp is none";
   EXPECT_EQ(broken_by(c, answer), List{});
   const auto used = [&](const LimitAnswer& a) { return errors_of(judged(c, a).steps[0]).limits; };
-  EXPECT_NEAR(used(answer).used(0), 0.4 / first_time, 0.01);
-  EXPECT_EQ(used({0.4, c.frames[0]}).used(0), 0) << "nothing moved";
+  EXPECT_NEAR(share(answer).share(0), 0.4 / first_time, 0.01);
+  EXPECT_EQ(share({0.4, c.frames[0]}).share(0), 0) << "nothing moved";
 }
 
 TEST(Limits, L17_RoomIsMeasuredInTheNumbersOfTheContract) {
@@ -260,8 +260,7 @@ TEST(Limits, L17_TheEndOfADisplacementIsTheExactOneOrItsRounding) {
   contract.coordinates = Coordinates::float32;
   contract.motion = MotionGiven::displacement;
   EXPECT_EQ(broken_by(free, {1, free.frames[1]}, contract), List{});
-  EXPECT_EQ(broken_by(free, {1, contracted(free.frames[1], contract.coordinates)}, contract),
-            List{});
+  EXPECT_EQ(broken_by(free, {1, round_to(free.frames[1], contract.coordinates)}, contract), List{});
   Positions other = free.frames[1];
   other(3, 0) = 1 + 0x1p-20;
   EXPECT_EQ(broken_by(free, {1, other}, contract), List{Claim::whole});
@@ -273,7 +272,7 @@ TEST(Limits, L17_UseAndStallsAreCountedWhateverIsClaimed) {
     return errors_of(judged(of, answer, limiter(), {Claim::total}).steps[0]).limits;
   };
   LimitUse all = use_of(c, stop_at(c, 0.375));
-  EXPECT_EQ(all.used(0), 0.5);
+  EXPECT_EQ(all.share(0), 0.5);
   EXPECT_EQ(all.stalled(), 0u);
   all += use_of(c, stop_at(c, 0));
   all += use_of(c, {-1, at(c, 0.6)});
@@ -282,9 +281,9 @@ TEST(Limits, L17_UseAndStallsAreCountedWhateverIsClaimed) {
   EXPECT_EQ(all.free, 2u);
   EXPECT_EQ(all.cut, 1u);
   EXPECT_EQ(all.contact, 3u);
-  EXPECT_EQ(all.used(0), 0);
-  EXPECT_EQ(all.used(0.5), 0.5);
-  EXPECT_NEAR(all.used(1), 0.8, 0.01);
+  EXPECT_EQ(all.share(0), 0);
+  EXPECT_EQ(all.share(0.5), 0.5);
+  EXPECT_NEAR(all.share(1), 0.8, 0.01);
   EXPECT_EQ(all.stalls, (std::map<std::string, std::uint64_t>{{"t inside, moving, generic", 1}}));
 }
 

@@ -57,7 +57,7 @@ TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
     for (const auto& name : carried_laws) {
       LawTally tally;
       law_named(name)->check(facts, tally);
-      EXPECT_EQ(tally.broken, 0u) << name << ": " << tally.first_broken;
+      EXPECT_EQ(tally.broken_steps, 0u) << name << ": " << tally.first_broken;
       sum += tally;
     }
   }
@@ -87,7 +87,7 @@ TEST(CuratedOptions, HoldInManyConfigurations) {
       CaseFacts facts = judged.facts();
       LawTally tally;
       law->check(facts, tally);
-      EXPECT_EQ(tally.broken, 0u) << tally.first_broken;
+      EXPECT_EQ(tally.broken_steps, 0u) << tally.first_broken;
       met += tally.premise;
     }
   }
@@ -128,7 +128,7 @@ TEST(RestoredState, GoesOnAlikeWhereFirstPairsLeftContactsUnnamed) {
     auto facts = judged.facts();
     law->check(facts, tally);
   }
-  EXPECT_EQ(tally.broken, 0u) << tally.first_broken;
+  EXPECT_EQ(tally.broken_steps, 0u) << tally.first_broken;
   EXPECT_GE(tally.premise, 5u);
 }
 

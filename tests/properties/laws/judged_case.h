@@ -42,7 +42,7 @@ inline Setting setting_for(const Law& law, std::string_view id) {
   return setting;
 }
 
-inline GeneratedCase case_of(const std::string& id) {
+inline RandomCase case_of(const std::string& id) {
   const auto stratum = id.substr(0, id.rfind(':'));
   const auto name = stratum.substr(stratum.rfind(':') + 1);
   const Family* family = find_family(name);

@@ -186,7 +186,7 @@ TEST(LawsCanFail, EachNoticesWhatIsWrong) {
     ASSERT_NE(wrong, wrongs().end()) << law.name;
     LawTally tally;
     int cases = 0;
-    for (; cases < most_cases && tally.broken == 0; ++cases) {
+    for (; cases < most_cases && tally.broken_steps == 0; ++cases) {
       const auto& family = families()[static_cast<std::size_t>(cases) % families().size()];
       const std::string id = std::string(law.name) + ":20116:" + std::string(family.name) + ":" +
                              std::to_string(cases);
@@ -200,7 +200,7 @@ TEST(LawsCanFail, EachNoticesWhatIsWrong) {
       CaseFacts facts = judged.facts();
       law.check(facts, tally);
     }
-    EXPECT_GT(tally.broken, 0u) << law.name;
+    EXPECT_GT(tally.broken_steps, 0u) << law.name;
     std::printf("%-46s after %3d cases: %s\n", std::string(law.name).c_str(), cases,
                 tally.first_broken.c_str());
   }

@@ -38,7 +38,7 @@ LawTally tally_of(const Law& law, const std::string& id) {
   const JudgedCase judged(std::move(c), setting_for(law, id));
   CaseFacts facts = judged.facts();
   law.check(facts, tally);
-  if (tally.broken != 0) {
+  if (tally.broken_steps != 0) {
     fmt::print("{}\nreplay: ASSAY_CASE={} ctest --preset law -R Laws.{}\n", tally.first_broken, id,
                law.name);
   }
@@ -51,7 +51,7 @@ void run_law(std::string_view name) {
   if (const char* only = std::getenv("ASSAY_CASE")) {
     const LawTally tally = tally_of(*law, only);
     EXPECT_GT(tally.premise, 0u) << "the law does not apply to this case";
-    EXPECT_EQ(tally.broken, 0u) << tally.first_broken;
+    EXPECT_EQ(tally.broken_steps, 0u) << tally.first_broken;
     return;
   }
   LawTally sum;
@@ -64,7 +64,7 @@ void run_law(std::string_view name) {
     ++cases;
     sum += tally;
     RC_PRE(tally.premise > 0u);
-    RC_ASSERT(tally.broken == 0u);
+    RC_ASSERT(tally.broken_steps == 0u);
   });
   fmt::print("{} cases, premise {} times, close {} times\n", cases, sum.premise, sum.close);
   EXPECT_TRUE(holds) << sum.first_broken;
@@ -101,8 +101,8 @@ class LawTable {
                                               : 100 * static_cast<double>(tally.close) /
                                                     static_cast<double>(tally.premise);
       out += fmt::format("{:<46} {:>9} {:>5.1f} % {:>7}\n", laws()[i].name, tally.premise, share,
-                         tally.broken);
-      if (tally.broken != 0) out += fmt::format("    {}\n", tally.first_broken);
+                         tally.broken_steps);
+      if (tally.broken_steps != 0) out += fmt::format("    {}\n", tally.first_broken);
     }
     return out;
   }
@@ -221,7 +221,7 @@ TEST(LawTable, L1_to_L13_AllLawsHoldOverAllFamilies) {
   }
   fmt::print("{} cases\n{}", cases_of_family * families().size(), table.text());
   for (std::size_t i = 0; i < laws().size(); ++i) {
-    EXPECT_EQ(table.tallies()[i].broken, 0u);
+    EXPECT_EQ(table.tallies()[i].broken_steps, 0u);
     EXPECT_GT(table.tallies()[i].premise, 0u) << laws()[i].name << " was never met";
   }
 }
@@ -241,7 +241,7 @@ TEST(LawTable, L1_to_L13_AllLawsHoldOfCuratedCases) {
       for (const auto& law : laws()) {
         LawTally tally;
         law.check(facts, tally);
-        EXPECT_EQ(tally.broken, 0u) << law.name << ": " << tally.first_broken;
+        EXPECT_EQ(tally.broken_steps, 0u) << law.name << ": " << tally.first_broken;
         met += tally.premise;
       }
     }

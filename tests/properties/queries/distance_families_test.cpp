@@ -19,15 +19,15 @@ using tests::Rational;
 constexpr std::uint64_t seed = 3;
 
 Rational fraction(const oracle::RationalTime& t) { return {t.numerator, t.denominator}; }
-Rational squared_limit(const AskedQuery& q) {
+Rational squared_limit(const QueryTask& q) {
   const Rational d = Rational(q.within->first) + Rational(q.within->second);
   return d * d;
 }
-Rational squared_at(const AskedQuery& q, const Rational& t) {
+Rational squared_at(const QueryTask& q, const Rational& t) {
   return tests::squared_distance(q.query, t);
 }
 
-DistanceVerdict verdict_of(const AskedQuery& q) {
+DistanceVerdict verdict_of(const QueryTask& q) {
   const auto referee =
       std::ranges::find(query_methods(), std::string_view("distance referee"), &QueryMethod::name);
   return referee->answer(q).proof.value();
@@ -53,7 +53,7 @@ TEST(DistanceFamilies, ConstructedOnesKeepTheirPromises) {
   for (const Family& family : distance_families()) {
     int promised = 0, exactly = 0;
     for (std::uint64_t index = 0; index < 300; ++index) {
-      const AskedQuery q = family.query(seed, index);
+      const QueryTask q = family.query(seed, index);
       ASSERT_GE(Rational(q.within->first) + Rational(q.within->second), 0) << family.name << index;
       if (!q.met_at) continue;
       const Rational at = squared_at(q, Rational(*q.met_at)), limit = squared_limit(q);
@@ -78,7 +78,7 @@ TEST(DistanceFamilies, TheRefereeIsRightAndLeavesFewOpen) {
     for (int index = 0; index < queries; ++index) {
       SCOPED_TRACE(std::string(family.name) + ":" + std::to_string(seed) + ":" +
                    std::to_string(index));
-      const AskedQuery q = family.query(seed, static_cast<std::uint64_t>(index));
+      const QueryTask q = family.query(seed, static_cast<std::uint64_t>(index));
       const DistanceVerdict verdict = verdict_of(q);
       EXPECT_FALSE(contradicts({.decision = verdict.within, .proof = verdict}, {}, q));
       near += verdict.within == Decision::yes;
@@ -110,7 +110,7 @@ TEST(DistanceChecks, ContactsOfTheOracleAgree) {
   const auto zero = std::ranges::find(families, "distance-zero", &Family::name);
   QueryTally tally;
   for (std::uint64_t index = 0; index < 2000; ++index) {
-    AskedQuery q = families[index % 3].query(seed, index);
+    QueryTask q = families[index % 3].query(seed, index);
     q.within = detector::Separation{};
     q.met_at.reset();
     for (const auto& asked : {q, zero->query(1, index)}) {
@@ -129,7 +129,7 @@ MethodAnswer at(double lo, double hi) { return {Decision::yes, detector::TimeEnc
 
 // Whether the oracle's answer and the verdict of the referee are told to contradict each other, or
 // what is known.
-bool is_contradicted(const AskedQuery& q, const MethodAnswer& answer,
+bool is_contradicted(const QueryTask& q, const MethodAnswer& answer,
                      const DistanceVerdict& verdict) {
   return contradicts({.decision = verdict.within, .proof = verdict}, answer, q) ||
          contradicts(answer, answer, q);
@@ -140,7 +140,7 @@ TEST(DistanceChecks, WrongAnswersAreFound) {
   int checked = 0;
   for (const Family& family : distance_families()) {
     for (std::uint64_t index = 0; index < 40; ++index) {
-      AskedQuery q = family.query(seed, index);
+      QueryTask q = family.query(seed, index);
       q.met_at.reset();
       const DistanceVerdict verdict = verdict_of(q);
       if (verdict.within == Decision::open) continue;
@@ -175,7 +175,7 @@ TEST(DistanceChecks, WrongAnswersAreFound) {
 }
 
 TEST(DistanceChecks, EndsOfBrackets) {
-  const AskedQuery q = {{}, {}, detector::Separation{}};
+  const QueryTask q = {{}, {}, detector::Separation{}};
   const DistanceVerdict yes = {Decision::yes, {1, 4}, {1, 2}, 0};
   // The first time is in (1/4, 1/2].
   EXPECT_TRUE(is_contradicted(q, at(.25, .25), yes));
@@ -188,7 +188,7 @@ TEST(DistanceChecks, EndsOfBrackets) {
   EXPECT_FALSE(is_contradicted(q, at(.75, .75), open));
   EXPECT_FALSE(is_contradicted(q, never, open));
   // A time that is known by construction refutes both the method and the referee.
-  AskedQuery known = q;
+  QueryTask known = q;
   known.met_at = .25;
   EXPECT_TRUE(is_contradicted(known, at(.5, .5), open));
   EXPECT_TRUE(is_contradicted(known, never, open));
@@ -200,7 +200,7 @@ TEST(DistanceChecks, EndsOfBrackets) {
 
 TEST(DistanceChecks, AMethodThatThrowsContradicts) {
   const QueryMethod thrower = {
-      "thrower", [](const AskedQuery&) -> MethodAnswer { throw std::runtime_error("no memory"); },
+      "thrower", [](const QueryTask&) -> MethodAnswer { throw std::runtime_error("no memory"); },
       QueryChecks::distances};
   QueryTally tally;
   const auto wrong =

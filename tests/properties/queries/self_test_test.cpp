@@ -179,9 +179,9 @@ TEST(SelfTest, NamedQueriesAreHeldToWhatIsKnown) {
   for (auto asked : named) {
     QueryTally tally;
     EXPECT_EQ(check_query(asked, 0, tally).value_or(""), "");
-    asked.known->rung = (asked.known->rung + 1) % 3;
+    asked.truth->rung = (asked.truth->rung + 1) % 3;
     EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "must"));
-    asked.known->decision = detector::Decision::open;
+    asked.truth->decision = detector::Decision::open;
     EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "not the answer"));
     EXPECT_EQ(tally.contradictions, 2u);
   }
@@ -232,7 +232,7 @@ TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
     QueryTally tally;
     for (int i = 0; i < queries_of_a_kind; ++i) {
       const int first_group = 1 + i % 2;
-      const AskedQuery asked{{random_query(random, kind, first_group), first_group}};
+      const QueryTask asked{{random_query(random, kind, first_group), first_group}};
       ASSERT_EQ(check_query(asked, static_cast<std::uint64_t>(i), tally, methods).value_or(""), "")
           << name_of(kind) << ", seed " << of_kind << ", query " << i;
     }

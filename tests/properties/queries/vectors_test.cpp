@@ -86,7 +86,7 @@ const char* word_of(bool meets, bool passes) {
   return !meets ? "free" : passes ? "collision" : "acceptable";
 }
 
-void check_by_all(const AskedQuery& asked, const Json& one) {
+void check_by_all(const QueryTask& asked, const Json& one) {
   QueryTally tally;
   const auto wrong = check_query(asked, Random::hash(one["id"].get<std::string>()), tally);
   EXPECT_EQ(wrong.value_or(""), "");

@@ -65,7 +65,7 @@ Case after(void (*pass)(ReductionSearch&), const Case& c, const Judge& judge) {
   const ReduceLimits limits;
   const OnBetter nobody;
   ReductionSearch search(c, judge, limits, nobody);
-  EXPECT_TRUE(search.found());
+  EXPECT_TRUE(search.has_finding());
   pass(search);
   EXPECT_TRUE(is_valid(search.best()));
   return search.best();

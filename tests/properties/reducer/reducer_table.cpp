@@ -43,7 +43,7 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
   if (in_full) {
     for (const auto& pass : reduction.passes) {
       std::printf("    %-22s %7llu tried %5llu accepted %6.2f s\n", pass.name.c_str(),
-                  static_cast<unsigned long long>(pass.tried),
+                  static_cast<unsigned long long>(pass.tries),
                   static_cast<unsigned long long>(pass.accepted), pass.seconds);
     }
     std::printf("%s\n", corpus::case_text(reduction.smallest).c_str());
@@ -53,7 +53,7 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
 // It asks the oracle by itself.
 Judge judge_of_fault(const Fault& fault) {
   return [&fault](const corpus::Case& c) -> std::optional<Finding> {
-    Examined examined{c};
+    CaseResults examined{c};
     const auto failure = failure_of_fault(fault, examined);
     return failure ? std::optional(finding_of(*failure)) : std::nullopt;
   };

@@ -114,7 +114,7 @@ TEST(Reducer, EverythingJudgedIsValidAndJudgedOnce) {
   EXPECT_EQ(reduction.calls, calls);
   std::uint64_t tried = 0, accepted = 0;
   for (const auto& pass : reduction.passes) {
-    tried += pass.tried;
+    tried += pass.tries;
     accepted += pass.accepted;
   }
   EXPECT_EQ(tried, calls);

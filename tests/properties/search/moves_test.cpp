@@ -112,7 +112,7 @@ TEST(Moves, APathOfFloatsStaysOne) {
           candidate_of(case_of_query(query_families()[0].query(3, i).query, "q"), random);
       move.make(random, made, {contract, nullptr});
       for (const auto& frame : made.c.frames)
-        EXPECT_EQ(contracted(frame, Coordinates::float32), frame) << move.name << " " << i;
+        EXPECT_EQ(round_to(frame, Coordinates::float32), frame) << move.name << " " << i;
     }
   }
 }

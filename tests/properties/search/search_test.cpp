@@ -24,8 +24,8 @@ struct Runner {
   std::function<bool(const corpus::Case&)> shows_it_as_it_is{};  // of a curated case
 };
 
-Examined judged_by(const Runner& runner, const corpus::Case& c) {
-  Examined examined{c, {}, {runner.run(c)}};
+CaseResults judged_by(const Runner& runner, const corpus::Case& c) {
+  CaseResults examined{c, {}, {runner.run(c)}};
   judge({runner.detector, runner.detector.configurations}, examined);
   return examined;
 }
@@ -38,12 +38,12 @@ Runner runner_of(const Fault& fault) {
     return run_case(c, {"", fault.options, std::string(fault.name)});
   };
   // A fault must not be found by a case that was made for it, or that shows it by chance.
-  std::set<std::string> shown_by;
+  std::set<std::string> sign_of;
   for (const auto& file : tests::curated_files()) {
     const auto c = corpus::read_case(file);
-    if (c && judged_by(runner, c.value()).verdicts[0].failure) shown_by.insert(c.value().id);
+    if (c && judged_by(runner, c.value()).verdicts[0].failure) sign_of.insert(c.value().id);
   }
-  runner.shows_it_as_it_is = [shown_by](const corpus::Case& c) { return shown_by.contains(c.id); };
+  runner.shows_it_as_it_is = [sign_of](const corpus::Case& c) { return sign_of.contains(c.id); };
   return runner;
 }
 
@@ -64,7 +64,7 @@ struct FirstDefect {
   std::uint64_t cases = 0;
   std::uint64_t candidates = 0;  // of the oracle, in all cases: a measure of work that is no clock
 
-  void count(const Examined& judged) {
+  void count(const CaseResults& judged) {
     ++cases;
     for (const auto& step : judged.truth) candidates += step.feature_candidates;
   }
@@ -79,8 +79,8 @@ FirstDefect race_at_random(const Runner& runner, int seed, std::uint64_t most_ca
   while (!first.found && first.cases < most_cases) {
     const auto& family = known[first.cases % known.size()];
     const auto name = fmt::format("race:{}:{}:{}", seed, family.name, first.cases / known.size());
-    const auto c = case_within(runner.detector.contract, family, name).seen;
-    const auto judged = c ? judged_by(runner, *c) : Examined{};
+    const auto c = case_within(runner.detector.contract, family, name).input;
+    const auto judged = c ? judged_by(runner, *c) : CaseResults{};
     first.count(judged);
     first.found = c && judged.verdicts[0].failure;
   }
@@ -100,7 +100,7 @@ FirstDefect race_by_search(const Runner& runner, int seed, std::uint64_t most_ca
   FirstDefect first;
   const SearchSpace space = racing_space(runner);
   const ExamineCases examine = [&](const std::vector<corpus::Case>& cases) {
-    std::vector<Examined> judged(cases.size());
+    std::vector<CaseResults> judged(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
       judged[i].c = cases[i];
       if (first.found) continue;
@@ -118,7 +118,7 @@ FirstDefect race_by_search(const Runner& runner, int seed, std::uint64_t most_ca
 
 ExamineCases examine_by(const Runner& runner) {
   return [&runner](const std::vector<corpus::Case>& cases) {
-    std::vector<Examined> judged;
+    std::vector<CaseResults> judged;
     for (const auto& c : cases) judged.push_back(judged_by(runner, c));
     return judged;
   };
@@ -141,19 +141,19 @@ TEST(Search, ALaneDependsOnItsNameAlone) {
   EXPECT_EQ(one.cases, 150);
   EXPECT_EQ(one.causes, again.causes);
   EXPECT_NE(one.causes, other.causes);
-  ASSERT_EQ(one.found.size(), again.found.size());
-  for (std::size_t i = 0; i < one.found.size(); ++i) {
-    EXPECT_EQ(corpus::case_text(one.found[i].c), corpus::case_text(again.found[i].c));
-    EXPECT_EQ(one.found[i].after, again.found[i].after);
+  ASSERT_EQ(one.finds.size(), again.finds.size());
+  for (std::size_t i = 0; i < one.finds.size(); ++i) {
+    EXPECT_EQ(corpus::case_text(one.finds[i].c), corpus::case_text(again.finds[i].c));
+    EXPECT_EQ(one.finds[i].after, again.finds[i].after);
   }
 }
 
 TEST(Search, WhatIsFoundFailsAgainFromItsFile) {
   const auto runner = runner_of(*find_fault("pair/zero-zero-dropped"));
   const auto result = search({"search/test:2:1", 300}, space_of(runner), examine_by(runner), {});
-  ASSERT_FALSE(result.found.empty());
-  EXPECT_GE(result.defects, result.found.size());
-  for (const auto& found : result.found) {
+  ASSERT_FALSE(result.finds.empty());
+  EXPECT_GE(result.defects, result.finds.size());
+  for (const auto& found : result.finds) {
     const auto read = corpus::parse_case(corpus::case_text(found.c), "found");
     ASSERT_TRUE(read) << read.error().message;
     const auto judged = judged_by(runner, read.value());

@@ -81,7 +81,7 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
     EXPECT_EQ(run.disturbances, 0u);
     EXPECT_EQ(worker.starts(), 3u);
     const auto verdict = judge_run(fatal, run, {}, {Claim::total}, {});
-    EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
+    EXPECT_EQ(verdict.breaches, std::vector<Claim>{Claim::total});
     EXPECT_EQ(verdict.explanation, explanation);
     EXPECT_TRUE(same_answers(worker.run(fatal, plugin_alone)[0], run));
     // The next case begins to count anew.

@@ -163,9 +163,9 @@ TEST_F(PrintedByPlugin, EachCaseHasItsOwn) {
     const auto c = small_case(41, i);
     const auto one = worker.run(c, plugin_alone).front();
     ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
-    EXPECT_TRUE(one.printed.starts_with(lines(2, c.triangles.rows()))) << one.printed;
+    EXPECT_TRUE(one.output.starts_with(lines(2, c.triangles.rows()))) << one.output;
     // Two lines a step, and no more.
-    const auto newlines = std::count(one.printed.begin(), one.printed.end(), '\n');
+    const auto newlines = std::count(one.output.begin(), one.output.end(), '\n');
     EXPECT_EQ(newlines + 1, static_cast<std::ptrdiff_t>(2 * corpus::steps_of(c).size()));
     ++seen;
   }
@@ -177,9 +177,9 @@ TEST_F(PrintedByPlugin, AFloodLeavesItsEndAndDelaysNobody) {
   const auto c = small_case(41, 0);
   const auto one = run("print=200000", c);
   ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
-  EXPECT_LE(one.printed.size(), longest_printed + 4);
-  EXPECT_TRUE(one.printed.starts_with("...\n")) << one.printed.substr(0, 40);
-  EXPECT_NE(one.printed.find("line 200000 of "), std::string::npos);
+  EXPECT_LE(one.output.size(), longest_printed + 4);
+  EXPECT_TRUE(one.output.starts_with("...\n")) << one.output.substr(0, 40);
+  EXPECT_NE(one.output.find("line 200000 of "), std::string::npos);
 }
 
 TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
@@ -187,13 +187,13 @@ TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
   // A coordinate that is beyond the range makes it abort.
   const auto crashed = run("print=3 range=1e200:1e300 abort-outside", c);
   ASSERT_EQ(crashed.end, RunEnd::crashed) << crashed.explanation;
-  EXPECT_EQ(crashed.printed, lines(3, c.triangles.rows()));
+  EXPECT_EQ(crashed.output, lines(3, c.triangles.rows()));
   // Its first time is a double above 0, or it does not burn.
   for (std::uint64_t i = 0; i < 200; ++i) {
     c = small_case(41, i);
     const auto hung = run("print=3 burn=1000", c, {.seconds = .1});
     if (hung.end != RunEnd::hung) continue;
-    EXPECT_NE(hung.printed.find("line 3 of "), std::string::npos) << hung.printed;
+    EXPECT_NE(hung.output.find("line 3 of "), std::string::npos) << hung.output;
     return;
   }
   FAIL() << "no case hung";
@@ -203,7 +203,7 @@ TEST_F(PrintedByPlugin, ItIsKeptWithLimitsAlone) {
   const auto c = small_case(41, 0);
   const auto one = run("print=1", c, {.isolation = Isolation::limits});
   ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
-  EXPECT_TRUE(one.printed.starts_with(lines(1, c.triangles.rows()))) << one.printed;
+  EXPECT_TRUE(one.output.starts_with(lines(1, c.triangles.rows()))) << one.output;
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ class LimitResult : public testing::Test {
     const Positions way =
         contract.motion == MotionGiven::ends ? at(to) : displacement(at(from), at(to));
     return limit_answer({share, positions}, claims, contract, at(from),
-                        contracted(at(to), contract.coordinates), way);
+                        round_to(at(to), contract.coordinates), way);
   }
   double place(double share) const { return read(share).value().positions(0, 0); }
 

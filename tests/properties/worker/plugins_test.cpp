@@ -58,7 +58,7 @@ Tally run_all(const std::string& name) {
     const auto runs = worker.run(c, twice);
     const auto verdict = judge_run(c, runs[0], truth, claims, contract, &runs[1]);
     ++tally.outcomes[verdict.outcome];
-    for (const auto claim : verdict.broken) ++tally.broken[claim];
+    for (const auto claim : verdict.breaches) ++tally.broken[claim];
     for (const auto& run : runs) tally.crashes += run.end == RunEnd::crashed ? 1 : 0;
     tally.left_out_misses += verdict.left_out_misses;
   }
@@ -151,7 +151,7 @@ TEST(Plugins, ACrashIsNamed) {
   EXPECT_EQ(crash.end, RunEnd::crashed);
   EXPECT_EQ(crash.explanation, "killed by signal 6 (Aborted)");
   const auto verdict = judge_run(c, crash, judge_case(c), {Claim::total}, {});
-  EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
+  EXPECT_EQ(verdict.breaches, std::vector<Claim>{Claim::total});
   EXPECT_EQ(verdict.explanation, crash.explanation);
 }
 
@@ -222,7 +222,7 @@ TEST(Plugins, WhatBreaksTheRulesOfTheHeaderIsAnError) {
     ASSERT_EQ(run.end, RunEnd::completed);
     EXPECT_EQ(run.steps[0].answer, Answer::error);
     EXPECT_EQ(run.explanation, why);
-    EXPECT_EQ(judge_run(c, run, judge_case(c), {Claim::total}, {}).broken,
+    EXPECT_EQ(judge_run(c, run, judge_case(c), {Claim::total}, {}).breaches,
               std::vector<Claim>{Claim::total});
     EXPECT_EQ(judge_run(c, run, judge_case(c), {}, {}).outcome, Outcome::error);
   }

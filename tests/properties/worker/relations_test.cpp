@@ -67,13 +67,13 @@ ToldRuns runs_told(const std::string& words, const std::vector<corpus::Case>& ca
   const DetectorUnderTest told{name, false, description.value().claims, tally.contract,
                                plugin_alone};
   for (const auto& c : cases) {
-    const auto seen = contracted(c, tally.contract);
+    const auto seen = contract_case(c, tally.contract);
     if (!seen) continue;
     const auto examined = examine({told, plugin_alone, &worker}, *seen);
     const auto& run = examined.runs[0];
     const auto& verdict = examined.verdicts[0];
     ++tally.outcomes[verdict.outcome];
-    for (const auto claim : verdict.broken) ++tally.broken[claim];
+    for (const auto claim : verdict.breaches) ++tally.broken[claim];
     tally.left_out_misses += verdict.left_out_misses;
     for (const auto& step : verdict.steps) tally.left_out += step.left_out.size();
     if (!run.explanation.empty()) tally.explanation = run.explanation;

@@ -57,17 +57,17 @@ struct TriedPlugin {
     for (const auto& family : families()) {
       if (!family.name.ends_with(name_end)) continue;
       for (std::uint64_t i = 0; i < cases_a_family; ++i) {
-        const auto planned =
+        const auto trial =
             case_within(detector.contract, family,
                         seed + ":" + std::string(family.name) + ":" + std::to_string(i));
-        found.measures.redrawn += planned.redrawn;
-        found.measures.steps_left_out += planned.steps_left_out;
-        if (!planned.seen) {
+        found.measures.redrawn += trial.redrawn;
+        found.measures.steps_left_out += trial.steps_left_out;
+        if (!trial.input) {
           ++found.discards;
           continue;
         }
         const auto examined = examine(
-            {detector, detector.configurations, &worker, twice ? &worker : nullptr}, *planned.seen);
+            {detector, detector.configurations, &worker, twice ? &worker : nullptr}, *trial.input);
         found.add(examined.verdicts[0], examined.runs[0]);
       }
     }
@@ -219,15 +219,15 @@ Found queries_with(const std::string& words, std::uint64_t queries_a_family = 25
   const auto& detector = tried.detector;
   Found found;
   const Exam exam{detector, detector.configurations, &tried.worker, &tried.worker};
-  std::vector<Examined> list;
+  std::vector<CaseResults> list;
   for (const auto& family : query_families()) {
     for (std::uint64_t i = 0; i < queries_a_family; ++i) {
       const auto made =
           make_case(family, "queries:1:" + std::string(family.name) + ":" + std::to_string(i));
-      auto seen = contracted(made.c, detector.contract);
+      auto seen = contract_case(made.c, detector.contract);
       found.left_out += seen ? 0 : 1;
       if (!seen) continue;
-      run_first(exam, list.emplace_back(Examined{std::move(*seen)}));
+      run_first(exam, list.emplace_back(CaseResults{std::move(*seen)}));
     }
   }
   for (auto& one : list) run_again(exam, one);
@@ -323,7 +323,7 @@ TEST(Queries, OfACaseAreThoseThatItWasMadeOf) {
   c.triangles(1, 2) = 0;
   EXPECT_TRUE(says_query(c));
   EXPECT_FALSE(query_of(c));
-  EXPECT_FALSE(contracted(c, {}));
+  EXPECT_FALSE(contract_case(c, {}));
 }
 
 // A library of candidates alone: judged by the pairs that it loses, and nothing else.
@@ -341,7 +341,7 @@ TEST(Candidates, OfBoxesOverTheWholeStepHold) {
   EXPECT_GT(found.measures.candidate_steps, 40u);
   EXPECT_GT(found.measures.least_candidates, 100u);
   EXPECT_GT(found.measures.candidates, found.measures.least_candidates);
-  EXPECT_EQ(found.measures.errors.answered(), 0u) << "it answers none";
+  EXPECT_EQ(found.measures.errors.answers(), 0u) << "it answers none";
 }
 
 TEST(Candidates, ThatMissAContactAreFoundWithItsCause) {

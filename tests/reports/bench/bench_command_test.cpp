@@ -108,7 +108,7 @@ class Suites : public testing::Test {
     EXPECT_EQ(json["schema"], "assay-bench/2");
     EXPECT_EQ(json["rows"].size(), report.rows.size());
     for (const auto& row : report.rows) {
-      EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
+      EXPECT_TRUE(!row.estimate || std::isfinite(row.estimate->value)) << row.label;
     }
     return report;
   }

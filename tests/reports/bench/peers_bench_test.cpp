@@ -22,10 +22,10 @@ void put_peers(const tests::Scratch& scratch, const std::vector<std::string>& na
 // One family of two cases: a step that ends in contact, and one that does not.
 CaseFamily two_steps(const std::string& kind) {
   return {"steps", kind, 2, [] {
-            std::vector<TimedCase> cases;
+            std::vector<BenchCase> cases;
             for (const int frames : {2, 12}) {
               const auto scene = corpus::make_scene("bend", {320, frames, {}}).value();
-              TimedCase timed;
+              BenchCase timed;
               timed.c.id = frames == 2 ? "to the end" : "the first step";
               timed.c.triangles = scene.triangles;
               timed.c.frames = {scene.frames[0], scene.frames[1]};
@@ -121,7 +121,7 @@ TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
 TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   SmallRun run({"always_free"});
   auto modest = *run.rows.back().subject;
-  modest.counted.set(properties::Claim::free_sound, false);
+  modest.error_claims.set(properties::Claim::free_sound, false);
   run.rows.back().subject = &modest;
   const auto text = subjects_text(run.rows, "detector");
   EXPECT_NE(text.find("(1)"), std::string::npos) << text;
@@ -187,7 +187,7 @@ TEST(PeersBench, EveryStoredMeshHasTheContactThatIsMissed) {
     const auto c = corpus::read_case(file).value();
     EXPECT_LE(c.triangles.rows(), 5) << file;
     const auto report = properties::check_case(c);
-    EXPECT_TRUE(report.failed.empty()) << file << ": " << report.failed.front();
+    EXPECT_TRUE(report.broken_facts.empty()) << file << ": " << report.broken_facts.front();
     EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".svg"))) << file;
     const bool is_of_distance = fs::path(file).stem().string().ends_with("_within");
     EXPECT_EQ(c.expected.answer == detector::Answer::free, is_of_distance) << file;
@@ -210,10 +210,10 @@ TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
   const auto expect_missed = [&](const BenchSubject& subject, const fs::path& file) {
     if (!fs::exists(file)) return;
     ++present;
-    const std::vector<TimedCase> cases = {{corpus::read_case(file.string()).value()}};
+    const std::vector<BenchCase> cases = {{corpus::read_case(file.string()).value()}};
     std::uint64_t peak_bytes = 0;
     ComparisonPlan plan;
-    plan.on_case = [&](const PlayedCase& played) {
+    plan.on_case = [&](const Match& played) {
       peak_bytes = played.runs[0].first->times->peak_bytes;
     };
     const std::vector subjects = {subject};

@@ -138,7 +138,7 @@ TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   EXPECT_EQ(report.figures.at("subjects").size(), all_variants().size());
   for (const auto& row : report.rows) {
-    EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
+    EXPECT_TRUE(!row.estimate || std::isfinite(row.estimate->value)) << row.label;
     if (row.label == "wrong answers, exact") {
       EXPECT_STREQ(row.outcome(), "holds");
     }

@@ -96,14 +96,14 @@ class GeneratedFolder {
     checks.set(to_row(row));
     const double median = fails(states, Gate::speed) ? 1.4 : 1.2;
     checks.set(to_row(SpeedFigure{"exact-over-double", median, 1, 2, {}}));
-    Asked asked;
+    VerbRequest asked;
     for (const auto& rule : gate_rules) {
       if (states[static_cast<std::size_t>(rule.gate)] != GateState::not_judged)
         asked.gates.emplace_back(rule.name);
     }
     asked.certificate = asked.gates.size() == gate_rules.size();
     checks.set(to_row(asked));
-    checks.set(to_row(Issued{folder_}));
+    checks.set(to_row(Issuance{folder_}));
     EXPECT_TRUE(checks.seal());
   }
 

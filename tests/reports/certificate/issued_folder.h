@@ -21,7 +21,7 @@ inline void issue(const std::string& folder) {
 
 // Stores the run, what the checks of a certificate say of its paths, and its certificate.
 inline void store_and_issue(const RunToStore& run, const std::string& folder,
-                            const properties::Issued& paths) {
+                            const properties::Issuance& paths) {
   run.store(folder);
   auto store =
       properties::Store::open(properties::store_file(folder), properties::binding_of(run.request));

@@ -14,7 +14,7 @@ using tests::contains;
 
 nlohmann::ordered_json judged(
     const RunFindings& findings,
-    const properties::Asked& asked = properties::asked_of_a_certificate()) {
+    const properties::VerbRequest& asked = properties::asked_of_a_certificate()) {
   return make_predicate(findings, judge(findings, asked), findings.run.plan, "");
 }
 
@@ -93,7 +93,7 @@ TEST(Summary, ACertificateTellsItsDayAndARunThatOfItsBegin) {
   const auto predicate = judged(findings);
   EXPECT_TRUE(contains(summary_text(predicate, "2026-01-31T12:00:00Z"), " Begun 2026-01-31T12:00"));
   EXPECT_FALSE(contains(summary_text(predicate), "Begun"));
-  findings.evidence.issued = properties::Issued{.out = "out", .at = "2026-02-01T12:00:00Z"};
+  findings.evidence.issued = properties::Issuance{.out = "out", .at = "2026-02-01T12:00:00Z"};
   EXPECT_TRUE(contains(summary_text(judged(findings)), " Issued 2026-02-01T12:00:00Z."));
 }
 

@@ -106,7 +106,7 @@ TEST_F(Runs, SharesAreSummed) {
   RunToStore run;
   run.request.shares = 2;
   const auto alone = run.judge("closed-generic", 4, 'H').store(scratch / "one");
-  EXPECT_EQ(read_run(alone).planned(), 10u);
+  EXPECT_EQ(read_run(alone).quota(), 10u);
   EXPECT_FALSE(read_run(alone).is_whole());
   run.store(scratch / "two");
   RunToStore other;
@@ -115,7 +115,7 @@ TEST_F(Runs, SharesAreSummed) {
   other.judge("closed-generic", 5, 'H').judge("broken", 1, 'D').store(scratch / "two", "seed-2");
   const auto findings = read_run(scratch / "two");
   EXPECT_EQ(findings.tally.trials(), 10u);
-  EXPECT_EQ(findings.planned(), 20u);
+  EXPECT_EQ(findings.quota(), 20u);
   EXPECT_TRUE(findings.is_whole());
   const auto page = page_of(findings);
   EXPECT_EQ(page["findings"]["strata"][1]["with_defect"], 1u);

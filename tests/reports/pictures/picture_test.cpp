@@ -98,7 +98,7 @@ TEST(ContactPlaces, OfEveryCuratedPairLiesInBothTrianglesBoxes) {
 TEST(Scene, ShowsSetsDoubtsGhostsAndThePairOfTheFirstContact) {
   const auto scene = scene_of(curated_case("D8_release_arm_sequence"));
   ASSERT_EQ(scene.steps.size(), 2u);
-  EXPECT_EQ(scene.ended, "");
+  EXPECT_EQ(scene.ending, "");
   EXPECT_FALSE(scene.failure);
   EXPECT_EQ(scene.shown_step(), 1u);
   ASSERT_TRUE(scene.shown_pair());
@@ -106,8 +106,8 @@ TEST(Scene, ShowsSetsDoubtsGhostsAndThePairOfTheFirstContact) {
   EXPECT_EQ(scene.surface->ghost_count(), 4u);
   std::map<ViewSet, int> first, second;
   for (std::size_t t = 0; t < 36; ++t) {
-    ++first[reports::view_set(*scene.steps[0].answered, t)];
-    ++second[reports::view_set(*scene.steps[1].answered, t)];
+    ++first[reports::view_set(*scene.steps[0].answer, t)];
+    ++second[reports::view_set(*scene.steps[1].answer, t)];
   }
   EXPECT_GT(first[ViewSet::violated], 0) << "the arm goes through the hole";
   EXPECT_EQ(second[ViewSet::dirty], first[ViewSet::violated]) << "and stays in doubt (L8)";
@@ -145,8 +145,8 @@ TEST(Scene, ADetectorThatIsNotAtHandCostsItsPartAlone) {
   reports::SceneMaker maker{std::nullopt};
   const auto scene = maker.scene_of(curated_case("A1_winding2_allpositive"), "x");
   ASSERT_TRUE(scene);
-  EXPECT_NE(scene->ended, "");
-  EXPECT_FALSE(scene->steps[0].answered);
+  EXPECT_NE(scene->ending, "");
+  EXPECT_FALSE(scene->steps[0].answer);
   EXPECT_EQ(scene->steps[0].truth.pairs.size(), 10u);
   EXPECT_FALSE(scene->steps[0].has_views());
   EXPECT_EQ(scene->steps[0].difference({0, 1}, *scene), "not run");
@@ -158,7 +158,7 @@ TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
   ASSERT_TRUE(scene.failure);
   EXPECT_EQ(scene.failure->kind, "answered free");
   EXPECT_EQ(scene.shown_pair(), scene.failure->pair);
-  EXPECT_TRUE(scene.steps[0].answered->pairs.empty());
+  EXPECT_TRUE(scene.steps[0].answer->pairs.empty());
 }
 
 // What is missing is what its claims and its contract let nobody leave out.
@@ -197,7 +197,7 @@ TEST(Scene, UnderADistanceHasTheNearestPointsOfTheTwoTriangles) {
     const auto scene = scene_of(c);
     EXPECT_EQ(scene.asked_distance(), "d 0.5");
     EXPECT_FALSE(scene.failure);
-    EXPECT_EQ(scene.steps[0].answered->pairs.size(), 1u);
+    EXPECT_EQ(scene.steps[0].answer->pairs.size(), 1u);
     // At 0.25 more than one vertex is within 0.5, and at -0.125 edges pierce the face.
     const double nearest = start == 1 ? 0.5 : std::max(start, 0.0);
     EXPECT_NEAR(shown_distance(scene), nearest, 1e-15) << start;

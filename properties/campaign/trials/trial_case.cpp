@@ -43,8 +43,8 @@ int exponent_into_range(const corpus::Case& c, const Contract& contract) {
   if (most < 0) return most;
   const double shortest = shortest_edge_of(c), least = contract.least_nonzero;
   if (shortest >= least) return 0;
-  const int wanted = std::ilogb(least) - std::ilogb(shortest);
-  return std::min(most, std::ldexp(shortest, wanted) < least ? wanted + 1 : wanted);
+  const int exponent = std::ilogb(least) - std::ilogb(shortest);
+  return std::min(most, std::ldexp(shortest, exponent) < least ? exponent + 1 : exponent);
 }
 
 // Multiplies by 2^exponent. The result is 0 if the scaling would round it.
@@ -84,10 +84,10 @@ int exponent_within(const corpus::Case& c, const Contract& contract) {
         std::ilogb(contract.separation) + random.between(1, most) - std::ilogb(extent);
     if (fits(std::ldexp(largest, exponent), contract)) return exponent;
   }
-  const double wanted = contract.start == StartRule::apart ? 8 * contract.start_distance : 0;
-  if (!(extent > 0) || !(std::ldexp(extent, into_range) < wanted) || !std::isfinite(wanted))
+  const double size = contract.start == StartRule::apart ? 8 * contract.start_distance : 0;
+  if (!(extent > 0) || !(std::ldexp(extent, into_range) < size) || !std::isfinite(size))
     return into_range;
-  const int apart = std::ilogb(wanted) - std::ilogb(extent) + 1;
+  const int apart = std::ilogb(size) - std::ilogb(extent) + 1;
   return fits(std::ldexp(largest, apart), contract) ? apart : into_range;
 }
 
@@ -109,18 +109,18 @@ bool may_be_aimed(const Contract& contract) {
 
 // What the oracle says of a case: whether a step has a contact that counts, and whether one starts
 // without being near already. A step that starts near is judged, but shows little.
-struct Shown {
+struct CaseContacts {
   bool contact = false, start_apart = false;
 };
 
-Shown shown_by(const corpus::Case& c, const Contract& contract) {
-  Shown shown;
+CaseContacts contacts_of(const corpus::Case& c, const Contract& contract) {
+  CaseContacts contacts;
   for (const auto& step : judge_case(c, contract)) {
     const auto truth = truth_of(c, step, contract);
-    shown.start_apart |= !truth.starts_near;
-    shown.contact |= truth.first && !truth.starts_near;
+    contacts.start_apart |= !truth.starts_near;
+    contacts.contact |= truth.first && !truth.starts_near;
   }
-  return shown;
+  return contacts;
 }
 
 }  // namespace
@@ -139,37 +139,37 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
   return c;
 }
 
-PlannedCase case_within(const Contract& contract, const Family& family, const std::string& id) {
+TrialCase case_within(const Contract& contract, const Family& family, const std::string& id) {
   // The oracle is not asked for the sake of a large case alone.
   const bool is_large = family.triangles > 0;
   const bool wants_contact =
       !is_large && leaves_contacts_out(contract, family) && is_every_fourth(id);
-  PlannedCase last;
+  TrialCase last;
   std::uint64_t without_contact = 0;
   for (std::uint64_t redrawn = 0; redrawn <= most_redrawn; ++redrawn) {
     const auto attempt = redrawn == 0 ? id : fmt::format("{}~{}", id, redrawn);
-    PlannedCase planned;
-    planned.made = make_case(family, attempt);
-    planned.made.c = brought_into_contract(std::move(planned.made.c), contract);
+    TrialCase trial;
+    trial.source = make_case(family, attempt);
+    trial.source.c = brought_into_contract(std::move(trial.source.c), contract);
     Random random(attempt + ":aimed");  // other numbers than those that the case was drawn by
     if (!is_large && may_be_aimed(contract) && random.one_in(2))
-      planned.made.c = with_approach(std::move(planned.made.c), contract.separation, random);
-    planned.seen = contracted(planned.made.c, contract);
-    planned.redrawn = redrawn;
-    if (planned.seen) {
-      planned.steps_left_out =
-          corpus::steps_of(planned.made.c).size() - corpus::steps_of(*planned.seen).size();
-      if (!wants_contact && (contract.separation == 0 || is_large)) return planned;
-      const auto shown = shown_by(*planned.seen, contract);
-      if (!shown.start_apart) {
-        planned.seen.reset();
-      } else if (!wants_contact || shown.contact || ++without_contact > most_without_contact) {
-        return planned;
+      trial.source.c = with_approach(std::move(trial.source.c), contract.separation, random);
+    trial.input = contract_case(trial.source.c, contract);
+    trial.redrawn = redrawn;
+    if (trial.input) {
+      trial.steps_left_out =
+          corpus::steps_of(trial.source.c).size() - corpus::steps_of(*trial.input).size();
+      if (!wants_contact && (contract.separation == 0 || is_large)) return trial;
+      const auto contacts = contacts_of(*trial.input, contract);
+      if (!contacts.start_apart) {
+        trial.input.reset();
+      } else if (!wants_contact || contacts.contact || ++without_contact > most_without_contact) {
+        return trial;
       }
     }
-    if (planned.seen || !last.seen) last = std::move(planned);
+    if (trial.input || !last.input) last = std::move(trial);
   }
-  if (!last.seen) last.redrawn = most_redrawn + 1;
+  if (!last.input) last.redrawn = most_redrawn + 1;
   return last;
 }
 
@@ -187,9 +187,9 @@ bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithm
   detector::Options options;
   options.culling = detector::Culling::view_line;
   options.arithmetic = arithmetic;
-  auto made = detector::Detector::create(c.triangles, c.frames.front(), options);
-  if (!made) return false;
-  const auto& all = made.value().surface().all().triangles;
+  auto creation = detector::Detector::create(c.triangles, c.frames.front(), options);
+  if (!creation) return false;
+  const auto& all = creation.value().surface().all().triangles;
   const auto own = static_cast<std::size_t>(c.triangles.rows());
   detector::Triangles ghosts(static_cast<Eigen::Index>(all.size() - own), 3);
   for (std::size_t g = own; g < all.size(); ++g)
@@ -198,7 +198,7 @@ bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithm
   const auto script = corpus::steps_of(c);
   return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
     const auto& start = start_of(c, script[s]);
-    const auto result = made.value().evaluate(start, start);
+    const auto result = creation.value().evaluate(start, start);
     return is_clean(detector::with_apexes(start, result.apexes, false), c.triangles, ghosts);
   });
 }
@@ -220,7 +220,7 @@ bool starts_clean(const corpus::Case& c) {
         starts_clean_with_ghosts(c, Arithmetic::bounded))
       say("clean");
   });
-  return run.said == "clean";
+  return run.output == "clean";
 }
 
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index) {

@@ -32,7 +32,7 @@ Found first_failure(const std::string& question, const Run& run) {
   Found found;
   while (found.after < 200 && !found.failure) {
     const auto id = "smoke:1:" + question + ":" + std::to_string(found.after++);
-    const auto c = case_within(detector.contract, *find_family(question), id).seen;
+    const auto c = case_within(detector.contract, *find_family(question), id).input;
     if (!c) continue;
     found.failure =
         test::verdict_on(*c, {}, run(*c, configuration), configuration, detector).failure;
