@@ -203,8 +203,8 @@ TEST(Limits, L17_RoundingOfPositionsIsNoLackOfProgress) {
   ASSERT_EQ(answer.positions(1, 0), 0x1p60) << "0.4 of an ulp is none";
   EXPECT_EQ(broken_by(c, answer), List{});
   const auto used = [&](const LimitAnswer& a) { return errors_of(judged(c, a).steps[0]).limits; };
-  EXPECT_NEAR(share(answer).share(0), 0.4 / first_time, 0.01);
-  EXPECT_EQ(share({0.4, c.frames[0]}).share(0), 0) << "nothing moved";
+  EXPECT_NEAR(used(answer).share(0), 0.4 / first_time, 0.01);
+  EXPECT_EQ(used({0.4, c.frames[0]}).share(0), 0) << "nothing moved";
 }
 
 TEST(Limits, L17_RoomIsMeasuredInTheNumbersOfTheContract) {
