@@ -38,12 +38,12 @@ Runner runner_of(const Fault& fault) {
     return run_case(c, {"", fault.options, std::string(fault.name)});
   };
   // A fault must not be found by a case that was made for it, or that shows it by chance.
-  std::set<std::string> sign_of;
+  std::set<std::string> shown_by;
   for (const auto& file : tests::curated_files()) {
     const auto c = corpus::read_case(file);
-    if (c && judged_by(runner, c.value()).verdicts[0].failure) sign_of.insert(c.value().id);
+    if (c && judged_by(runner, c.value()).verdicts[0].failure) shown_by.insert(c.value().id);
   }
-  runner.shows_it_as_it_is = [sign_of](const corpus::Case& c) { return sign_of.contains(c.id); };
+  runner.shows_it_as_it_is = [shown_by](const corpus::Case& c) { return shown_by.contains(c.id); };
   return runner;
 }
 
