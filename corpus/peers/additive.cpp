@@ -21,6 +21,7 @@
 // some far away nearly parallel edges"), which may be farther apart than the edges are: a miss.
 // (Starts at less than that distance were not yet left out then. They gave what was expected;
 // besides, CodimIpc goes on for ever from a vertex at a face.)
+#include <cmath>
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>
 #include <vector>
@@ -40,7 +41,7 @@ namespace {
 
 #if ASSAY_PEER_CODIM_IPC
 struct Engine {
-  static constexpr auto name = "C-IPC, additive", version = "9c6cbe3a";
+  static constexpr auto name = "C-IPC, additive", version = "9c6cbe3a of 2022-11-01";
   static constexpr auto faces_near = JGSL::Point_Triangle_CCD_Broadphase<double>;
   static constexpr auto edges_near = JGSL::Edge_Edge_CCD_Broadphase<double>;
   static constexpr auto faces = JGSL::Point_Triangle_CCD<double>;
@@ -54,7 +55,7 @@ struct Engine {
 #else
 namespace distance = uipc::backend::cuda::distance;
 struct Engine {
-  static constexpr auto name = "libuipc, additive", version = "619a5412";
+  static constexpr auto name = "libuipc, additive", version = "619a5412 of 2026-07-08";
   static constexpr auto faces_near = distance::point_triangle_ccd_broadphase<double>;
   static constexpr auto edges_near = distance::edge_edge_ccd_broadphase<double>;
   static constexpr auto faces = distance::point_triangle_ccd<double>;
@@ -87,12 +88,24 @@ struct Additive {
  private:
   using Point = Eigen::Matrix<double, 3, 1>;
 
+  // Both are handed the way of a point. One that is rounded short ends before what it meets at
+  // t = 1, so it is rounded up.
+  static Point way(const Point& from, const Point& to) {
+    Point way = to - from;
+    for (int k = 0; k < 3; ++k) {
+      // What rounding took from the difference, without an error (Knuth's two-sum).
+      const double back = way[k] - to[k], lost = (to[k] - (way[k] - back)) - (from[k] + back);
+      if (lost != 0 && (lost > 0) == (way[k] > 0)) way[k] = std::nextafter(way[k], 2 * way[k]);
+    }
+    return way;
+  }
+
   template <class Near, class Test>
   static Time ask(const Near& near, const Test& test, const FourPaths& paths) {
     return ask_points<Point>(
         [&](const Point& a, const Point& b, const Point& c, const Point& d, const Point& a1,
             const Point& b1, const Point& c1, const Point& d1) -> Time {
-          const Point da = a1 - a, db = b1 - b, dc = c1 - c, dd = d1 - d;
+          const Point da = way(a, a1), db = way(b, b1), dc = way(c, c1), dd = way(d, d1);
           if (!near(a, b, c, d, da, db, dc, dd, Engine::boxes_apart)) return std::nullopt;
           double time = 1;
           const bool found = Engine::ask(test, time, a, b, c, d, da, db, dc, dd);

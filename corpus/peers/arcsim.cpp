@@ -34,7 +34,7 @@ struct ArcSim {
   static Time vertex_face(const FourPaths& paths) { return ask(paths, Impact::VF); }
   static Time edge_edge(const FourPaths& paths) { return ask(paths, Impact::EE); }
   static plugin::Description describe() {
-    return usual_description("ArcSim", "0.3.1, e17d93b5", ASSAY_CLAIM_FREE_SOUND);
+    return usual_description("ArcSim", "0.3.1, e17d93b5 of 2022-07-17", ASSAY_CLAIM_FREE_SOUND);
   }
 
  private:

@@ -26,10 +26,10 @@ namespace assay::peers {
 namespace {
 
 struct Bsc {
-  static constexpr auto name = "BSC", version = "8db61b25";
+  static constexpr auto name = "BSC", version = "8db61b25 of 2020-09-25";
 };
 struct TightCcd {
-  static constexpr auto name = "TightCCD", version = "366384ba";
+  static constexpr auto name = "TightCCD", version = "366384ba of 2020-09-23";
 };
 using Signs = ASSAY_PEER_SIGNS;
 

@@ -35,8 +35,9 @@ struct CtcdTests {
                     {{0, 2}, {0, 3}, {1, 2}, {1, 3}});
   }
   static plugin::Description describe() {
-    auto d = usual_description(separation > 0 ? "CTCD, eta 1e-3" : "CTCD, eta 1e-8", "e5fe5c97",
-                               ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
+    auto d =
+        usual_description(separation > 0 ? "CTCD, eta 1e-3" : "CTCD, eta 1e-8",
+                          "e5fe5c97 of 2019-06-11", ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
     d.time_tolerance = 1e-6;
     if (separation > 0) {
       d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;

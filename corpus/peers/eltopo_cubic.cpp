@@ -42,7 +42,7 @@ struct ElTopoCubic {
         paths));
   }
   static plugin::Description describe() {
-    return usual_description("El Topo, cubic", "5579391e", ASSAY_CLAIM_FREE_SOUND);
+    return usual_description("El Topo, cubic", "5579391e of 2025-05-22", ASSAY_CLAIM_FREE_SOUND);
   }
 };
 

@@ -24,7 +24,8 @@ struct ElTopoRootParity {
   static Time vertex_face(const FourPaths& paths) { return ask(paths, false); }
   static Time edge_edge(const FourPaths& paths) { return ask(paths, true); }
   static plugin::Description describe() {
-    auto d = usual_description("El Topo, root parity", "5579391e", ASSAY_CLAIM_NO_SPURIOUS);
+    auto d = usual_description("El Topo, root parity", "5579391e of 2025-05-22",
+                               ASSAY_CLAIM_NO_SPURIOUS);
     d.claims &= ~std::uint32_t{ASSAY_CLAIM_DETERMINISTIC};
     return d;
   }

@@ -32,7 +32,7 @@ struct FastApproximateRoot {
     return at_time(found, time);
   }
   static plugin::Description describe() {
-    auto d = usual_description("Fast Approximate Root", "138321e2", 0);
+    auto d = usual_description("Fast Approximate Root", "138321e2 of 2024-04-01", 0);
     d.time_tolerance = 1e-6;
     return d;
   }

@@ -51,7 +51,7 @@ struct Ppf {
         paths);
   }
   static plugin::Description describe() {
-    auto d = usual_description("ppf-contact-solver, accd", "f23b3565",
+    auto d = usual_description("ppf-contact-solver, accd", "f23b3565 of 2026-08-07",
                                ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
     d.coordinates = ASSAY_COORDINATES_FLOAT32;
     d.start = ASSAY_START_APART;

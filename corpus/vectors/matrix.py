@@ -75,9 +75,16 @@ LEGEND = """<ul class="legend">
 <li class="chip good"><b>&#x2713; 0/17</b> <small>all right</small></li>
 <li class="chip none">&ndash; <small>not asked, or not supported</small></li>
 </ul>
-<p class="quiet">A miss is the answer free where features meet, or a share of a step that is not safe.
-A late time is a first time after the contact, be it by the last digit. An alarm is a contact that there
-is not. Where features only touch, both answers are right; these are counted below.</p>
+"""
+
+WORDS = """<p>A <b>miss</b> is the answer free where features meet, or a share of a step that is not
+safe. It counts whether the product promises to find such contacts or not: some test vertices against
+faces alone, or say themselves that they miss. What those of <code>corpus/peers</code> promise is told
+there, and in its FINDINGS.md the causes of defects. A <b>late</b> time is a first time after the
+contact, be it by the last digit. An <b>alarm</b> is a contact that there is not. <b>Unsupported</b> is
+what the product was not asked, because its contract leaves it out. Where features only touch, both
+answers are right; these are counted below. <b>To run it again</b>: <code>vectors.py run --detector
+LIB.so</code> asks all, with <code>--group NAME</code> one group.</p>
 """
 
 TOUCHING = """<h2>Where features only touch</h2>
@@ -195,9 +202,10 @@ def product_html(judged, letter, cases):
             codes = "".join(f" <code>{escaped(i)}</code>" for i in ids)
             html += f"<p>{words} ({len(ids)}):{codes}</p>\n"
     if judged.early:
-        html += f"<p>Times before the contact: {judged.early}</p>\n"
+        html += f"<p>Times before the contact, which is safe: {judged.early}</p>\n"
     if judged.gave_pairs:
-        html += f"<p>Pairs: {judged.missing} missing, {judged.spurious} spurious</p>\n"
+        html += (f"<p>Pairs of triangles: {judged.missing} in contact not named, {judged.spurious} "
+                 "named without contact</p>\n")
     if judged.uses:
         html += f"<p>Limits: {vectors.uses_text(judged)}</p>\n"
     return html
@@ -213,7 +221,7 @@ def page(asked, every):
     html = (f"{HEAD}<h1>Who misses what</h1>\n<p>{info['cases']} small hard cases of continuous "
             "collision detection, whose answers are known exactly. <span class=\"quiet\">Set "
             f"{escaped(info['version'])} ({escaped(info['profile'])}), digest <code>"
-            f"{info['digest']}</code></span></p>\n" + products_html(every) +
+            f"{info['digest']}</code></span></p>\n" + WORDS + products_html(every) +
             "<h2>By what makes a case hard</h2>\n" + LEGEND +
             matrix_html("flag: what goes wrong", flags, every, wrong) + "<h2>By group</h2>\n" +
             matrix_html("group", groups, every, lambda name: "") + touching_html(every) +
