@@ -34,7 +34,7 @@ Claims judged_claims(const Claims& claims, const Contract& contract, bool of_que
 
 void weigh(const Claims& claims, StepDiff& diff) {
   for (const auto& row : all_rows<Claim>)
-    if (claims.has(row.value) && row.sign_of(diff).kind) diff.breaches.push_back(row.value);
+    if (claims.has(row.value) && row.symptom_of(diff).kind) diff.breaches.push_back(row.value);
   if (!diff.breaches.empty()) diff.outcome = Outcome::defect;
 }
 

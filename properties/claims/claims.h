@@ -139,23 +139,23 @@ struct StepDiff {
 struct WithinSlack {
   detector::PairContact contact;
 };
-struct Sign {
+struct Symptom {
   const char* kind = nullptr;
   std::variant<std::monostate, detector::PairContact, WithinSlack, WrongTime,
                detector::TrianglePair>
       by = {};
 };
 // The first that breaks it.
-inline Sign operator|(const Sign& a, const Sign& b) { return a.kind ? a : b; }
+inline Symptom operator|(const Symptom& a, const Symptom& b) { return a.kind ? a : b; }
 
-inline Sign if_so(bool is_so, const char* kind,
-                  const std::optional<detector::PairContact>& contact = {}) {
+inline Symptom if_so(bool is_so, const char* kind,
+                     const std::optional<detector::PairContact>& contact = {}) {
   if (!is_so) return {};
-  return contact ? Sign{kind, *contact} : Sign{kind};
+  return contact ? Symptom{kind, *contact} : Symptom{kind};
 }
 template <class Wrong>
-Sign if_any(const char* kind, const std::vector<Wrong>& list) {
-  return list.empty() ? Sign() : Sign{kind, list.front()};
+Symptom if_any(const char* kind, const std::vector<Wrong>& list) {
+  return list.empty() ? Symptom() : Symptom{kind, list.front()};
 }
 
 // What a detector claims of its answers.
@@ -220,7 +220,7 @@ struct ClaimRow {
   Deed deed;
   // How a step breaks it. Two runs alone break `deterministic` (exam.h), and nothing breaks
   // times_unique.
-  Sign (*sign_of)(const StepDiff&) = [](const StepDiff&) { return Sign(); };
+  Symptom (*symptom_of)(const StepDiff&) = [](const StepDiff&) { return Symptom(); };
   // Why it is not judged under this contract; empty if it is.
   const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
     return "";
@@ -249,7 +249,7 @@ constexpr auto names_of(Claim) {
        },
        [](C c, bool) { return c.margin > 0 ? "the contract has a margin" : ""; }},
       {first_pairs, "first-pairs", ASSAY_CLAIM_FIRST_PAIRS, 1, pairs, by_contact, loses,
-       [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Sign(); },
+       [](D d) { return d.is_without_excuse ? if_any("missing pair", d.missing) : Symptom(); },
        without_pairs},
       {all_pairs, "all-pairs", ASSAY_CLAIM_ALL_PAIRS, 1, pairs, by_contact, loses,
        [](D d) { return if_any("missing pair", d.missing) | if_any("late pair", d.late); },
@@ -257,10 +257,11 @@ constexpr auto names_of(Claim) {
       {no_spurious, "no-spurious", ASSAY_CLAIM_NO_SPURIOUS, 1, answers, by_step, reports,
        [](D d) {
          const auto pair =
-             d.spurious.empty() ? Sign() : Sign{"spurious pair", d.spurious.front().pair};
-         if (d.answered_collision) return Sign{"answered collision", pair.by};
+             d.spurious.empty() ? Symptom() : Symptom{"spurious pair", d.spurious.front().pair};
+         if (d.answered_collision) return Symptom{"answered collision", pair.by};
          return pair | if_any("early pair", d.early) |
-                (d.first_in_slack ? Sign{"early alarm", WithinSlack{*d.first_in_slack}} : Sign());
+                (d.first_in_slack ? Symptom{"early alarm", WithinSlack{*d.first_in_slack}}
+                                  : Symptom());
        },
        [](C c, bool of_queries) {
          return c.judges_alarms(of_queries) ? ""
@@ -273,7 +274,7 @@ constexpr auto names_of(Claim) {
        [](D d) { return if_any("missing candidate", d.missing_candidates); }},
       {commit_free, "commit-free", ASSAY_CLAIM_COMMIT_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) {
-         return d.limit && d.limit->hit ? Sign{"contact on the way", *d.limit->hit} : Sign();
+         return d.limit && d.limit->hit ? Symptom{"contact on the way", *d.limit->hit} : Symptom();
        }},
       {path_free, "path-free", ASSAY_CLAIM_PATH_FREE, 3, limits, by_contact_ahead, loses,
        [](D d) { return if_so(d.limit && d.limit->too_far, "share too large", d.first_contact); }},

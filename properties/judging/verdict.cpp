@@ -150,16 +150,16 @@ class FailureOfStep {
   FailureOfStep(const StepDiff& diff, const detector::StepResult& result, const Contract& contract)
       : diff_(diff), contract_(contract), row_(row_of(diff.breaches.front())) {
     failure_.claim = row_.value;
-    const Sign sign = row_.sign_of(diff);
-    failure_.kind = sign.kind;
+    const Symptom symptom = row_.symptom_of(diff);
+    failure_.kind = symptom.kind;
     if (diff.overload) failure_.explanation = refusal_text(*diff.overload);
     if (row_.about == About::runs) return;
-    std::visit([&](const auto& by) { tell(by); }, sign.by);
+    std::visit([&](const auto& by) { tell(by); }, symptom.by);
     if (row_.value == Claim::commit_free)
       failure_.explanation = "on the way that is allowed, " + failure_.explanation;
     if (row_.about == About::times && diff.first)  // else the oracle was stopped
       failure_.explanation +=
-          fmt::format(", {} by {}", sign.kind,
+          fmt::format(", {} by {}", symptom.kind,
                       share_text(diff.late_first ? diff.first->off.late : diff.first->off.early));
     failure_.explanation +=
         row_.about == About::limits ? how_far()

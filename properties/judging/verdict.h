@@ -43,7 +43,7 @@ class BodyNames {
 // A defect of a trial, described by what distinguishes it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // How the claim is broken: by a step (ClaimRow::sign_of), or else "two runs differ", "crashed"
+  // How the claim is broken: by a step (ClaimRow::symptom_of), or else "two runs differ", "crashed"
   // or "refused".
   std::string kind;
   std::size_t step = 0;                        // step of the script
