@@ -864,7 +864,7 @@ def exit_code(every):
     return 3 if any(is_silent) or any(judged.ids(*NO_ANSWERS) for judged in every) else 0
 
 
-# --- rational CSV -------------------------------------------------------------------------------
+# --- query files --------------------------------------------------------------------------------
 
 def features_of(path):
     name = path.name[:-3] if path.name.endswith(".gz") else path.name
@@ -878,13 +878,15 @@ def features_of(path):
     raise Wrong(f"{path}: vertex-face or edge-edge? --features says it")
 
 
-def double_of(numerator, denominator, place):
+def double_of(words, place):
     try:
-        exact = Fraction(int(numerator), int(denominator))
+        if len(words) == 1:
+            return number_of(words[0])
+        exact = Fraction(*map(int, words))
         x = exact.numerator / exact.denominator
     except (ValueError, ZeroDivisionError, OverflowError):
-        raise Wrong(f"{place}: {numerator}/{denominator} is no double") from None
-    want(Fraction(x) == exact, place, f"{numerator}/{denominator} is no double")
+        raise Wrong(f"{place}: {'/'.join(words)} is no double") from None
+    want(Fraction(x) == exact, place, f"{'/'.join(words)} is no double")
     return x
 
 
@@ -908,9 +910,10 @@ def read_csv(file, truth):
         points, ends = [], set()
         for i in range(first, first + 8):
             place, columns = f"{file}: line {i + 1}", [c.strip() for c in lines[i].split(",")]
-            want(6 <= len(columns) <= 8, place, f"{len(columns)} columns, where 6 to 8 are expected")
-            points.append([double_of(columns[k], columns[k + 1], place) for k in (0, 2, 4)])
-            ends.add(tuple(columns[6:]))
+            want(3 <= len(columns) <= 8, place, f"{len(columns)} columns, where 3 to 8 are expected")
+            each = 1 if len(columns) < 6 else 2  # a decimal, or numerator and denominator
+            points.append([double_of(columns[k:k + each], place) for k in range(0, 3 * each, each)])
+            ends.add(tuple(columns[3 * each:]))
         place = f"{file}: line {first + 1}"
         want(len(ends) == 1, place, "the eight rows of this query differ in label or separation")
         end = ends.pop()

@@ -569,6 +569,11 @@ class Csv(InScratch):
         cases = json.loads((out / "data.json").read_text())["cases"]
         self.assertEqual([c["result"] for c in cases], ["collision", "free"])
         self.assertEqual(cases[0]["t0"][1], [5e-324, sys.float_info.max, -0.3333333333333333])
+        decimals = self.scratch / "decimals-vf.csv"
+        decimals.write_text("".join(f".1,-2e-1,{k},1\n" for k in range(8)))
+        self.assertEqual(run("from-csv", decimals, "--out", self.scratch / "s3")[0], 0)
+        taken = json.loads((self.scratch / "s3" / "decimals-vf.json").read_text())["cases"]
+        self.assertEqual(taken[0]["t1"][1], [0.1, -0.2, 5])
 
         truth = self.scratch / "truth.json"
         self.assertEqual(run("to-csv", out / "data.json", back, "--truth", truth)[0], 0)
@@ -595,7 +600,8 @@ class Csv(InScratch):
     def test_what_no_double_is(self):
         for row, line in (("1,3,0,1,0,1,1", "1/3 is no double"), ("1,0,0,1,0,1,1", "1/0 is no"),
                           ("x,1,0,1,0,1,1", "x/1 is no"), ("1,1,0,1,0,1", "no label"),
-                          ("1,1,0,1", "4 columns"), ("1,1,0,1,0,1,1,-1", "no length"),
+                          ("1,1", "2 columns"), ("1,1e999,0", "1e999 is no double"),
+                          ("1,1,0,1,0,1,1,-1", "no length"),
                           (f"{2 ** 1025},1,0,1,0,1,1", "is no double")):
             file = self.scratch / "a-vf.csv"
             file.write_text((row + "\n") * 8)
