@@ -67,9 +67,8 @@ py::object least_distance(const py::object& triangles, const py::object& x_t0,
   if (!least.where) return py::none();
   const auto& [pair, time, feature] = *least.where;
   py::list vertices;
-  for (const auto v : feature.vertices) {
+  for (const auto v : feature.vertices)
     if (v >= 0) vertices.append(v);
-  }
   return py::make_tuple(least.distance, py::make_tuple(pair.a, pair.b),
                         py::make_tuple(time.lo, time.hi), detector::name_of(feature.kind),
                         py::tuple(vertices));
@@ -128,9 +127,11 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
   corpus::Case c;
   c.triangles = TrianglesArgument(triangles, "triangles").view();
   for (const auto& frame : frames) {
-    const PositionsArgument x(py::reinterpret_borrow<py::object>(frame), "a frame");
+    const auto name = "frame " + std::to_string(c.frames.size());
+    const PositionsArgument x(py::reinterpret_borrow<py::object>(frame), name.c_str());
     c.frames.emplace_back(x.view());
-    if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows())) raise(*bad);
+    if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows()))
+      raise({bad->error, name + ": " + bad->message});
   }
   if (c.frames.empty()) throw py::value_error("a frame or more is needed");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
@@ -176,9 +177,8 @@ py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py
 
 py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& args,
                        const std::string& worker, const py::object& listener) {
-  const auto question = question_of(args);
   auto input = input_of(triangles, frames, args);
-  return check_input(input, question, args, worker, listener);
+  return check_input(input, question_of(args), args, worker, listener);
 }
 
 // Checks a case file, or files of frames.

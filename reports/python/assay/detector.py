@@ -69,7 +69,7 @@ class Detector:
     ):
         options = {"culling": culling, "start": start, "pairs": pairs, "arithmetic": arithmetic}
         if separation != 0:
-            options["separation"] = repr(float(separation))
+            options["separation"] = repr(_question("exact", float(separation))[1])
         if not 0 <= threads <= 1024:
             raise ValueError("threads: 0 (all cores) to 1024 are wanted")
         self._detector = _detector.Detector(triangles, positions, options, threads)
@@ -144,7 +144,7 @@ def vertex_face(
 def edge_edge(
     x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
 ) -> Contacts:
-    """The same of edges: the two ends of the one, then those of the other."""
+    """The same of edges: (k, 4, 3) are the two ends of the one, then those of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1, *_question(arithmetic, separation)))
 
 
@@ -157,7 +157,7 @@ def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
 
 
 def contact_places(result: Union[StepResult, Judgement]) -> ContactPlaces:
-    """Where the pairs of a result meet, for who responds to contacts; about a microsecond a pair."""
+    """Where the pairs of a result meet, for a response. Contacts of a CheckedStep have their places."""
     mesh = arrays.triangles(result.triangles, "triangles")
     x_t0, x_t1 = arrays.positions(result.x_t0, "x_t0"), arrays.positions(result.x_t1, "x_t1")
     return ContactPlaces(

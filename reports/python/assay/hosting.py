@@ -219,12 +219,13 @@ def pairs_of(pairs):
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
         raise ValueError(f"pairs of shape {given.shape} and dtype {given.dtype}: (k, 2) integers are wanted")
-    return int32_of(given, "pairs")
+    return int32_of(given, "pairs", 2)
 
 
-def int32_of(numbers, name):
-    """Whole numbers from 0 on as int32. ValueError: others."""
+def int32_of(numbers, name, dimensions=1):
+    """Whole numbers from 0 on as int32, of so many dimensions. ValueError: others."""
     given = np.asarray(numbers)
-    if given.dtype.kind not in "iu" or (given.size and (given.min() < 0 or given.max() > np.iinfo(np.int32).max)):
-        raise ValueError(f"{name}: whole numbers from 0 to {np.iinfo(np.int32).max} are wanted")
+    most, are_whole = np.iinfo(np.int32).max, given.dtype.kind in "iu" and given.ndim == dimensions
+    if not are_whole or (given.size and not 0 <= given.min() <= given.max() <= most):
+        raise ValueError(f"{name}: whole numbers from 0 to {most} are wanted, {dimensions}-dimensional")
     return np.ascontiguousarray(given, np.int32)

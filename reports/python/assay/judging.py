@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import math
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from operator import index
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, overload
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from .frames import Frames, as_frames
@@ -24,10 +24,10 @@ Interval = Tuple[float, float]
 class Contact:
     """A pair of triangles, the first time of their contact, and the features that meet then.
 
-    bodies: where there are bodies, of each triangle its body and its number among the triangles of
-    that. The rest is of the contacts of a CheckedStep alone: meeting: "touching" or "crossing";
-    crosses_at_end: whether the two cross when the step ends; point, and barycentric: the weights of
-    the corners of both triangles that give it, within error; normal: of the face, or of both edges.
+    time: (lo, hi); feature: "vertex-face", ..., with its vertices (FEATURE_KINDS). bodies, if there
+    are some: of each triangle its body, and its number there. The rest is of contacts of a
+    CheckedStep alone. meeting: "touching" or "crossing"; crosses_at_end: whether they cross when
+    the step ends (None at rest); point (3,), barycentric (2, 3), error, normal (3,): as ContactPlaces.
     """
 
     triangles: Tuple[int, int]
@@ -67,11 +67,11 @@ class StepDiff:
     partial: bool
     wrong_answer: bool
     wrong_first_time: bool
-    missing: Tuple[Contact, ...]
-    excused: Tuple[Contact, ...]
-    spurious: Tuple[Contact, ...]
-    late: Tuple[WrongTime, ...]
-    early: Tuple[WrongTime, ...]
+    missing: Tuple[Contact, ...] = field(repr=False)
+    excused: Tuple[Contact, ...] = field(repr=False)
+    spurious: Tuple[Contact, ...] = field(repr=False)
+    late: Tuple[WrongTime, ...] = field(repr=False)
+    early: Tuple[WrongTime, ...] = field(repr=False)
     left_out: int
     left_out_missed: bool
 
@@ -80,7 +80,7 @@ class StepDiff:
 class CheckedStep:
     """A step: the detector's answer and time, the oracle's, and the diff (None without an oracle).
 
-    contacts: what is in contact, by the oracle.
+    contacts: the pairs in contact, by the oracle; its repr leaves them out.
     """
 
     answer: str
@@ -88,7 +88,7 @@ class CheckedStep:
     oracle_answer: Optional[str]
     oracle_first: Optional[Interval]
     diff: Optional[StepDiff]
-    contacts: Tuple[Contact, ...] = ()
+    contacts: Tuple[Contact, ...] = field(default=(), repr=False)
 
 
 class _Report:
@@ -145,7 +145,7 @@ class SeparationStep:
     answer: str
     first: Optional[Interval]
     near_at_start: int
-    pairs: Tuple[Contact, ...]
+    pairs: Tuple[Contact, ...] = field(repr=False)
     least: Optional[LeastDistance]
 
 
@@ -179,8 +179,8 @@ def judge(
     Without x_t1 the mesh is at rest: "collision" says that it meets itself.
     separation: above 0, all pairs of triangles that share no vertex and come within this distance,
     each with its first time within it; "collision" says that there are some. Two doubles stand for
-    their exact sum. Arguments and errors are those of Detector; jobs: threads, all cores if None.
-    Ctrl-C ends it.
+    their exact sum. Arrays and errors are those of Detector; jobs: threads, all cores if None.
+    Ctrl-C ends it. Only check() can be told which pairs count.
     """
     from . import _judge
 
@@ -207,7 +207,8 @@ def first_time_within(
 ) -> Optional[Interval]:
     """When two triangles that share no vertex first come within the distance; None: never.
 
-    The time is both ends of the interval, or lies strictly between them: two adjacent doubles.
+    separation: a length in units of the positions; the other arguments are those of judge(). The
+    time is both ends of the interval, or lies strictly between them: two adjacent doubles.
     """
     from . import _judge
 
@@ -218,13 +219,12 @@ def first_time_within(
 
 
 def least_distance(
-    triangles: ArrayLike,
-    x_t0: ArrayLike,
-    x_t1: ArrayLike,
-    *,
-    jobs: Optional[int] = None,
+    triangles: ArrayLike, x_t0: ArrayLike, x_t1: ArrayLike, *, jobs: Optional[int] = None
 ) -> Optional[LeastDistance]:
-    """The least distance over a step, exactly; None if no two triangles share no vertex."""
+    """The least distance over a step, exactly; None if no two triangles share no vertex.
+
+    Arguments are those of judge(), but x_t1 has to be given: at rest it is x_t0.
+    """
     from . import _judge
 
     found = _judge.least_distance(triangles, x_t0, x_t1, _jobs(jobs))
@@ -263,14 +263,14 @@ def check(
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
     file; one frame alone is a mesh at rest. detector: None for the built-in one, of which the next
     four options are; the name of a plug-in's library; "python:MODULE:CLASS"; or a class, which
-    another process imports by its module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
-    told 1. time, memory, isolation: as on the command line. progress: called with what is printed;
-    True prints it to stderr.
-    bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that do not
-    meet, or a body paired with itself. rings: triangles that fewer edges join do not count (1: those
-    that share a vertex); rest_distance: nor do those that are nearer in the first frame. weld:
-    vertices of a body that stand at one place in every frame count as one. None of these is of a
-    case file, which says itself what counts.
+    another process imports by its module. jobs: threads of the oracle; threads: of the detector, 0:
+    all cores, and a plug-in is told 1. time: seconds; memory ("6GB"), isolation: as on the command
+    line. progress: called with what is printed; True prints it to stderr.
+    bodies: integers (n,), the number of each vertex's body, from 0 on; apart: pairs of bodies that
+    do not meet, or a body paired with itself. rings: triangles that fewer edges join do not count
+    (1: those that share a vertex); rest_distance, a length: nor do those that are nearer in the
+    first frame. weld: vertices of a body that stand at one place in every frame count as one. None
+    of these is of a case file, which says itself what counts.
     separation: the oracle alone says which triangles that share no vertex come within this distance,
     when first, and how near any two come; the answer is then a SeparationReport.
 
@@ -278,7 +278,7 @@ def check(
     plug-in's process, which ends with its step or at `time`. A class that is slow may take long:
     `time` is a limit in seconds, and `progress=True` shows each step as it is judged.
     """
-    from . import _judge
+    from . import _judge, hosting
 
     if detector is not None and (culling or start or pairs or arithmetic):
         raise ValueError("culling, start, pairs and arithmetic are of the built-in detector")
@@ -293,14 +293,14 @@ def check(
         "arithmetic": arithmetic,
         "detector": detector_word(detector) if detector is not None else None,
         "jobs": _jobs(jobs),
-        "threads": threads,
-        "time": time,
+        "threads": index(threads),
+        "time": None if time is None else float(time),
         "memory": memory,
         "isolation": isolation,
-        "bodies": None if bodies is None else np.asarray(bodies, np.int32).tolist(),
-        "apart": [list(pair) for pair in apart],
-        "rings": rings,
-        "rest_distance": rest_distance,
+        "bodies": None if bodies is None else hosting.int32_of(bodies, "bodies").tolist(),
+        "apart": hosting.pairs_of(list(apart)).tolist(),
+        "rings": index(rings),
+        "rest_distance": float(rest_distance),
         "weld": weld,
     }
     told = listener(progress)
@@ -318,7 +318,7 @@ def check(
 
 
 def _jobs(jobs: Optional[int]) -> int:
-    jobs = len(os.sched_getaffinity(0)) if jobs is None else jobs
+    jobs = len(os.sched_getaffinity(0)) if jobs is None else index(jobs)
     if not 1 <= jobs <= 1024:
         raise ValueError("jobs: 1 to 1024 are wanted")
     return jobs
@@ -333,9 +333,7 @@ def _separation_report(text: str, printed: str, code: int) -> SeparationReport:
 
 def _report(text: str, printed: str, code: int) -> CheckReport:
     report = json.loads(text)
-    return CheckReport(
-        report["outcome"], tuple(map(_step, report["steps"])), printed, report, code
-    )
+    return CheckReport(report["outcome"], tuple(map(_step, report["steps"])), printed, report, code)
 
 
 def _step(raw: Dict[str, Any]) -> CheckedStep:
@@ -370,14 +368,8 @@ def _diff(raw: Dict[str, Any]) -> StepDiff:
 
 def _contact(raw: Dict[str, Any]) -> Contact:
     place = ("meeting", "crosses_at_end", "point", "barycentric", "error", "normal")
-    return Contact(
-        tuple(raw["triangles"]),
-        tuple(raw["time"]),
-        raw["feature"],
-        tuple(raw["vertices"]),
-        _bodies(raw),
-        **{name: raw.get(name) for name in place},
-    )
+    known = (tuple(raw["triangles"]), tuple(raw["time"]), raw["feature"], tuple(raw["vertices"]))
+    return Contact(*known, _bodies(raw), **{name: raw.get(name) for name in place})
 
 
 def _wrong_time(raw: Dict[str, Any]) -> WrongTime:

@@ -18,7 +18,8 @@ Float64Array = npt.NDArray[np.float64]
 # Bits of StepResult.doubts.
 VIOLATED, DIRTY = 1, 2
 
-# By the first column of `features`: what the other five hold.
+# By the first column of `features`. The others hold vertices, then -1: v f f f; two edges, a a b b; an
+# edge that goes through a face at the start, e e f f f; the face that both triangles are, f f f.
 FEATURE_KINDS = ("vertex_face", "edge_edge", "piercing", "same_vertices")
 
 
@@ -158,20 +159,12 @@ class StepResult(_Step):
 
 def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) -> StepResult:
     """Of the fields as the extension module gives them."""
-    counts = raw["counts"]
     fields = dict(raw, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
     fields["milliseconds"] = StepTimes(*raw["milliseconds"])
-    fields["counts"] = StepCounts(
-        SearchCounts(*counts["search"]),
-        MarkingCounts(*counts["marking"]),
-        NarrowCounts(*counts["narrow"]),
-        ViewCounts(*counts["view"]),
-        GhostCounts(*counts["ghosts"]),
-        ReleaseCounts(*counts["release"]),
-        counts["closure_rounds"],
-        counts["winding_numbers"],
-        counts["free_components"],
-    )
+    kinds: Any = dict(search=SearchCounts, marking=MarkingCounts, narrow=NarrowCounts)
+    kinds.update(view=ViewCounts, ghosts=GhostCounts, release=ReleaseCounts)
+    counts = {name: kinds[name](*c) if name in kinds else c for name, c in raw["counts"].items()}
+    fields["counts"] = StepCounts(**counts)
     return StepResult(**fields)
 
 
@@ -215,9 +208,10 @@ class ContactPlaces:
 
     point: float64 (k, 3); barycentric: float64 (k, 2, 3), its weights in both triangles.
     error: float64 (k,): no coordinate of the point is farther from the weighted corners of either.
-    normal: float64 (k, 3), unit: of the face, or of both edges; NaN where there is none.
+    normal: float64 (k, 3), unit: of the face, on the side from which its corners go
+    counter-clockwise; of two edges along (a1 - a0) x (b1 - b0); NaN where there is none.
     normal_error: float64 (k,): no coordinate of the normal is off by more.
-    All of a pair is NaN where its feature has no name.
+    All of a pair is NaN where its feature has no name. Lengths are in units of the positions.
     """
 
     point: Float64Array
@@ -232,7 +226,7 @@ class ContactPlaces:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Judgement(_Step):
-    """The oracle's answer of a step; fields as those of StepResult of the same names."""
+    """The oracle's answer: fields as of StepResult; feature_candidates: feature pairs looked at."""
 
     answer: str
     first: Optional[Tuple[float, float]]

@@ -96,6 +96,7 @@ def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
         assay.LeastDistance(1, assay.Contact((0, 1), (1, 1), "vertex-face", (3, 0, 1, 2))),
     )
     assert (second.answer, second.first, second.near_at_start) == ("near", (0, 0), 1)
+    assert "pairs" not in repr(second)
     apart = assay.check(frames, separation=0.5)
     assert (apart.outcome, apart.steps[0].first, apart.steps[0].pairs) == ("apart", None, ())
     alone = assay.check((triangles[:1], [x_t0, x_t1]), separation=2)
@@ -125,8 +126,11 @@ def test_doubled_corners_are_welded_and_near_pairs_left_out(pair):
     for options in ({"weld": True}, {"rest_distance": 0.001}, {"weld": True, "rings": 1}):
         report = assay.check((triangles, [x, x]), **options)
         assert report.json["steps"][0]["answer"] == "free", options
-    with pytest.raises(ValueError, match="rings"):
-        assay.check((triangles, [x, x]), rings=-1)
+    for rings, error in ((-1, ValueError), (1.5, TypeError)):
+        with pytest.raises(error, match="rings|integer"):
+            assay.check((triangles, [x, x]), rings=rings)
+    with pytest.raises(assay.InputError, match="frame 1: vertex 0 has a coordinate that is not"):
+        assay.check((triangles, [x, x * np.nan]))
     with pytest.raises(ValueError, match="a case file states it"):
         assay.check("a.json", weld=True)
 
@@ -140,7 +144,8 @@ def test_bodies_that_are_apart_do_not_meet(pair):
     assert report.json["bodies"] == [{"triangles": 4, "vertices": 4}] * 2
     report = assay.check(frames, bodies=bodies, apart=[(1, 0)])
     assert (report.outcome, report.steps[0].answer) == ("holds", "free")
-    for wrong, why in [([0], "given for 1 vertices"), ([0] * 7 + [1], "is of two bodies")]:
+    wrongs = [([0], "given for 1 vertices"), ([0] * 7 + [1], "is of two bodies"), ([0.5] * 8, "whole")]
+    for wrong, why in [*wrongs, ([2**32] * 8, "whole"), ([[0] * 8], "1-dimensional")]:
         with pytest.raises(ValueError, match=why):
             assay.check(frames, bodies=wrong, apart=[(0, 0)])
 
