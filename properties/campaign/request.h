@@ -1,4 +1,4 @@
-// What is asked of a campaign: its plan, a seed, a share of it, and the detector to be judged.
+// A request for a campaign: its plan, a seed, a share of it, and the detector to be judged.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace assay::properties {
 
-// What one of so many equal shares has to do of n. It is rounded up, so that all of them reach n.
+// Returns n divided by the number of equal shares, rounded up, so that all shares together reach n.
 constexpr std::uint64_t share_of(std::uint64_t n, std::uint64_t shares) {
   return (n + shares - 1) / shares;
 }
@@ -26,18 +26,18 @@ struct OwnCases {
   std::string digest;  // SHA-256 over names and bytes of their files
 };
 
-// The seed of a campaign for which none is given. Everybody knows its cases.
+// The seed of a campaign if none is given. Everybody knows its cases.
 inline constexpr std::uint64_t default_seed = 1;
 
 struct CampaignRequest : Subject {
   CampaignPlan plan;
   std::uint64_t seed = default_seed;
   int jobs = 1;
-  // The run does one of so many equal shares: of the cases of each stratum and of each planted
-  // fault, and of the search. The others are runs under other seeds.
+  // The run does one of this many equal shares of the cases of each stratum and each planted fault,
+  // and of the search. Runs under other seeds do the other shares.
   std::uint64_t shares = 1;
-  // The proof of another run of this build that planted faults are found. If it is given, no fault
-  // is planted in this run.
+  // The proof, by another run of this build, that planted faults are found. If given, no fault is
+  // planted in this run.
   std::optional<PowerProof> power;
   // Cases of the detector's owner, which are judged beside the shipped ones.
   std::optional<OwnCases> own_cases;
@@ -45,10 +45,10 @@ struct CampaignRequest : Subject {
   // (phases/phases.h).
   std::vector<corpus::Case> repeated;
 
-  // The word of the isolation that was asked for; empty if none was.
+  // Returns the word of the isolation that was asked for; empty if none was.
   const char* isolation_word() const { return limits.isolation ? name_of(*limits.isolation) : ""; }
 
-  // The limits of the workers that run the campaign's cases.
+  // Returns the limits of the workers that run the campaign's cases.
   WorkerLimits worker_limits(std::uint32_t variation = 0) const {
     auto of_case = limits;
     of_case.seconds = plan.case_seconds;
@@ -57,9 +57,9 @@ struct CampaignRequest : Subject {
     return of_case;
   }
 
-  // The limits of the worker that runs a case a second time, to judge the claim `deterministic`: it
-  // was started at another time with other hash seeds and addresses, a plug-in that asks may use
-  // another number of threads, and each step is evaluated twice.
+  // Returns the limits of the worker that runs a case a second time, to judge the claim
+  // `deterministic`: the worker was started at another time with other hash seeds and addresses, a
+  // plug-in that asks may use another number of threads, and each step is evaluated twice.
   WorkerLimits second_worker_limits() const {
     constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (phases.h)
     auto second = worker_limits(1);
@@ -73,35 +73,36 @@ struct CampaignRequest : Subject {
 // by `seconds` of a campaign file. It may make the run incomplete; it never decides a trial.
 using RunDeadline = std::chrono::steady_clock::time_point;
 
-// `seconds` after `begin`, or never, if that is more than three years: a clock of nanoseconds
-// would overflow.
+// Returns the time `seconds` after `begin`, or never if that is more than three years, because a
+// clock of nanoseconds would overflow.
 inline RunDeadline deadline_in(RunDeadline begin, double seconds) {
   constexpr double longest = 1e8;
   if (seconds > longest) return RunDeadline::max();
   return begin +
          std::chrono::duration_cast<RunDeadline::duration>(std::chrono::duration<double>(seconds));
 }
-// This share of the plan's seconds after `begin`, or never, if the plan has no limit.
+// Returns the time after `begin` by this share of the plan's seconds, or never if the plan has no
+// limit.
 inline RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
   return plan.seconds == 0 ? RunDeadline::max() : deadline_in(begin, share * plan.seconds);
 }
 
-// How many cases of all families one of so many shares holds.
+// Returns how many cases of all families one of this many shares holds.
 inline std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t shares) {
   std::uint64_t count = 0;
   for (const auto& stratum : plan.strata) count += share_of(stratum.cases, shares);
   return count;
 }
 
-// The index of the case at a place of a stratum, from 0, that a run judges. Shares under seeds that
-// follow one another judge different indices, because the shapes of some families take turns by
-// the index.
+// Returns the index of the case that a run judges at a place of a stratum, from 0. Shares under
+// consecutive seeds judge different indices, because the shapes of some families take turns by the
+// index.
 constexpr std::uint64_t trial_index(std::uint64_t place, std::uint64_t seed, std::uint64_t shares) {
   return place * shares + seed % shares;
 }
 
-// A search of so many cases is made of lanes, the last one of what is left (search/search.h): of so
-// many cases that an archive fills, and not so many lanes that they cannot be told one by one.
+// Divides a search of this many cases into lanes (search/search.h); the last lane takes the rest. A
+// lane has enough cases to fill an archive, and there are few enough lanes to list them one by one.
 constexpr std::uint64_t size_of_lane(std::uint64_t cases) {
   constexpr std::uint64_t least = 500, most_lanes = 256;
   return std::max(least, share_of(cases, most_lanes));

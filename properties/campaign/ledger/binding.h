@@ -12,16 +12,16 @@
 
 namespace assay::properties {
 
-// A contract as JSON, in the binding of a store, in certificates and in the reports of `check`:
+// Returns a contract as JSON, for the binding of a store, certificates and the reports of `check`:
 // every member by its name, enums by their words, and `leaves_out`: phrases_of(contract).
 nlohmann::json json_of(const Contract& contract);
 
-// Schema `assay-store/9`. The object holds `campaign` (the plan, with its times set to nothing,
-// because a run that ran out of time may go on), `seed`, `shares`, `detector` (name, built_in,
-// contract, threads, configurations with their claims, query_claims, unjudged_parts),
-// `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and plug-in,
-// null for the built-in detector, and of the generator's first cases), and `own_cases` (SHA-256) if
-// there are some.
+// Returns the binding, of schema `assay-store/9`. The object holds `campaign` (the plan, with its
+// times set to nothing, because a run that ran out of time may go on), `seed`, `shares`, `detector`
+// (name, built_in, contract, threads, configurations with their claims, query_claims,
+// unjudged_parts), `planted_faults` (how many this build has), `digests` (SHA-256 of program,
+// worker and plug-in, null for the built-in detector, and of the generator's first cases), and
+// `own_cases` (SHA-256) if the run has own cases.
 std::string binding_of(const CampaignRequest& request);
 
 // The same, as types.
@@ -33,14 +33,13 @@ struct BoundDetector {
   std::string name;
   bool built_in = true;
   Contract contract;
-  std::uint64_t threads = 1;                  // told to a plug-in that asks how many it may use
+  std::uint64_t threads = 1;                  // for a plug-in that asks how many it may use
   std::vector<Configuration> configurations;  // those of questions last
   // As in DetectorUnderTest.
   std::vector<std::string> query_claims{}, unjudged_parts{};
 };
 struct BoundDigests {
-  // Nothing for a program that was gone when the run began, and for the plug-in of the built-in
-  // detector.
+  // Nothing for a program that was gone when the run began; no `plugin` for the built-in detector.
   std::optional<std::string> program, worker, plugin;
   std::string generator;
 };
@@ -50,20 +49,20 @@ struct BoundRun {
   BoundDetector detector;
   BoundDigests digests;
 };
-// The JSON of these in a binding and in a certificate.
+// Return the JSON for a binding and for a certificate.
 nlohmann::json json_of(const BoundDetector& detector);
 nlohmann::json json_of(const BoundDigests& digests);
 
 // Reads a binding. Fails if the text is no binding of this schema; the problem names `file`.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
-// How two bindings differ: "seed 1 and 2, another build of assay". Empty if they do not. Of runs
-// that are judged together, seeds and shares may differ.
+// Returns how two bindings differ: "seed 1 and 2, another build of assay". Empty if they do not.
+// Runs that are judged together may differ in seeds and shares.
 enum class Runs : std::uint8_t { the_same, judged_together };
 std::string difference_of(const std::string& a, const std::string& b, Runs runs = Runs::the_same);
 
-// SHA-256 over the first cases of every family, which changes if the generator makes other cases.
-// About 10 ms.
+// Returns the SHA-256 over the first cases of every family, which changes if the generator makes
+// other cases. About 10 ms.
 std::string generator_digest();
 
 }  // namespace assay::properties

@@ -1,6 +1,6 @@
-// The little of SQLite that a store needs: a database, and one statement at a time; a lock on a
-// file or a folder that only one process at a time works on; the rows that it keeps; and how it
-// reports a problem.
+// The few parts of SQLite that a store needs: a database, and one statement at a time; a lock that
+// gives one process a file or a folder to itself; the rows of a store; and its way to report a
+// problem.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ struct sqlite3_stmt;
 
 namespace assay::properties {
 
-// How a store reports a problem: by an exception inside of campaign/, by a value outside of it.
+// A store reports a problem by an exception inside of campaign/, and by a value outside of it.
 //
 // A store may fail in the middle of a row, deep inside of a phase and in any of its threads, and
-// there an exception is the short way out. Whatever other rooms call turns it into a Problem.
+// there an exception is the short way out. Functions for other rooms turn it into a Problem.
 
 class StoreProblem : public std::runtime_error {
  public:
@@ -89,7 +89,7 @@ class Statement {
 
   Statement& bind(std::string_view text);
   Statement& bind(std::uint64_t number);
-  // Goes to the next row; false if there is none.
+  // Goes to the next row; returns false if there is none.
   bool next();
   std::string text(int column) const;
   std::uint64_t number(int column) const;
@@ -106,10 +106,10 @@ class FileLock {
  public:
   enum class On {
     file,    // the file is made if it is not there, and stays
-    folder,  // nothing stays of the lock
+    folder,  // the lock leaves nothing behind
   };
-  // Throws StoreProblem if it cannot be opened, and, with the text `if_busy`, if another process
-  // holds it.
+  // Throws StoreProblem if the path cannot be opened, and, with the text `if_busy`, if another
+  // process holds the lock.
   FileLock(const std::filesystem::path& path, On on, const std::string& if_busy);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
@@ -119,38 +119,38 @@ class FileLock {
   int lock_ = -1;
 };
 
-// The rows of a ledger: the one form in which a campaign keeps all that it finds out. A trial is a
-// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash.
+// A row of a ledger. A campaign stores everything in rows: a trial, a failure, a note, a planted
+// fault that was found. Every row carries a hash.
 
 struct Row {
   std::string kind;            // "trial", "canary", ...
-  std::string key;             // names it among the rows of its kind
-  std::uint64_t progress = 0;  // how far it came; of two rows the one that came farther stays
+  std::string key;             // names the row among those of its kind
+  std::uint64_t progress = 0;  // of two rows with one key, the one with more progress stays
   std::string fields;          // a JSON object
   friend bool operator==(const Row&, const Row&) = default;
 };
 
-// The kinds that every store has. Those of the other rows are in evidence.h.
+// The kinds that every store has. The other kinds are in evidence.h.
 inline constexpr std::string_view binding_kind = "binding", note_kind = "note",
                                   trial_kind = "trial", failure_kind = "failure", met_kind = "met";
 
-// The row without the fields that may differ between two runs of one campaign: times, what was
-// disturbed from outside, and how far a case could be shrunk in its time.
+// Returns the row without the fields that may differ between two runs of one campaign: times,
+// disturbances from outside, and how far a case could be shrunk in its time.
 Row lasting(Row row);
 
-// SHA-256 over all of the row, each column behind its length, so that no two different rows give
-// the same bytes. It shows that a row was changed by a disk, or by somebody who does not mend the
-// hash. It is no signature: whoever may write the file can write a hash that fits.
+// Returns the SHA-256 over the whole row, each column behind its length, so that no two different
+// rows give the same bytes. It reveals a row that was changed by a disk, or by somebody who did not
+// renew the hash. It is no signature: whoever may write the file can write a hash that fits.
 std::string row_hash(const Row& row);
 
-// "trial quick:1:broken:3", "canary pair/x"
+// Returns "trial quick:1:broken:3", "canary pair/x".
 std::string row_name(const Row& row);
 
-// The SQL that makes the one table of a store, and leaves it as it is if it is there already.
+// Returns the SQL that makes the one table of a store unless it exists.
 std::string table_declaration();
 
 // Visits rows. `more` is SQL such as "WHERE kind=? ORDER BY key", whose question marks stand for
-// the texts of `values`; if it is empty all rows come in the order of kind and key.
+// the texts of `values`; if `more` is empty, all rows come in the order of kind and key.
 // Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails.
 void for_each_row(const Database& database, const std::string& more,
                   const std::vector<std::string_view>& values,
@@ -160,7 +160,7 @@ void for_each_row(const Database& database, const std::string& more,
 void put_row(const Database& database, const Row& row);
 
 // Throws StoreProblem unless the file holds the table of a store and nothing else, such as a
-// trigger that changes rows by itself. If `may_lack` is set, the table may not be there yet.
+// trigger that changes rows by itself. If `may_lack` is set, the table may be missing.
 void check_tables(const Database& database, bool may_lack);
 
 }  // namespace assay::properties

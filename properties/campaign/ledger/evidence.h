@@ -1,7 +1,7 @@
-// What a run finds out besides its trials: one struct for each kind of evidence, and the functions
-// that turn it into a row of the ledger and back. Each struct states its kind; what it has of
-// key() and progress() goes into the row, whose fields are the members. A line of text is called
-// `what` in all rows.
+// Evidence that a run stores besides its trials: one struct for each kind, and the functions that
+// turn it into a row of the ledger and back. Each struct states its kind and may have key() and
+// progress(), which go into the row; the fields of the row are the members. A line of text is
+// called `what` in all rows.
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
 // (SpeedFigure, Issuance), and a World, which its limit of time may end early.
@@ -24,25 +24,25 @@ namespace assay::properties {
 struct Canary {
   static constexpr const char* kind = "canary";
   std::string fault;
-  std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
+  std::optional<std::uint64_t> found_after;  // cases until it was found; nothing: it was not
   const std::string& key() const { return fault; }
 };
 ASSAY_FIELDS(Canary, fault, found_after)
 
-// What kept the harness itself from going on, after `trials` trials had been stored. `explanation`
-// is empty when nothing did.
+// A problem that kept the harness itself from going on, after `trials` trials had been stored.
+// `what` is empty if there was none.
 struct HarnessProblem {
   static constexpr const char* kind = "problem";
   std::string what;
   std::uint64_t trials = 0;
-  // A later row replaces an earlier one. If both stand at the same number of trials, the one that
-  // tells of a problem counts as later, because a problem is over when a further trial is stored
-  // without one.
+  // A later row replaces an earlier one. If both have the same number of trials, the row with a
+  // problem counts as later, because a problem is over only when a further trial is stored without
+  // one.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)
 
-// What it took to find a planted fault.
+// The number of cases that it took to find a planted fault.
 struct FaultProof {
   static constexpr const char* kind = "fault";
   std::string fault, law;
@@ -53,16 +53,16 @@ struct FaultProof {
   std::vector<std::optional<std::uint64_t>> needed;
   std::uint64_t cases = 0;           // tried under each seed, unless the fault showed before
   bool time_over = false;            // the hunt was ended by a limit of time
-  std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
+  std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows the fault; 0: unknown
 
   bool is_found() const;         // by its curated case, or by a random one under any seed
   bool found_at_random() const;  // by a random case under any seed
-  // Whether the fault was tried on as many cases and seeds as the plan gives to a fault.
+  // Returns whether the fault was tried on as many cases and seeds as the plan gives to a fault.
   bool is_whole(const CampaignPlan& plan) const;
-  // The median of `needed`. A seed under which the fault did not show counts as more than any
-  // number; the result is nothing when the median is such a seed.
+  // Returns the median of `needed`. A seed under which the fault did not show counts as more than
+  // any number; the result is nothing if the median is such a seed.
   std::optional<std::uint64_t> median() const;
-  // Goes on with the cases of another hunt for the same fault, in a run under another seed.
+  // Adds the cases of another hunt for the same fault, in a run under another seed.
   void add(const FaultProof& other);
 
   const std::string& key() const { return fault; }
@@ -71,7 +71,7 @@ struct FaultProof {
 };
 ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices)
 
-// From which run of the same build the proofs of planted faults were taken.
+// The run of the same build from which the proofs of planted faults were taken.
 struct PowerSource {
   static constexpr const char* kind = "power";
   std::string campaign, detector;
@@ -93,22 +93,22 @@ struct World {
   std::string world;
   std::uint64_t classes = 0, motions = 0, all = 0, collisions = 0;
   bool complete = false;
-  std::optional<std::string> counterexample;  // what does not hold
+  std::optional<std::string> counterexample;  // the claim that fails, in words
   const std::string& key() const { return world; }
   // A counterexample counts as farther than any number of classes that hold.
   std::uint64_t progress() const;
 };
 ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
 
-// How the process of a plug-in was isolated in all of a run: the word that was asked for, empty if
-// none was, and the word of what it had.
+// How the process of a plug-in was isolated throughout a run: the word that was asked for, empty if
+// none was, and the word for the isolation that it had.
 struct PluginIsolation {
   static constexpr const char* kind = "isolation";
   std::string asked, got;
 };
 ASSAY_FIELDS(PluginIsolation, asked, got)
 
-// What a verb asked of a run.
+// The request of a verb to a run.
 struct VerbRequest {
   static constexpr const char* kind = "asked";
   std::vector<std::string> gates;  // names of gates.h; no other gate is judged
@@ -116,7 +116,7 @@ struct VerbRequest {
 };
 ASSAY_FIELDS(VerbRequest, gates, certificate)
 
-// What issued a certificate: versions of the program and of its libraries, and its cases.
+// Versions of the program that issued a certificate, of its libraries, and of its cases.
 struct Versions {
   static constexpr const char* kind = "versions";
   std::string assay;
@@ -126,10 +126,10 @@ struct Versions {
 };
 ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
 
-// What one input came to in one configuration. The input is a part of the shipped corpus, a scene,
-// or the owner's cases; a large mesh that was put to a plug-in, several times where it claims to be
-// deterministic, to try its claims on more than the trials; a lane of the search; or a family of
-// queries of the self-test. Each says of these what it has.
+// The result of one input in one configuration. The input is a part of the shipped corpus, a scene,
+// or the owner's cases; a large mesh, put to a plug-in (several times if it claims to be
+// deterministic) to try its claims on more than the trials; a lane of the search; or a family of
+// queries of the self-test. Each fills the members that apply to it.
 struct JudgedSource {
   static constexpr const char* kind = "judged";
   struct Failed {
@@ -142,30 +142,29 @@ struct JudgedSource {
     bool holds = false;
   };
   Source source = Source::corpus;
-  // Of a lane its number, from 1, with leading zeros, and no configuration. Only whole lanes are
-  // stored.
+  // For a lane, `input` is its number, from 1, with leading zeros, and `configuration` is empty.
+  // Only whole lanes are stored.
   std::string input{}, configuration{};
-  std::uint64_t planned = 0;  // of a lane: how many cases it was to ask
-  // Cases that were judged (of a large mesh its steps), those that break a claim or contradict the
-  // oracle, and, of a lane and of queries, those without a verdict.
+  std::uint64_t planned = 0;  // for a lane: how many cases it was to ask
+  // `cases`: cases that were judged (steps of a large mesh). `defects`: cases that break a claim or
+  // contradict the oracle. `undecided`: for lanes and queries, cases without a verdict.
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t defects = 0, undecided = 0;
   bool complete = true;  // all queries of the family were asked
-  // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
-  // known.
+  // `failed` lists the cases that do not hold, `open` the cases without an answer.
   std::vector<Failed> failed{}, open{};
-  // Of the cases of which a step was judged; and the largest mesh with a contact that the contract
-  // does not leave out.
+  // The extremes of the cases with a judged step; and the triangles of the largest mesh with a
+  // contact that the contract does not leave out.
   Extremes extremes{};
   std::uint64_t triangles_in_contact = 0;
-  // Of a large mesh.
+  // Only for a large mesh.
   std::uint64_t triangles = 0;
   std::uint64_t runs = 0;                // runs that ended by themselves
-  std::vector<std::uint64_t> threads{};  // how many it might use, run by run
-  std::string what{};                    // how two runs differ, or one ended early
+  std::vector<std::uint64_t> threads{};  // the number it may use, run by run
+  std::string what{};                    // how two runs differ, or why one ended early
   bool broken = false;                   // `what` breaks a claim
   std::vector<Step> judged{};
-  std::set<std::string> causes{};  // of the hardest cases of a lane's archive (cause.h)
+  std::set<std::string> causes{};  // in the hardest cases of a lane's archive (cause.h)
 
   std::string key() const { return input + ", " + configuration + ", " + name_of(source); }
 };
@@ -175,7 +174,7 @@ ASSAY_FIELDS(JudgedSource, source, input, configuration, planned, cases, left_ou
              collisions, pairs, defects, undecided, complete, failed, open, extremes,
              triangles_in_contact, triangles, runs, threads, what, broken, judged, causes)
 
-// A ratio of the times of two things that were run in turn.
+// The ratio of the times of two programs that were run in turn.
 struct SpeedFigure {
   static constexpr const char* kind = "speed";
   static constexpr bool may_differ = true;
@@ -186,14 +185,14 @@ struct SpeedFigure {
 };
 ASSAY_FIELDS(SpeedFigure, name, median, lo, hi, samples)
 
-// Where a certificate was issued, and when, and how long that took.
+// Where and when a certificate was issued, and how long that took.
 struct Issuance {
   static constexpr const char* kind = "issued";
   static constexpr bool may_differ = true;
   std::string out, detector{};
   std::string own_cases{};  // empty: none
   std::string data{};       // folder of the public sequences; empty: none
-  std::string at{};         // UTC, 2026-01-31T12:00:00Z; empty: it is not issued yet
+  std::string at{};         // UTC, 2026-01-31T12:00:00Z; empty: not issued yet
   double seconds = 0;
 };
 ASSAY_FIELDS(Issuance, out, detector, own_cases, data, at, seconds)
@@ -213,15 +212,15 @@ struct EvidenceFacts {
   std::vector<SpeedFigure> speed;
   std::optional<Issuance> issued;
 
-  // The inputs of a source, and their sums. The owner's cases are a part of the corpus.
+  // Return the inputs of a source, and their sum. The owner's cases are a part of the corpus.
   std::vector<JudgedSource> rows_of(Source source) const;
   JudgedSource sum_of(Source source) const;
 
   // Throws StoreProblem on a row that no run stores.
   void take(const Row& row);
-  // Adds what a run of the same campaign under another seed found out. What every run does in the
-  // same way (the corpus, the self-test) counts once; the cases of a planted fault add up. Throws
-  // StoreProblem if the two judged other inputs, or took over different proofs.
+  // Adds the evidence of a run of the same campaign under another seed. The corpus and the
+  // self-test, which every run does in the same way, count once; the cases of a planted fault add
+  // up. Throws StoreProblem if the two judged different inputs, or took over different proofs.
   void add(EvidenceFacts other);
 };
 EvidenceFacts facts_in(const Store& store);
@@ -231,7 +230,7 @@ using AnyEvidence =
                  PluginIsolation, JudgedSource, SpeedFigure, Issuance>;
 Row to_row(const AnyEvidence& evidence);
 
-// Whether two runs of one campaign may differ in this row, which is one of evidence.
+// Returns whether two runs of one campaign may differ in this row. REQUIRES a row of evidence.
 bool may_differ(const Row& row);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// The fields of a row as JSON, for what makes rows and reads them.
+// Writes and reads the fields of a row as JSON.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,12 +11,12 @@
 
 namespace assay::properties {
 
-// What is thrown if a row is not what a run stores.
+// Throws the StoreProblem for a row that no run stores.
 [[noreturn]] inline void throw_not_stored(const Row& row, const std::exception& wrong) {
   throw StoreProblem(fmt::format("{}: {}", row_name(row), wrong.what()));
 }
 
-// Both throw StoreProblem, which names the row, if its fields are not what a run stores.
+// Returns the fields. Throws StoreProblem, which names the row, if they are no JSON object.
 inline nlohmann::json fields_of(const Row& row) {
   auto json = corpus::parse_sorted_json(row.fields, "fields");
   if (!json) throw StoreProblem(fmt::format("{}: {}", row_name(row), json.error().message));
@@ -25,7 +25,7 @@ inline nlohmann::json fields_of(const Row& row) {
   return std::move(json.value());
 }
 
-// Sets what the fields name (fields.h); the rest of x stays.
+// Sets the members of x that the fields name (fields.h); the rest of x stays.
 template <Zeros zeros = Zeros::stay, class T>
 void read_fields_of(const Row& row, T& x) try {
   read_fields<nlohmann::json, zeros>(fields_of(row), x);
@@ -33,14 +33,14 @@ void read_fields_of(const Row& row, T& x) try {
   throw_not_stored(row, wrong);
 }
 
-// The one text that such a row holds, under this name.
+// Returns the text that the row holds under this name.
 inline std::string text_in(const Row& row, const char* name) try {
   return fields_of(row).at(name).get<std::string>();
 } catch (const nlohmann::json::exception& wrong) {
   throw_not_stored(row, wrong);
 }
 
-// The number that the text is. Throws StoreProblem if it is none.
+// Returns the number that the text spells. Throws StoreProblem if it spells none.
 std::uint64_t number_of_text(const std::string& text);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// The rows of one run in one SQLite file, which survives a kill at any moment; and how the files of
-// the run's folder are called.
+// Keeps the rows of one run in one SQLite file, which survives a kill at any moment; and names the
+// files of the run's folder.
 //
 // Every row carries a hash (campaign/ledger/database.h), which is checked whenever the row is read.
 #pragma once
@@ -16,22 +16,22 @@
 
 namespace assay::properties {
 
-// The schema of a store, which is part of the text that binds it to a run (binding.h). A store of
-// another schema is refused.
+// The schema of a store, which is part of its binding (binding.h). A store of another schema is
+// refused.
 inline constexpr const char* store_schema = "assay-store/9";
 
 // All failures that a store holds.
 struct FailureList {
   std::vector<FailureRecord> list;  // by signature, then id
-  Counts times_met;                 // how often each signature was met, mesh kept or not
+  Counts times_met;                 // by signature, whether its mesh was kept or not
 };
 
 // Functions that return Expected are for all rooms. The others throw StoreProblem and are for
 // campaign/ alone (campaign/ledger/database.h).
 class Store {
  public:
-  // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,
-  // share, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
+  // Opens the file for writing, or makes it. `binding` says to which run the trials belong (plan,
+  // seed, share, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
   // the file was made for another binding, if another process has it open for writing, if it is no
   // store of this schema, if it is damaged or a row was changed, and if it cannot be written.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
@@ -47,21 +47,21 @@ class Store {
   Expected<void> keep(const Row& row) {
     return catch_store_problem([&] { set(row); });
   }
-  // Makes the file stand alone: nothing beside it belongs to it any more, and reading it leaves
-  // its bytes as they are.
+  // Makes the file complete by itself: no file beside it belongs to it any more, and reading it
+  // leaves its bytes as they are.
   Expected<void> seal();
 
   std::string binding() const;
 
-  // What each function below writes survives a kill of the process once the function has returned.
-  // Not for several threads at once.
+  // Whatever a function below writes survives a kill of the process once it has returned. Not for
+  // several threads at once.
 
-  // Replaces the row of the same kind and key, unless that has more progress.
+  // Replaces the row of the same kind and key, unless the old row has more progress.
   void set(const Row& row);
   // Removes all rows of a kind.
   void drop(std::string_view kind);
-  // Adds a trial with its failures, all of it or nothing. All failures were met; those that have
-  // their mesh are kept.
+  // Adds a trial with its failures, all of it or nothing. Every failure counts as met; those with a
+  // mesh are kept.
   void add(const TrialRecord& record, const std::vector<FailureRecord>& failures = {});
   void add(const FailureRecord& failure) { set(to_row(failure)); }
   // Removes the stored failures of the corpus whose signature is not in the set.
@@ -70,14 +70,14 @@ class Store {
   void set_smallest(const FailureRecord& failure);
   void set_note(const std::string& key, const std::string& value);
 
-  // Visits the rows of a kind in the order of their keys, in which the trials of a family are in
-  // the order of their places.
+  // Visits the rows of a kind in the order of their keys; trials of a family thus come in the order
+  // of their places.
   void for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   bool has_trial(const std::string& id) const;
   std::uint64_t trial_count() const;
   std::vector<FailureRecord> failures() const;  // by signature, then id
-  // How many failures of each signature were met, whether their mesh was kept or not.
+  // Returns how many failures of each signature were met, whether their mesh was kept or not.
   Counts signatures() const;
   std::optional<std::string> note(const std::string& key) const;
   std::vector<Row> evidence() const;  // all other rows, by kind and key
@@ -88,8 +88,8 @@ class Store {
   std::unique_ptr<Parts> parts_;
 };
 
-// Writes an existing store anew as another file, whose bytes depend on its rows alone. The other
-// file is whole or as it was. Fails as Store::read does, and if it cannot be written.
+// Copies a store into another file, whose bytes depend on the rows alone. The other file is either
+// complete afterwards or as it was. Fails as Store::read does, and if the copy cannot be written.
 Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to);
 
 // The files of a run's folder, by their names.
@@ -108,25 +108,26 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
   return out / "certificate.json";
 }
 
-// The stores in a folder, in the order of their names. Fails if there are none, or if the folder
-// cannot be listed.
+// Returns the stores in a folder, in the order of their names. Fails if there are none, or if the
+// folder cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::path& folder);
 
-// Fails if the folder holds another store than these: all stores of a folder are judged together.
+// Fails if the folder holds a store other than `outputs`: all stores of a folder are judged
+// together.
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
                                      const std::set<std::filesystem::path>& outputs);
 
-// The notes of a store in which these stand: the path of a plug-in's library, as it was named to
-// the run, and when the run was begun. Both functions throw StoreProblem, and are for campaign/
-// alone; a time that is stored already stays.
+// The notes that hold the path of a plug-in's library, as given to the run, and the time at which
+// the run began. Both functions throw StoreProblem, and are for campaign/ alone; a time that is
+// stored already stays.
 inline constexpr const char *library_note = "library", *begin_note = "begun";
 void note_library(Store& store, const std::filesystem::path& library);
 void note_begin(Store& store);
 
-// Now, in UTC: 2026-01-31T12:00:00Z. No verdict rests on it.
+// Returns the current time in UTC: 2026-01-31T12:00:00Z. No verdict rests on it.
 std::string time_in_utc();
 
-// The file of a failure below OUT, the same in every run that finds the failure:
+// Returns the file of a failure below OUT, the same in every run that finds the failure:
 // failures/tiny-1-broken-3-bvh-smallest.json.
 std::filesystem::path failure_file(const FailureRecord& failure, bool smallest);
 

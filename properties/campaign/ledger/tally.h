@@ -1,4 +1,4 @@
-// The sums over the trials of a campaign, and what they say of laws.
+// Adds up the trials of a campaign, and tells which laws were met too seldom or broken.
 #pragma once
 
 #include <map>
@@ -17,22 +17,22 @@ namespace assay::properties {
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  std::uint64_t with_defect = 0, open = 0;  // trials with a configuration that is so
+  std::uint64_t with_defect = 0, open = 0;  // trials with such a configuration
   std::uint64_t disturbed = 0;              // trials killed from outside, which ran again
-  std::uint64_t discards = 0;      // trials for which no case was drawn that the contract takes
-  std::uint64_t refused = 0;       // trials that were refused as beyond the capacity
-  std::set<std::uint64_t> meshes;  // hashes: as many as there are distinct cases
+  std::uint64_t discards = 0;               // trials for which the contract takes no case
+  std::uint64_t refused = 0;                // trials that were refused as beyond the capacity
+  std::set<std::uint64_t> meshes;           // hashes, one for each distinct case
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
-    std::uint64_t refused = 0;  // none of the trials, because nothing was judged of them
+    std::uint64_t refused = 0;  // not in trials(): nothing was judged
     std::uint64_t trials() const { return holds + defects + undecided + errors; }
     std::uint64_t open() const { return undecided + errors; }
     friend bool operator==(const Outcomes&, const Outcomes&) = default;
   };
   std::vector<Outcomes> by_configuration;
   StepMeasures measures;
-  // The most triangles of a trial that was judged, of one with a contact that the contract does not
-  // leave out, and of one that was run twice.
+  // The most triangles of a judged trial, of a trial with a contact that the contract does not
+  // leave out, and of a trial that was run twice.
   std::uint64_t triangles = 0, triangles_in_contact = 0, triangles_repeated = 0;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
@@ -40,19 +40,19 @@ struct StratumTally {
 };
 
 struct Tally {
-  // A trial is near its limit if a configuration took at least this processor time.
+  // A trial is near its limit if a configuration took this processor time or more.
   std::uint64_t near_from_us = ~std::uint64_t{0};
   std::map<std::string, StratumTally, std::less<>> strata;  // by family
   TrialCounts counts;
   std::vector<TrialRecord> near_limit;  // in the order of adding; without counts
-  // The trials that are undecided in some configuration, up to `most_undecided` of them; and of
-  // the others the slowest, the slowest first. Both without their counts.
+  // The trials that are undecided in some configuration, up to `most_undecided` of them; and the
+  // slowest of the others, the slowest first. Both without their counts.
   std::vector<TrialRecord> undecided, slowest;
   static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  // Numbers of trials, over all strata: all; those with a case that the contract takes; those with
-  // a defect, and those without a verdict, in some configuration; those that were disturbed.
+  // Return numbers of trials over all strata: all; with a case that the contract takes; with a
+  // defect in some configuration; without a verdict in some configuration; disturbed ones.
   std::uint64_t trials() const, judged_trials() const, with_defect() const, open() const,
       disturbed() const;
 
@@ -60,27 +60,27 @@ struct Tally {
   void note_slow(const TrialRecord& record);
 };
 
-// culling: the word for it, as in options of the command line.
+// Adds the tally of a law. `culling` is its word on the command line.
 void add_law(TrialCounts& counts, const Law& law, const LawTally& tally, std::string_view culling);
 
-// What was counted of each law of this build, in the order of laws(): of all, or of those that are
-// judged of a plug-in. Nothing of a plug-in in whose trials no law was met.
+// Returns the counts of the laws of this build, in the order of laws(): of all laws, or, for a
+// plug-in, of the laws about plug-ins. Empty for a plug-in in whose trials no law was met.
 std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts,
                                                      bool built_in = true);
 
-// The cullings under which a campaign has to meet the law, each with how often it did; nothing if
-// any culling will do.
+// Returns the cullings under which a campaign has to meet the law, each with the number of times
+// that it did; nothing if any culling will do.
 std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const LawCount& count,
                                                                        const Law& law);
 
-// Why a law was met too seldom: its premise held less often than wanted, or was close in less than
-// a quarter of the steps. Empty if it was met often enough, or if `wanted_premises` is 0.
+// Returns why a law was met too seldom: its premise held less often than wanted, or was close in
+// less than a quarter of the steps. Empty if it was met often enough, or if `wanted_premises` is 0.
 std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_premises);
-// One such line for each law that was met too seldom, and for each culling under which one was met
-// in less than a tenth of the steps that are wanted of all.
+// Returns one such line for each law that was met too seldom, and for each culling under which a
+// law was met in less than a tenth of the steps wanted for all cullings together.
 std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises);
 
-// How many laws were broken.
+// Returns how many laws were broken.
 std::uint64_t broken_laws(const TrialCounts& counts);
 
 }  // namespace assay::properties
