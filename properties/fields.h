@@ -3,11 +3,11 @@
 //   ASSAY_FIELDS(Canary, fault, found_after)
 //
 // names all members. One that is left out does not compile, and neither does a name that is no
-// member. A type that shows less, or more, has a function `fields(archive, x)` that calls
-// archive("name", x.name, "other", x.other).
+// member. A type with fewer fields than members, or more, has a function `fields(archive, x)` that
+// calls archive("name", x.name, "other", x.other).
 //
-// Archives turn that into messages (worker/messages.h) and into JSON objects, and back. Whoever
-// wants JSON includes <nlohmann/json.hpp>, which the worker is built without.
+// Archives turn fields into messages (worker/messages.h) and into JSON objects, and back. A file
+// that needs JSON includes <nlohmann/json.hpp>, without which the worker is built.
 #pragma once
 
 #include <boost/preprocessor/seq/for_each.hpp>
@@ -25,7 +25,7 @@
 
 namespace assay::properties {
 
-// What archives have in common: they take the fields one by one.
+// The common base of archives: takes the fields one by one.
 template <class Archive>
 class NamedFields {
  public:
@@ -36,7 +36,7 @@ class NamedFields {
   }
 };
 
-// Sums of such types: of numbers, of whatever has +=, and of maps key by key.
+// Add up fields: numbers, types with +=, and maps key by key.
 
 template <class T>
 void add_to(T& sum, const T& addend) {
@@ -57,7 +57,7 @@ struct EachField : NamedFields<EachField<Visit>> {
 
 template <class T>
 T& add_fields(T& sum, const T& addend) {
-  std::vector<const void*> addends;  // one by one of the same type as the fields of the sum
+  std::vector<const void*> addends;  // the n-th has the type of the sum's n-th field
   EachField collect([&](auto& item) { addends.push_back(&item); });
   fields(collect, const_cast<T&>(addend));  // is only read
   auto next = addends.begin();
@@ -70,14 +70,14 @@ T& add_fields(T& sum, const T& addend) {
 template <class T>
 requires(T::adds_up) T& operator+=(T& sum, const T& addend) { return add_fields(sum, addend); }
 
-// Such types as JSON objects, and back. An enum is written as its word, and read by its list of
-// words; what is not there is null.
+// Turns such types into JSON objects, and back. An enum is written as its word, and read by its
+// list of words; an empty optional is null.
 
-// Whether fields that are 0 or empty are left out of an object, and of all objects in it, and may
-// be missing when it is read.
+// Whether fields that are 0 or empty are left out of an object and of all objects in it; such
+// fields may then be missing when it is read.
 enum class Zeros : std::uint8_t { stay, left_out };
 
-// A reader throws the exceptions of nlohmann::json if a field is not there, or is of another type.
+// A reader throws the exceptions of nlohmann::json if a field is missing or has another type.
 template <class Json, Zeros zeros, bool reads>
 class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
   using Given = std::conditional_t<reads, const Json, Json>;
@@ -100,7 +100,7 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
       pass(object_[name], item);
     }
   }
-  // An object that is there as a whole, or left out if it says nothing.
+  // Takes an object that is written as a whole, or left out if it equals its default.
   template <class T>
   void may(const char* name, T& item) {
     if constexpr (reads) item = {};

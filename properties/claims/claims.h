@@ -1,5 +1,5 @@
-// What a detector promises: its claims, by what a step breaks them, and what else a plug-in says of
-// itself. Its contract, under which they hold, is contract.h.
+// The claims of a detector, how a step breaks them, and the description that a plug-in gives of
+// itself. The contract under which claims hold is in contract.h.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 
 namespace assay::properties {
 
-// How a step of a detector and the oracle differ, what the candidate pairs of a broad phase lack,
-// and what a limiter allows too much or too little. Claims are judged by it.
+// Claims are judged by a StepDiff: how the detector and the oracle differ in a step, which pairs
+// the candidates of a broad phase lack, and what a limiter allows too much or too little.
 
 enum class Claim : std::uint8_t;  // below
 
@@ -36,17 +36,17 @@ constexpr auto names_of(Outcome) {
                                         {refused, "refused: capacity"}});
 }
 
-// A pair whose first time the detector has wrong.
+// A pair whose first time the detector states wrongly.
 struct WrongTime {
   detector::TrianglePair pair;
   detector::TimeEnclosure detector, oracle;
 };
 
-// How far a stated first time is off, as a share of the step. A time is taken by the lower end of
-// its interval, because that is how far the caller goes: it is late if this end is after t*, and
-// early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
-// t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
-// of late and early first times is one of these (step_measures.h).
+// How far a stated first time is off, as a share of the step. The lower end of the interval counts,
+// because the caller goes that far: the time is late if this end is after t*, and early if it is
+// before t*, each by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5, although it
+// holds t*. At most one of `late` and `early` is not 0. All counts of late and early first times
+// use this struct (step_measures.h).
 struct TimeOff {
   double late = 0, early = 0;
   double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
@@ -58,8 +58,8 @@ struct FirstTimes {
   TimeOff off;
 };
 
-// How many candidate pairs the detector gave, and the least possible number: the pairs in contact
-// that count.
+// The number of candidate pairs that the detector gave, and the least possible number: the pairs in
+// contact that count.
 struct CandidateCount {
   std::uint64_t given_pairs = 0, least = 0;
 };
@@ -67,14 +67,14 @@ struct CandidateCount {
 // What a limiter allowed in a step that starts without a contact (judge_limit).
 struct LimitDiff {
   double share = -1;  // of the step; -1: not stated
-  double way = 0;     // the share, or else how much of the way the positions go
+  double way = 0;     // the share, or, if none, the part of the way that the positions go
   std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
-  // The first contact on the straight way to where the caller stops.
+  // The first contact on the straight way to the place where the caller stops.
   std::optional<detector::PairContact> hit;
-  bool is_cut = false;      // the step has no contact, and is not gone to its end
-  bool too_far = false;     // a share is stated that is not below the first contact time
-  bool too_short = false;   // less than claimed is gone, and is_excused is not why
-  bool is_excused = false;  // less than claimed is gone, and rounding may be why
+  bool is_cut = false;      // the step has no contact, and the limiter stops it early
+  bool too_far = false;     // the stated share is not below the first contact time
+  bool too_short = false;   // the way is shorter than claimed, not excused
+  bool is_excused = false;  // the way is shorter than claimed, perhaps by rounding
   std::string stall;  // the caller stays although it could move: the cause of the contact ahead
 };
 
@@ -83,44 +83,43 @@ struct StepDiff {
   std::vector<Claim> breaches;  // claims of the detector that this step refutes
   detector::Answer answer = detector::Answer::undecided;  // the detector's
   bool oracle_complete = false;                           // false: the oracle was stopped
-  bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
+  bool nothing_in_contact = false;  // says a complete oracle, whatever is left out
   bool starts_near = false;         // StepTruth::starts_near
   bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   bool unanswered_contact = false;  // a contact that counts, and no answer that can be judged
-  bool owes_answer = false;         // to a valid step within the capacity there is none
-  // The detector or the oracle was stopped: only what both reached is compared.
+  bool owes_answer = false;         // a valid step within the capacity has none
+  // The detector or the oracle was stopped: only the part that both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
   bool answered_collision = false;  // `collision`, and there is no contact at all
-  // Both answer collision, and the detector's interval does not hold t*, by more than the
-  // tolerance: it begins after t*, or ends before it.
+  // Both answer collision, and the detector's interval misses t* by more than the tolerance: it
+  // begins after t* (late), or ends before it (early).
   bool late_first = false, early_first = false;
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
   std::vector<detector::PairContact> missing;
-  bool is_without_excuse = false;               // one of them, even if all-pairs is not claimed
-  std::vector<detector::PairContact> excuses;   // missing, but not claimed
+  bool is_without_excuse = false;               // first-pairs asks for one of them
+  std::vector<detector::PairContact> excuses;   // missing pairs that no claim asks for
   std::vector<detector::PairContact> spurious;  // reported, but not in contact
-  // Pairs whose interval begins after their time, which is unsafe, or ends before it.
+  // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
   std::vector<WrongTime> late, early;
 
-  // With a slack, the first pair that comes within it, if the detector's first time ends before
-  // that.
+  // With a slack, the first pair that comes within it, if the detector's first time ends before the
+  // pair does.
   std::optional<detector::PairContact> first_in_slack;
 
-  // The earliest contact that counts; nothing if there is none.
+  // The earliest contact that counts, if any.
   std::optional<detector::PairContact> first_contact;
-  // The detector's first time, and the exact one of the contacts that count, if both answer
+  // The detector's first time, and the exact first time of the contacts that count, if both answer
   // collision.
   std::optional<FirstTimes> first;
 
-  // The answer is wrong, whatever the detector claims.
+  // Returns whether the answer is wrong, whatever the detector claims.
   bool wrong_answer() const { return answered_free || answered_collision; }
   bool wrong_first_time() const { return late_first || early_first; }
 
-  // Pairs in contact that the contract lets the detector leave out. `left_out_missed`: only
-  // because of that leave is the step no miss. If these pairs counted, the answer `free`, or the
-  // first time, would be wrong.
+  // Pairs in contact that the contract lets the detector leave out. `left_out_missed`: if these
+  // pairs counted, the answer `free`, or the first time, would be wrong.
   std::vector<detector::PairContact> left_out;
   bool left_out_missed = false;
 
@@ -130,12 +129,12 @@ struct StepDiff {
   std::vector<detector::PairContact> missing_candidates;
   std::optional<LimitDiff> limit;    // only of a limiter
   bool has_answer = true;            // false: the library gives candidates or limits, no answers
-  std::optional<StepLoad> overload;  // only of a step that was refused as beyond the capacity
+  std::optional<StepLoad> overload;  // only if the step was refused as beyond the capacity
 };
 
-// How a step breaks a claim, which is the kind of its failure ("late pair"; null: it does not), and
-// by what: a contact of the oracle, one that comes within the slack alone, a pair with a wrong
-// time, a pair that is not in contact, or nothing that could be named.
+// The way in which a step breaks a claim. `kind` is the kind of the failure ("late pair"; null: the
+// claim is not broken). `by` is the evidence: a contact of the oracle, a contact within the slack
+// only, a pair with a wrong time, a pair that is not in contact, or nothing that could be named.
 struct WithinSlack {
   detector::PairContact contact;
 };
@@ -145,7 +144,7 @@ struct Symptom {
                detector::TrianglePair>
       by = {};
 };
-// The first that breaks it.
+// Returns the first of the two that breaks the claim.
 inline Symptom operator|(const Symptom& a, const Symptom& b) { return a.kind ? a : b; }
 
 inline Symptom if_so(bool is_so, const char* kind,
@@ -158,47 +157,48 @@ Symptom if_any(const char* kind, const std::vector<Wrong>& list) {
   return list.empty() ? Symptom() : Symptom{kind, list.front()};
 }
 
-// What a detector claims of its answers.
+// The claims that a detector can make.
 
-// In the list below t* is the first contact time of the step; under a contract with a separation d
-// it is the first time within d, and a contact is a pair that comes within d. The contact graph at
-// t* has the triangles as nodes, and the pairs that are in contact at t* as edges.
+// In the list below t* is the first contact time of the step. Under a contract with a separation d,
+// a contact is a pair that comes within d, and t* is the first time of one. The contact graph at t*
+// has the triangles as nodes, and the pairs in contact at t* as edges.
 enum class Claim : std::uint8_t {
   free_sound,     // never `free` when the oracle has a contact
   not_late,       // lower end of its first time <= t*
   first_time,     // the interval of its first time holds t*
   first_pairs,    // every connected part of the contact graph at t* holds a reported pair
   all_pairs,      // every pair of the oracle is reported, none with a time after its own
-  no_spurious,    // reports no contact that is not there, and none too early
+  no_spurious,    // reports no contact that does not exist, and none too early
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
   // Of a limiter (L17), in steps that start without a contact.
   commit_free,  // the step to the positions that it allows has no contact
   path_free,    // the share that it allows is below t*
-  progress,     // that share is Contract::progress of what is possible or more (judge_limit)
+  progress,     // that share is at least Contract::progress of the possible one (judge_limit)
   whole,        // it allows a step without a contact to its very end
-  // Every time is the enclosure of exact arithmetic, so it has to be the oracle's in every bit.
-  // This is how the other claims on times are read of a detector that claims it. Only the built-in
-  // detector does: nobody claims it from outside, and no list names it.
+  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. For a
+  // detector that claims this, the other claims on times are read in the same strict way. Only the
+  // built-in detector claims it: plug-ins cannot, and no list names it.
   times_unique,
 };
 
-// What a claim is about, and so which part of a library can make it. `runs`: any part can.
+// The subject of a claim, which tells which part of a library can make it. `runs`: any part can.
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
 
-// What puts a claim to the test.
+// The kind of step or run that puts a claim to the test.
 enum class Probe : std::uint8_t {
-  by_step,           // any that is judged
+  by_step,           // any judged step
   by_contact,        // a step with a contact that counts
-  by_stated_time,    // such a step, where first times are stated
-  by_candidates,     // a step with pairs that have to be among them
+  by_stated_time,    // such a step with a stated first time
+  by_candidates,     // a step with pairs that must be among the candidates
   by_contact_ahead,  // of a limiter
   by_free_way,       // of a limiter
   by_second_run,     // of the same case
 };
 
-// What a detector does that breaks a claim. One change may mend all that do the same.
+// The misdeed that breaks a claim. One change of the detector may mend all failures with the same
+// deed.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;
@@ -209,7 +209,7 @@ constexpr auto names_of(Deed) {
                                      {ends, "end without an answer"}});
 }
 
-// All that there is to know of a claim: who judges it, leaves it out or speaks of it reads it here.
+// All facts about a claim, for the code that judges it, leaves it out or names it.
 struct ClaimRow {
   Claim value;
   const char* name;
@@ -218,10 +218,10 @@ struct ClaimRow {
   About about;
   Probe probe;
   Deed deed;
-  // How a step breaks it. Two runs alone break `deterministic` (exam.h), and nothing breaks
-  // times_unique.
+  // Returns how a step breaks the claim. Only two runs break `deterministic` (exam.h), and nothing
+  // breaks times_unique.
   Symptom (*symptom_of)(const StepDiff&) = [](const StepDiff&) { return Symptom(); };
-  // Why it is not judged under this contract; empty if it is.
+  // Returns why the claim is not judged under this contract; empty if it is.
   const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
     return "";
   };
@@ -309,7 +309,7 @@ class Claims {
     bits_ = is_claimed ? bits_ | bit_of(claim) : bits_ & ~bit_of(claim);
     return *this;
   }
-  // Those of them that are also among the others, and those that are not.
+  // Return the claims that are also among the others; those that are not; and all claims of both.
   constexpr Claims only(const Claims& others) const { return of_bits(bits_ & others.bits_); }
   constexpr Claims without(const Claims& others) const { return of_bits(bits_ & ~others.bits_); }
   constexpr Claims with(const Claims& others) const { return of_bits(bits_ | others.bits_); }
@@ -321,7 +321,7 @@ class Claims {
   std::uint32_t bits_ = 0;
 };
 
-// Those that a detector may claim from outside of these things.
+// Returns the claims about these subjects that a plug-in may make.
 constexpr Claims claims_about(std::initializer_list<About> abouts) {
   Claims claims;
   for (const About about : abouts) {
@@ -338,9 +338,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
 
-// What the built-in detector claims. exact: everything. bounded: everything but no-spurious (its
-// intervals hold the times by construction, see StepResult::first). double and float:
-// deterministic and total. With pairs first, no arithmetic claims all-pairs.
+// Returns the claims of the built-in detector. exact: all claims. bounded: all but no-spurious (its
+// intervals hold the times by construction, see StepResult::first). double and float: deterministic
+// and total. With pairs first, no arithmetic claims all-pairs.
 inline Claims claims_of(const detector::Options& options) {
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   const bool is_proved = exact || options.arithmetic == detector::Arithmetic::bounded;
@@ -351,34 +351,34 @@ inline Claims claims_of(const detector::Options& options) {
   return claims.set(Claim::no_spurious, exact).set(Claim::times_unique, exact);
 }
 
-// Those of claims_from_outside that `claims` has, in the order of Claim.
+// Returns the claims that are also in claims_from_outside, in the order of Claim.
 std::vector<Claim> list_of(const Claims& claims);
-// Their words, and the claims of words. A word of no claim is passed over.
+// Return the words of claims, and the claims of words. A word that is no claim is passed over.
 std::vector<std::string> words_of(const Claims& claims);
 Claims claims_named(const std::vector<std::string>& words);
 
-// The progress that the built-in detector promises where it limits a step.
+// The progress that the built-in detector promises when it limits a step.
 inline constexpr double built_in_progress = 0.9;
 
-// What the built-in detector is asked with these options: contact, or within a separation of pairs
-// that share no vertex.
+// Returns the contract of the built-in detector with these options: it asks for contacts, or for
+// pairs without a shared vertex that come within a separation.
 Contract contract_of(const detector::Options& options);
 
-// The claims that are judged under this contract (ClaimRow::why_void). If it has a margin, the
-// detector may report a collision before there is one; its false alarms are judged with the margin
-// of queries, and of steps if it leaves neighbours out.
+// Returns the claims that are judged under this contract (ClaimRow::why_void). If it has a margin,
+// the detector may report a collision before there is one. Its false alarms are then judged with
+// that margin: in queries always, in steps only if the detector leaves neighbours out.
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
 
-// Adds to `breaches` those of the claims that the step breaks, and makes it a defect if one is.
+// Adds to `breaches` each claim that the step breaks; the outcome becomes a defect if there is one.
 void weigh(const Claims& claims, StepDiff& diff);
 
-// What a plug-in says of itself.
+// The description that a plug-in gives of itself.
 
-// What a library can do. The defaults are those of the built-in detector, which answers steps.
+// The parts of a library. The defaults are those of the built-in detector, which answers steps.
 struct PluginParts {
   bool steps = true, query = false, candidates = false;
   bool limit = false;
-  bool takes_threads = false;  // it has a function by which it is told how many threads it may use
+  bool takes_threads = false;  // has a function that tells it how many threads it may use
   friend bool operator==(const PluginParts&, const PluginParts&) = default;
 };
 
@@ -389,18 +389,18 @@ struct PluginDescription {
   PluginParts parts = {};
 };
 
-// What keeps a text from being the name of a detector, or its version: it is longer than 100 bytes,
-// begins or ends with a space, or is the name of the built-in detector. Empty if nothing does.
+// Returns why a text cannot be the name or version of a detector: it is longer than 100 bytes,
+// begins or ends with a space, or is the name of the built-in detector. Empty if it can be.
 std::string fault_of_name(std::string_view name);
 
-// What is wrong with what it says of a limiter: claims without one, one without claims, or a claim
-// on progress without Contract::progress. Empty if nothing is.
+// Returns the contradiction in a description of a limiter: claims without a limiter, a limiter
+// without claims, or a claim on progress without Contract::progress. Empty if there is none.
 std::string fault_of_limits(const Claims& claims, const Contract& contract, bool has_limit);
 
-// Those of its claims that can be judged by playing steps. These are all that it makes, or, for a
-// library that answers no steps, those of candidates, limits, deterministic and total.
+// Returns the claims of a plug-in that can be judged by playing steps: all of them, or, for a
+// library that answers no steps, those about candidates, limits, deterministic and total.
 Claims claims_on_steps(const PluginDescription& description);
-// Those of its claims that can be judged by asking its query: all that it makes except those about
+// Returns the claims of a plug-in that can be judged by asking its query: all except those about
 // pairs, candidates and limits.
 Claims claims_on_queries(const PluginDescription& description);
 

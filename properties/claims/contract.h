@@ -1,5 +1,5 @@
-// The contract of a detector: which steps, coordinates and features it takes, and how its times are
-// read.
+// The contract of a detector: the steps, coordinates and features that it takes, and the way in
+// which its times are read.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ constexpr auto names_of(Coordinates) {
       {{Coordinates::float64, "float64"}, {Coordinates::float32, "float32"}});
 }
 
-// Which steps the detector takes, by how the mesh lies at t = 0. The others are left out, and
+// Which steps the detector takes, by the state of the mesh at t = 0. Other steps are left out, and
 // counted.
 enum class StartRule : std::uint8_t {
   any,    // every step
@@ -50,7 +50,7 @@ constexpr auto names_of(StartRule) {
   return std::to_array<Named<StartRule>>({{any, "any"}, {free, "free"}, {apart, "apart"}});
 }
 
-// Which features the detector tests against each other. Contacts of the others are not held
+// Which features the detector tests against each other. Contacts of other features are not held
 // against it.
 enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
 constexpr auto names_of(TestedFeatures) {
@@ -59,10 +59,10 @@ constexpr auto names_of(TestedFeatures) {
       {{both, "both"}, {vertex_face, "vertex-face"}, {edge_edge, "edge-edge"}});
 }
 
-// How a detector is told where a step goes.
+// How the motion of a step is given to a detector.
 enum class MotionGiven : std::uint8_t {
   ends,          // by the positions at its end
-  displacement,  // by what is added to those at its start; the exact sum is the end
+  displacement,  // by a displacement from the start; the exact sum is the end
 };
 constexpr auto names_of(MotionGiven) {
   return std::to_array<Named<MotionGiven>>(
@@ -71,7 +71,7 @@ constexpr auto names_of(MotionGiven) {
 
 // Where a limiter that states a share of a step lets the caller stop (L17).
 enum class LimitGives : std::uint8_t {
-  positions,   // where it says itself
+  positions,   // at the positions that it gives
   start_plus,  // x_t0 + share (x_t1 - x_t0), in the contract's coordinates
   blend,       // (1 - share) x_t0 + share x_t1
 };
@@ -88,7 +88,7 @@ constexpr auto names_of(PairReporting) {
       {{PairReporting::pairs, "pairs"}, {PairReporting::no_pairs, "no-pairs"}});
 }
 
-// A contract that asks for more is refused.
+// The greatest time tolerance of a contract. A contract with a greater one is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
 
 // Lengths are in the user's units; times are shares of the step. The default contract leaves
@@ -96,50 +96,51 @@ inline constexpr double widest_time_tolerance = 1e-3;
 struct Contract {
   Adjacency adjacency = Adjacency::all;
   Coordinates coordinates = Coordinates::float64;
-  // The slack m: the detector may also report what comes within separation + m. Above 0, first-time
-  // is not judged, and no-spurious is only if the detector leaves neighbours out: these are within
-  // m of each other throughout.
+  // The slack m: the detector may also report pairs that come within separation + m. If m > 0,
+  // first-time is not judged, and no-spurious is judged only if the detector leaves neighbours out,
+  // because neighbours are within m of each other throughout.
   double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
-  // No coordinate has a magnitude above `largest`, because rounding goes by the coordinates. Every
-  // edge has length 0 or at least least_nonzero, because thresholds go by lengths; length is the
-  // greatest difference along an axis. The extent of a mesh is that of an edge at least. Both 0:
-  // any mesh.
+  // No coordinate has a magnitude above `largest`, because rounding depends on coordinates. Every
+  // edge has length 0 or at least least_nonzero, because thresholds depend on lengths; the length
+  // of an edge is its greatest difference along an axis. A mesh is at least as long as an edge.
+  // Both 0: any mesh.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
   PairReporting reports = PairReporting::pairs;
   // Above 0: the question is not which triangles touch, but which come within this distance. Then
-  // pairs that share no vertex are asked for alone.
+  // only pairs that share no vertex are asked for.
   double separation = 0;
-  // What the detector leaves out by itself, as members of detector/mesh/counted_pairs.h, at the
-  // level `counts`. At rest the mesh is as in the frame that a detector is made from.
+  // The pairs that the detector leaves out by itself, in the terms of
+  // detector/mesh/counted_pairs.h, at the level `counts`. The mesh is at rest in the frame from
+  // which a detector is made.
   detector::CountedLevel counts = detector::CountedLevel::triangles;
   std::int32_t rings = 0;
   double rest_distance = 0;
-  // Whether the detector can be told which pairs count. One that cannot is asked about all pairs.
+  // Whether the detector can be told which pairs count. If not, it is asked about all pairs.
   bool takes_relations = true;
-  // Of a limiter: where the caller stops who is told a share alone, and what share of the first
-  // contact time it promises (Claim::progress); 0: none.
+  // For a limiter: where a caller who gets only a share stops, and which share of the first contact
+  // time the limiter promises (Claim::progress); 0: none.
   LimitGives limit_gives = LimitGives::positions;
   double progress = 0;
-  // Displacements are in float32 alone: the end of a step is then a double, in which the oracle
-  // holds it.
+  // Displacements are given in float32 only: the end of a step is then exact as a double, as the
+  // oracle needs it.
   MotionGiven motion = MotionGiven::ends;
-  // How much the detector holds; 0: as much as there is. Beyond one of them a step may be refused
+  // The capacity of the detector; 0: unlimited. A step beyond one of these numbers may be refused
   // (beyond_capacity).
   std::uint64_t capacity_triangles = 0, capacity_contacts = 0, capacity_candidates = 0;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
   bool reports_pairs() const { return reports == PairReporting::pairs; }
-  // Whether it is judged what the detector reports although it is not there. The features of a
-  // query share no vertex.
+  // Returns whether false alarms of the detector are judged. The features of a query share no
+  // vertex.
   bool judges_alarms(bool of_queries = false) const {
     return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
   }
-  // Whether the oracle has to tell contacts that the detector tests from others
+  // Returns whether the oracle must tell the contacts that the detector tests from the others
   // (StepJudgement::asked_pairs).
   bool tests_part() const {
     return features != TestedFeatures::both || rings > 0 || rest_distance > 0;
@@ -159,8 +160,8 @@ void visit_members(Description& raw, Contract& contract, const Visit& visit) {
 #undef ASSAY_VISIT
 }
 
-// Each member by its name, in reports, certificates and messages; whether it reports pairs is a
-// bool there.
+// Visits each member by its name, for reports, certificates and messages, where `reports` becomes
+// the bool `reports_pairs`.
 template <class Archive>
 void fields(Archive& archive, Contract& x) {
   assay_description unused = {};
@@ -173,40 +174,41 @@ void fields(Archive& archive, Contract& x) {
   x.reports = reports_pairs ? PairReporting::pairs : PairReporting::no_pairs;
 }
 
-// The shortest decimal that reads back to the same double. It is made without libfmt, because the
-// worker does not use that.
+// Returns the shortest decimal that reads back to the same double. It is made without libfmt,
+// because the worker does not use that.
 std::string number_text(double x);
 
-// What is wrong with the contract, without a subject ("its margin is no length"); empty if nothing
-// is.
+// Returns the fault of the contract in words ("its margin is no length"); empty if it has none.
 std::string fault_of(const Contract& contract);
 
-// What the contract leaves out or changes, one phrase each: "starts free", "edges from 1e-06",
-// "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
+// Returns one phrase for each thing that the contract leaves out or changes: "starts free", "edges
+// from 1e-06", "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves
+// nothing out.
 std::vector<std::string> phrases_of(const Contract& contract);
 
-// How much a step is, as the oracle counts it: triangles of its mesh, pairs of them in contact that
-// the contract does not leave out, and feature pairs whose swept boxes meet.
+// The load of a step, as the oracle counts it: triangles of its mesh, pairs of triangles in contact
+// that the contract does not leave out, and feature pairs whose swept boxes meet.
 struct StepLoad {
   std::uint64_t triangles = 0, contacts = 0, candidates = 0;
 };
-// Whether a detector with this contract may refuse such a step.
+// Returns whether a detector with this contract may refuse such a step.
 bool beyond_capacity(const Contract& contract, const StepLoad& load);
 
-// The relation of what the contract tests, on a mesh whose vertices are at rest at `rest`.
+// Returns the relation of the pairs that the contract tests, on a mesh whose vertices are at rest
+// at `rest`.
 detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);
 
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
 
-// Whether the contract's adjacency alone lets the detector leave this pair out.
+// Returns whether the contract's adjacency alone lets the detector leave this pair out.
 bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
                 detector::TrianglePair pair);
 
-// The positions that the detector and the oracle are both given. A coordinate that has no float32
+// Returns the positions that both the detector and the oracle get. A coordinate beyond float32
 // becomes infinite.
 detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates);
 
-// The displacement of a step that a detector of float32 is given: the nearest to its way.
+// Returns the displacement that a float32 detector gets for a step: the nearest to the exact way.
 detector::Positions displacement(const detector::PositionsView& x_t0,
                                  const detector::PositionsView& x_t1);
 
@@ -214,9 +216,9 @@ using Edge = std::array<std::int32_t, 2>;
 
 double length_of(const detector::PositionsView& x, const Edge& edge);
 
-// Where a mesh with these edges leaves the contract's range, with the member of the contract:
-// "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long, below
-// least_nonzero, 1e-06". Empty if it does not.
+// Returns where a mesh with these edges leaves the contract's range, with the member of the
+// contract: "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long,
+// below least_nonzero, 1e-06". Empty if it does not.
 std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract);
 

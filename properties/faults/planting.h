@@ -1,4 +1,4 @@
-// What the modules of planted faults share: it puts a wrong stage into a detector.
+// Puts a wrong stage into a detector, for all modules of planted faults.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace assay::properties {
 
-// Where a stage is kept in detector::Stages, and its name in the registry.
+// The member of detector::Stages for each stage, and the stage's name in the registry.
 inline constexpr auto stage_places =
     std::tuple(std::pair(&detector::Stages::classifier, "classifier"),
                std::pair(&detector::Stages::boundary, "boundary"),
@@ -22,7 +22,7 @@ inline constexpr auto stage_places =
                std::pair(&detector::Stages::elementary, "elementary"),
                std::pair(&detector::Stages::release, "release"));
 
-// Calls `use` with the place of the stage from which `Wrong` derives, and its name.
+// Calls `use` with the member and the name of the stage from which `Wrong` derives.
 template <class Wrong, class Use>
 constexpr void at_place_of(const Use& use) {
   const auto look = [&]<class Stage>(std::shared_ptr<const Stage> detector::Stages::*stage,
@@ -32,9 +32,9 @@ constexpr void at_place_of(const Use& use) {
   std::apply([&](const auto&... place) { (look(place.first, place.second), ...); }, stage_places);
 }
 
-// The standard stages, except that `Wrong` replaces the stage from which it derives. Wrong marks
-// are searched by the binary descent, which reads the flags of every node; the wide one reads
-// those of every third level, or fewer.
+// Returns the standard stages, except that `Wrong` replaces the stage from which it derives. Wrong
+// marks are searched by the binary descent, which reads the flags of every node; the wide descent
+// reads those of every third level, or fewer.
 template <class Wrong>
 detector::Stages with(const detector::Options& options) {
   detector::Stages stages = detector::standard_stages(options);
@@ -49,7 +49,7 @@ constexpr PlantedStage wrong_stage() {
   at_place_of<Wrong>([&](auto, const char* name) { stage.stage = name; });
   return stage;
 }
-// What a row of the registry begins with: this wrong stage.
+// The wrong stage with which a row of the registry begins.
 template <class Wrong>
 inline constexpr PlantedStage wrong = wrong_stage<Wrong>();
 

@@ -1,5 +1,5 @@
-// The view test of one triangle as exact polynomials in the time of the step. Planted faults use
-// them in wrong ways.
+// Turns the view test of one triangle into exact polynomials in the time of the step. Planted
+// faults use them in wrong ways.
 #pragma once
 
 #include <type_traits>
@@ -26,36 +26,36 @@ struct ViewPolynomials {
 ViewPolynomials view_polynomials(const detector::MovingTriangle& triangle,
                                  const detector::ViewPrimitive& primitive);
 
-// The sign of f if f keeps it over [0,1] and has no zero there; else zero.
+// Returns the sign of f if f keeps it over [0,1] and has no zero there; else zero.
 detector::ViewSign strict_sign(const detector::Polynomial& f);
 
-// f replaced by its value at t=0, by its value at t=1, or by the line through both values.
+// Replace f by its value at t=0, by its value at t=1, or by the line through both values.
 detector::Polynomial at_start(const detector::Polynomial& f);
 detector::Polynomial at_end(const detector::Polynomial& f);
 detector::Polynomial linear_between_ends(const detector::Polynomial& f);
 PolynomialVector at_start(const PolynomialVector& x);
 PolynomialVector linear_between_ends(const PolynomialVector& x);
 
-// What decides the view value of one point of the triangle: it is h0 where g0 <= 0, h1 where g1 >=
-// 0, and `middle` in between.
+// The view value of one point of the triangle in pieces: h0 where g0 <= 0, h1 where g1 >= 0, and
+// `middle` in between.
 struct ViewPieces {
   detector::Polynomial h0, h1, middle, g0, g1;
 };
 ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
-// The strict sign of the view value over [0,1]; else zero.
+// Returns the strict sign of the view value over [0,1]; zero if it has none.
 detector::ViewSign sign_of(const ViewPieces& pieces);
 
-// The sign of the triangle if it and the primitive are held still at t=0, 1/2 or 1 (exact if the
-// middle of two coordinates is a double), and a point held still in that way.
+// Return the sign of the triangle if it and the primitive are held still at t=0, 1/2 or 1 (exact if
+// the middle of two coordinates is a double), and a point held still in that way.
 enum class Sample { start, middle, end };
 detector::ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                            const detector::ViewPrimitive& primitive);
 detector::MovingPoint still(Sample sample, const detector::MovingPoint& point);
 
-// The common sign of all; zero if they differ.
+// Returns the common sign of all; zero if they differ.
 detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
 
-// The common sign at some times, wrongly taken for the sign of the whole step.
+// Returns the common sign at these times, wrongly taken for the sign of the whole step.
 template <Sample... samples>
 detector::ViewSign sampled(const detector::MovingTriangle& triangle,
                            const detector::ViewPrimitive& primitive) {
@@ -73,8 +73,8 @@ class TriangleSigns : public detector::ViewClassifier {
                                   const detector::ViewPrimitive& primitive) const = 0;
 };
 
-// A TriangleSigns whose sign is the function `look`, of the step's polynomials or of the triangle
-// itself.
+// A TriangleSigns whose sign is given by the function `look`, from the step's polynomials or from
+// the triangle itself.
 template <auto look>
 struct Signs : TriangleSigns {
   detector::ViewSign sign(const detector::MovingTriangle& triangle,
@@ -87,7 +87,7 @@ struct Signs : TriangleSigns {
   }
 };
 
-// The sign that the detector's own view test gives.
+// Returns the sign that the detector's own view test gives.
 detector::ViewSign right_sign(const detector::MovingTriangle& triangle,
                               const detector::ViewPrimitive& primitive);
 

@@ -1,5 +1,5 @@
 // A deforming mesh in the making: generators of shapes, motions, aims and primitives work on it in
-// turn. Coordinates are of the order of 1 until the last of them scales or moves the whole mesh.
+// turn. Coordinates are of the order of 1 until the last generator scales or moves the whole mesh.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@ namespace assay::properties {
 
 class Random;
 
-// A random case, and words for what it was made of.
+// A random case, with tags that say how it was made.
 
 // tags: "closed", "shape:torus", "holes:2", "motion:twist", "menu:ulp", "aim:edge", ...; each once,
-// ascending. They say what the generator meant to make; whether, say, an aimed contact is the first
-// one of its step is for the oracle to judge.
+// ascending. They say what the generator aimed at. Only the oracle can tell whether, say, an aimed
+// contact is the first one of its step.
 struct RandomCase {
   corpus::Case c;
   std::vector<std::string> tags;
 };
 
-// Small vector arithmetic for generators: plain sums, so the same bytes on every machine. For the
-// same reason no expression here or in the generators draws two random numbers in an order that the
-// language leaves open (arguments of a call, operands of +).
+// Small vector arithmetic for generators: plain sums, which give the same bytes on every machine.
+// For the same reason no expression here or in the generators draws two random numbers in an order
+// that the language leaves open (arguments of a call, operands of +).
 
 using detector::Point;
 using Points = std::vector<Point>;
@@ -46,10 +46,10 @@ inline double dot(const Point& a, const Point& b) {
 inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-// 0 gives a, 1 gives b.
+// Returns a for s = 0, and b for s = 1.
 inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
-// Each coordinate in [-1, 1).
+// Returns a vector with each coordinate in [-1, 1).
 Point any_vector(Random& random);
 Point integer_point(Random& random, int reach);  // in [-reach, reach]
 
@@ -61,8 +61,8 @@ inline Point mean(const Points& points) {
 
 using Face = std::array<std::int32_t, 3>;
 
-// Where these vertices are in a frame: on the plane of a face that is level across `axis`, or so
-// many units of the last place beyond it. `way` is theirs to there.
+// The place of these vertices in a frame: on the plane of a face that is level across `axis`, or
+// `units` units of the last place beyond it. `way` is their way to that place.
 struct Landing {
   std::size_t frame = 0;
   std::vector<std::int32_t> vertices;
@@ -84,8 +84,8 @@ struct Draft {
   std::int32_t second_piece = 0;
   Points holes;                   // centres of holes at the start
   std::vector<Landing> landings;  // to be met when the draft gets its numbers (parts.h)
-  Points closing;                 // by vertex, the way on which the shape closes to a ring; or none
-  std::vector<Point> q0, q1;      // view primitive by frame; q1 empty: a point; both: none
+  Points closing;                 // by vertex, its way when the shape closes to a ring; or none
+  std::vector<Point> q0, q1;      // view primitive by frame; q1 empty: a point; both empty: none
   std::vector<std::string> tags;
 
   Points& rest() { return frames.front(); }
@@ -112,17 +112,17 @@ inline bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v |
 // Joins two drafts of one frame. The vertices of `b` follow those of `a`.
 Draft joined(Draft a, const Draft& b);
 
-// Drops vertices that no face uses, and numbers the rest in their order.
+// Drops vertices that no face uses, and renumbers the others in their order.
 void drop_unused_vertices(Draft& draft);
 
 // Drops faces that repeat a vertex, and of the faces with the same three vertices all but the
 // first.
 void drop_invalid_faces(Draft& draft);
 
-// Whether each edge (u,v) occurs as often as (v,u).
+// Returns whether each edge (u,v) occurs as often as (v,u).
 bool is_cycle(const std::vector<Face>& faces);
 
-// The greatest magnitude of a coordinate in a frame of the case.
+// Returns the greatest magnitude of a coordinate in the frames of the case.
 double greatest_of(const corpus::Case& c);
 
 // Turns the draft into a case. Its tags are sorted, each once.

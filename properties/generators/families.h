@@ -6,10 +6,10 @@
 // Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200. In
 // degenerate and far families, where a step takes the oracle longest, the last three are 42 %, 6 %
 // and 2 %. Everyday families have 60 % of 2..4 (closed ones of 8), 30 % of up to 12, and 10 % of
-// 12..40, so that a slow detector is judged by many. (Shapes come as near to a size as they can;
-// what is broken or has pieces may have a few triangles more.) Steps: 60 % of the cases have 1,
-// 20 % 2, 12 % 3, 8 % 4..8; cases above 40 triangles have at most 3, those made to be positive at
-// most 2.
+// 12..40, so that even a slow detector is judged by many cases. (Shapes come as near to a size as
+// they can; broken shapes and shapes of pieces may have a few triangles more.) Steps: 60 % of the
+// cases have 1, 20 % 2, 12 % 3, 8 % 4..8; cases above 40 triangles have at most 3, cases made to be
+// positive at most 2.
 #pragma once
 
 #include <cstdint>
@@ -29,34 +29,36 @@ struct Family {
   std::string_view name;  // of the stratum
   std::string_view about;
   bool is_closed = false;   // every case is a cycle
-  bool degenerate = false;  // exact coincidences are frequent: the oracle needs dear rungs
+  bool degenerate = false;  // exact coincidences are frequent, so the oracle needs dear rungs
   RandomCase (*make)(Random&, std::string id);
-  std::uint64_t triangles = 0;  // of every case, about; 0: few, as above
-  // Of a family of queries (queries/query_families.h): query `index` of `seed`, made from these two
-  // alone. It is a vertex-face query for even indices, an edge-edge query for odd ones.
+  std::uint64_t triangles = 0;  // approximate size of every case; 0: few, as above
+  // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
+  // these two numbers alone. It is a vertex-face query for even indices, an edge-edge query for odd
+  // ones.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one for each `one_in` of "query-small-int": the dearer, the fewer
+  int one_in = 1;  // one query for each `one_in` of "query-small-int": dear families get fewer
 };
 
-// The strata's families in a fixed order.
+// Returns the families of the strata in a fixed order.
 std::span<const Family> families();
-// Families of cases with a relation (add_relation).
+// Returns the families of cases with a relation (add_relation).
 std::span<const Family> counted_families();
 
-// Families of cases for what the built-in detector is asked besides contacts, each in the
-// configuration of the same name (DetectorUnderTest): "limits", how far a step may be gone, and
-// "within", what comes within a distance. Their cases are those of families(), by turns.
+// Returns the families of cases for the questions that the built-in detector is asked besides
+// contacts, each in the configuration of the same name (DetectorUnderTest): "limits", how far a
+// step may go, and "within", which pairs come within a distance. Their cases are those of
+// families(), by turns.
 std::span<const Family> question_families();
 bool is_question_family(std::string_view name);
 
-// Families of large cases of one size each, "size-1e3" to "size-1e6". Their strata state a bound
-// each and want none: their cases are few and dear.
+// Returns the families of large cases of one size each, "size-1e3" to "size-1e6". Each of their
+// strata states a bound, but no bound is wanted, because their cases are few and dear.
 std::span<const Family> size_families();
 bool is_size_family(std::string_view name);
 
 // Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
 // randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A
-// tenth of the cases has a response (below), which costs some judgements of the oracle more.
+// tenth of the cases has a response (below), which costs some more judgements by the oracle.
 RandomCase make_case(const Family& family, std::string_view id);
 
 // Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
@@ -64,10 +66,10 @@ RandomCase make_case(const Family& family, std::string_view id);
 // Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
 // is shortened to a share s of its displacement. The shortened step is committed if it is free,
 // and reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
-// number, of the greatest power of two that is at most half of the first contact time. Later steps
-// keep their own displacements, from where the mesh then is.
+// number, times the greatest power of two that is at most half of the first contact time. Later
+// steps keep their own displacements, from the place of the mesh at that time.
 //
-// Frames and script are explicit, so the case replays without the oracle. A view primitive goes
+// Frames and script are explicit, so the case replays without the oracle. A view primitive moves
 // with the frames. Expected facts and ghosts are dropped. Costs the oracle's judgement of each
 // step and of each shortened one. REQUIRES that `c` has no script of its own.
 corpus::Case with_response(const corpus::Case& c);

@@ -1,5 +1,5 @@
-// What random meshes are made of, one after the other: a rest shape, its motion, what is aimed in
-// it, the kind of its numbers; which of its pairs count; and bodies that are added far from it.
+// Makes the parts of random meshes, in this order: a rest shape, its motion, aimed contacts, the
+// kind of its numbers, a relation of its pairs, and bodies that are added far from it.
 #pragma once
 
 #include <array>
@@ -14,50 +14,50 @@
 
 namespace assay::properties {
 
-// Rest shapes. Closed ones of one piece, and of two, which are apart, nested, one a cavity in the
-// other, or joined at a vertex or an edge. Unclosed ones (closed ones with holes, sheets, tubes,
-// spirals, rings with a gap that close), and damaged ones.
+// Rest shapes. Closed shapes have one piece, or two pieces that are apart, nested, one a cavity in
+// the other, or joined at a vertex or an edge. Unclosed shapes are closed ones with holes, sheets,
+// tubes, spirals, and rings with a gap that close. There are damaged shapes, too.
 //
 // The shapes in one piece lie about the origin, radius of the order of 1, outward normals.
 
-// A tetrahedron, bipyramid, sphere, capsule, star or torus with about `size` triangles (4..200),
-// in varied proportions; tagged "shape:...". `star_shaped` is set if all triangles are positive
-// from the origin.
+// Returns a tetrahedron, bipyramid, sphere, capsule, star or torus with about `size` triangles
+// (4..200), in varied proportions; tagged "shape:...". `star_shaped` is set if all triangles are
+// positive from the origin.
 Draft simple_shape(Random& random, int size);
 
-// Such a shape with `star_shaped` set: convex, or a star with small hollows.
+// Returns such a shape with `star_shaped` set: convex, or a star with small hollows.
 Draft star_shape(Random& random, int size);
 
-// Any closed shape with about `size` triangles (4..200); tagged "shape:...". It starts without
-// contact, except for a few percent of the shapes.
+// Returns any closed shape with about `size` triangles (4..200); tagged "shape:...". It starts
+// without contact, except for a few percent of the shapes.
 Draft closed_shape(Random& random, int size);
 
-// Any unclosed shape with about `size` triangles (2..200); tagged "shape:..." and "holes:N". Never
-// a cycle.
+// Returns any unclosed shape with about `size` triangles (2..200); tagged "shape:..." and
+// "holes:N". It is never a cycle.
 Draft open_shape(Random& random, int size);
 
-// A star shape with 1 to 4 small holes whose fans from the loop's mean are positive from the
-// origin, as the triangles are.
+// Returns a star shape with 1 to 4 small holes. The triangles, and the fans of the holes from their
+// loops' means, are positive from the origin.
 Draft open_star_shape(Random& random, int size);
 
-// A mesh that a detector has to accept although few of its kind are the surface of a body: a closed
-// or unclosed shape with one to three damages: triangles that are missing, turned round
-// or without area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices that
-// nothing uses, triangles between any vertices. Tagged "broken:...".
+// Returns a mesh that a detector must accept although it is hardly the surface of a body: a closed
+// or unclosed shape with one to three damages. A damage is: triangles that are missing, turned
+// round or without area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices
+// that nothing uses, triangles between any vertices. Tagged "broken:...".
 Draft broken_shape(Random& random, int size);
 
 // A motion takes all vertices of one frame to the next.
 
 struct Motion {
   const char* name;
-  // Moves x, which is the last frame of the draft at first. `amount` is in (0, 1]; at 1 the motion
-  // is as large as the mesh, so that most shapes collide.
+  // Moves x, which begins as the last frame of the draft. `amount` is in (0, 1]; at 1 the motion is
+  // as large as the mesh, so that most shapes collide.
   void (*move)(Random& random, const Draft& draft, Points& x, double amount);
   int weight;
   bool exact;              // makes coincidences: for degenerate families only
   bool small_meshes_only;  // brings all triangles into contact: for small meshes only
   // Takes many vertices through one plane or line at the same time, so that all contacts are
-  // degenerate. That is wanted in degenerate families only; elsewhere the motion is roughened.
+  // degenerate. Only degenerate families want that; elsewhere the motion is roughened.
   bool level = false;
 };
 
@@ -84,24 +84,23 @@ void breathe(Random& random, const Point& centre, Points& x, double amount);
 // the surface. Tagged "motion:positive" and "close:...".
 void move_positively(Random& random, Draft& draft, int steps);
 
-// What is aimed in a mesh that moves: its contacts, and the place of its view primitive.
+// Aims contacts, and places the view primitive, in a mesh that moves.
 //
 // Contacts: the path of a vertex is chosen so that it meets a feature at a chosen time. The time is
 // a dyadic number, and the place a dyadic combination of vertices. The contact is exact if
-// coordinates have few bits, and otherwise lies beside the exact one. Another contact may come
-// first.
+// coordinates have few bits, and otherwise only nearly exact. Another contact may come first.
 
-// Changes one step of the draft, which has two frames or more. Tags "aim:..." say what it aims at
-// (face, edge, vertex, edge-edge, grazing, simultaneous, coplanar, region-border) and when (start,
-// end, mid-step). If `may_touch_at_start` is set, t = 0 and coplanar aims occur too.
+// Changes one step of the draft, which has two frames or more. Tags "aim:..." say the aim (face,
+// edge, vertex, edge-edge, grazing, simultaneous, coplanar, region-border) and when (start, end,
+// mid-step). If `may_touch_at_start` is set, t = 0 and coplanar aims occur too.
 void aim(Random& random, Draft& draft, bool may_touch_at_start);
 
-// View primitives: none (the detector's own), points and segments, anywhere. Sets q0, q1 for all
-// frames; tags "view:...". A third of the cases gets none.
+// Chooses a point or a segment anywhere as view primitive, or none (the detector's own). Sets q0,
+// q1 for all frames; tags "view:...". A third of the cases gets none.
 void choose_view(Random& random, Draft& draft);
 
-// For meshes that are positive from `drift`, which has a place for each frame. The view is none, a
-// point there, or a short segment about it.
+// The same for meshes that are positive from `drift`, a place for each frame: chooses none, the
+// point `drift`, or a short segment about it.
 void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 // Coordinate menus: the kinds of doubles that a case is made of. Each function changes all frames
@@ -117,41 +116,41 @@ void place_ulp_neighbours(Random& random, Draft& draft);
 // Adds an offset with exponents up to 40, so that low bits are rounded away.
 void move_far(Random& random, Draft& draft);
 
-// Scales by powers of two: one for all, or one for each axis, or one for each vertex (from the
-// origin, so that what is positive from there stays so). They lie within 2^+-60; one in 16 up to
-// 2^+-400.
+// Scales by powers of two: one for all, one for each axis, or one for each vertex (from the origin,
+// so that triangles positive from there stay so). They lie within 2^+-60; one in 16 up to 2^+-400.
 void mix_scales(Random& random, Draft& draft);
 
 // Makes all coordinates integers times 2^-1074, or replaces a few coordinates by such numbers.
 void make_denormal(Random& random, Draft& draft);
 
-// Makes meshes that are nearly degenerate, by one or two of these: neighbouring doubles; a vertex
+// Makes a mesh nearly degenerate, in one or two of these ways: neighbouring doubles; a vertex
 // within 2^-20 to 2^-45 of another vertex, or of an edge or a face that does not hold it, in one
 // frame or in all. Tagged "menu:...".
 void miss_nearly(Random& random, Draft& draft);
 
-// Everyday numbers: lengths, places and ends as programs make them.
+// Everyday numbers: lengths, places and ends of motions as programs make them.
 //
 // Sizes are 10^-4 to 10^6 and no powers of two. Places are decimals, inches, quotients or float32,
 // or are turned by any angle; ends come from x + v dt, from x + dx, or are rounded as places are.
-// So mantissas are full and x0 + (x1 - x0) is often not x1, and yet much is level, as floors and
-// boxes are. Detectors that round on the way to their arithmetic err here. They err neither at
-// random places, where nothing is level, nor at small integers, where nothing is rounded.
+// So mantissas are full and x0 + (x1 - x0) is often not x1, and yet many faces are level, like
+// floors and boxes. Detectors that round their input err here. They err neither at random places,
+// where nothing is level, nor at small integers, where nothing is rounded.
 
 // Returns a size between 10^-4 and 10^6: three digits times a power of ten.
 double everyday_size(Random& random);
 
 // Returns the double `units` units of the last place from `c` in the direction of the sign of
-// `towards`, or in the opposite one if `units` is negative. A unit of 0 is one of 1.
+// `towards`, or in the opposite one if `units` is negative. At 0 the units are those of 1.
 double units_beyond(double c, int units, double towards);
 
-// Moves the first `first_group` of four points, which come by `way`, along one axis: to where they
-// touch the other points or have passed them by less than a unit of the last place, and `units`
-// units beyond. One point touches a face and two touch an edge, by the exact sign of their volume.
+// Moves the first `first_group` of four points, which come by `way`, along one axis until they
+// touch the other points or have passed them by less than a unit of the last place, and then
+// `units` units beyond. One point touches a face, two points touch an edge, by the exact sign of
+// their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws how far beyond a feature something ends: 0 for two of three, else 1 to 16 units of the
-// last place, or now and then 1 to 4 short of it.
+// Draws how many units of the last place beyond a feature a motion ends: 0 in two of three draws,
+// else 1 to 16, or now and then 1 to 4 short of it.
 int units_at_a_feature(Random& random);
 
 // The numbers of one program, drawn once for a case.
@@ -159,11 +158,11 @@ class EverydayNumbers {
  public:
   explicit EverydayNumbers(Random& random);
 
-  // The place of a point that is given in units of the size.
+  // Returns the place of a point that is given in units of the size.
   Point place(const Point& x) const;
-  // Where a vertex ends that is at `x0` and moves by `way`, which is given in units of the size.
+  // Returns the end of a vertex at `x0` that moves by `way`, given in units of the size.
   Point end(const Point& x0, const Point& way) const;
-  // Whether coordinates that are equal stay equal in places and ends.
+  // Returns whether equal coordinates stay equal in places and ends.
   bool keeps_levels() const { return !is_turned_; }
   const char* tag() const;
 
@@ -185,25 +184,25 @@ class EverydayNumbers {
   std::array<Point, 3> rows_{};  // of the turn
 };
 
-// Gives a draft everyday numbers, and lets its landings meet. Frames, view and axis are in units of
-// the size before.
+// Gives a draft everyday numbers, and puts its landings in place. Before, frames, view and axis are
+// in units of the size.
 void use_everyday_numbers(Random& random, Draft& draft);
 
-// Makes two pieces of about `size` triangles together, in units of the size: one rests or rises,
-// has a level top, and the other comes down on it. A vertex or a level edge of the upper piece
-// lands on the top, on its border or at its corner, where a step ends; or the piece goes on through
+// Makes two pieces of about `size` triangles together, in units of the size. One has a level top
+// and rests or rises; the other comes down on it. At the end of a step, a vertex or a level edge of
+// the upper piece lands on the top, on its border or at its corner; or the piece goes on through
 // the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
 // flat and mostly slides within the plane of the top.
 Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).
 
-// Gives the case a relation that leaves something out: bodies, which are its components, of which
-// some do not meet; one or two rings; a distance at rest of the order of an edge, at rest as in the
-// first frame. It is one of triangles or of features.
+// Gives the case a relation that leaves something out: bodies (its components), some of which do
+// not meet; one or two rings; or pairs nearer at rest (in the first frame) than a distance of the
+// order of an edge. The relation is one of triangles or of features.
 void add_relation(Random& random, RandomCase& random_case);
 
-// What a relation leaves out, one thing alone.
+// The one thing that a relation leaves out.
 enum class LeftOut : std::uint8_t { nothing, bodies, rings, near_at_rest, single_pairs };
 constexpr auto names_of(LeftOut) {
   using enum LeftOut;
@@ -214,28 +213,28 @@ constexpr auto names_of(LeftOut) {
                                         {single_pairs, "single pairs"}});
 }
 
-// A relation of triangles, or now and then of features, that leaves this out of the case: of
-// `in_contact` about every second pair, or a pair of features of it; what is nearer than a length
-// between an edge and 2^-10 of it, with one of the frames at rest. REQUIRES that something is left
-// out.
+// Returns a relation of triangles, or now and then of features, that leaves this out of the case.
+// single_pairs: about every second pair of `in_contact`, or a pair of its features. near_at_rest:
+// pairs nearer than a length between an edge and 2^-10 of it, with one of the frames at rest.
+// REQUIRES that something is left out.
 detector::CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
                                         std::span<const detector::PairContact> in_contact);
 
 // Bodies that are added to a case, far from its own.
 
-// Two triangles without a common vertex that come within a distance d, only just do, or only just
-// do not. They move rigidly over a step: a0 a1 a2 at rest, and b0 b1 b2. Their nearest features lie
-// in a known direction, so their distance is known without rounding: it is d, the double before or
-// after d, a share of 2^-20 less, or half of d; at the end of the step, at its start, throughout,
-// or at the middle alone. The features are a vertex and a face, edge or vertex, or two edges,
-// crossing or parallel.
+// Two triangles without a common vertex that come within a distance d, clearly or only just, or
+// only just do not. a0 a1 a2 rests, and b0 b1 b2 moves rigidly over a step. Their nearest features
+// lie in a known direction, so their distance is known without rounding. It is d, the double before
+// or after d, a share of 2^-20 less, or half of d; at the end of the step, at its start,
+// throughout, or only in the middle. The features are a vertex and a face, edge or vertex, or two
+// edges, crossing or parallel.
 struct Approach {
   std::array<detector::MovingPoint, 3> a, b;
 };
 Approach draw_approach(Random& random, double d);
 
-// Adds the two triangles of an approach to the mesh, far from it, in one step of its script; what
-// was expected of the case is dropped. A query (query_case.h) becomes one of the features of an
+// Adds the two triangles of an approach to the mesh, far from it, in one step of its script;
+// expected facts of the case are dropped. A query (query_case.h) becomes one of the features of an
 // approach instead: b0 and the face a, or the edges a0a1 and b0b1. A mesh with coordinates above
 // most_aimed stays as it is. REQUIRES a step, and d from least_aimed to most_aimed.
 corpus::Case with_approach(corpus::Case c, double d, Random& random);
@@ -243,12 +242,13 @@ inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
 
 // A body that makes a small case large, so that a detector shares its work out to several threads.
 //
-// The case with a sheet of 12,544 vertices behind its own, far from it: some loops over vertices
-// then have four pieces (detector/mesh/for_all.h), so that with two or three threads some lane
-// takes two of them. Seen from above the sheet is a grid that rests; its heights change from frame
-// to frame. So it meets nothing, and it has no two triangles without a common vertex that come
-// within `apart`: what a step answers is what it answers without the sheet. In a relation it is a
-// body of its own. Views and facts are dropped. Nothing if coordinates are too large or too small.
+// Returns the case with a sheet far from the mesh, whose 12,544 vertices follow those of the mesh:
+// some loops over vertices then have four pieces (detector/mesh/for_all.h), so that with two or
+// three threads some lane takes two of them. Seen from above the sheet is a grid at rest; its
+// heights change from frame to frame. So it meets nothing, and no two of its triangles without a
+// common vertex come within `apart`: every step has the same answer as without the sheet. In a
+// relation the sheet is a body of its own. Views and facts are dropped. Returns nothing if
+// coordinates are too large or too small.
 std::optional<corpus::Case> with_far_body(corpus::Case c, double apart);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// The random trials of a campaign: the case of each, what is counted of it, and their run.
+// Draws the random trials of a campaign, counts their traits, and runs them.
 #pragma once
 
 #include <cstdint>
@@ -29,62 +29,61 @@ namespace assay::properties {
 
 // Finds the case of a trial for a detector with a contract.
 
-// A case of a family, and what the contract takes of it.
+// A case of a family, and the part of it that the contract takes.
 struct TrialCase {
   RandomCase source;
-  // The case as the detector and the oracle are given it; nothing if no attempt led to a case that
-  // the contract takes.
+  // The case as given to the detector and the oracle; nothing if no attempt led to a case that the
+  // contract takes.
   std::optional<corpus::Case> input;
-  std::uint64_t redrawn = 0;         // cases before this one, which did not serve
+  std::uint64_t redrawn = 0;         // how many cases before this one were rejected
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
 
-// The case of a trial id. If the contract takes none of its steps, the next ids
+// Returns the case of a trial id. If the contract takes none of its steps, the next ids
 // "quick:1:broken:3~1", "~2", ... are tried until it takes some, so that a stratum has as many
-// judged cases under every contract. Of a query, and under a contract that leaves contacts out,
-// every fourth case has to have a contact that counts, and is drawn again until it has one. At most
-// most_redrawn attempts are made, each deterministic; of them at most most_without_contact on cases
-// that the contract takes, and then the last of these stays. The case is brought into the contract
-// (below). Under a contract with a separation every second case is aimed at that (parts.h),
-// and a case of which every step starts within it does not serve. Without a contract this is, of a
-// mesh, the case of the id.
+// judged cases under every contract. For queries, and under a contract that leaves contacts out,
+// every fourth case must have a contact that counts, and is drawn again until it has one. A case is
+// drawn again at most most_redrawn times, each time deterministically, and for want of a contact at
+// most most_without_contact times; then the last case that the contract takes stays. The case is
+// brought into the contract (below). Under a contract with a separation every second case is aimed
+// at the separation (parts.h), and a case is rejected if all of its steps start within it. Without
+// a contract the result for a mesh is the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
-// The case scaled by a power of two, so that the contract may take it. Its features can hardly lie
-// start_distance apart if the whole mesh is smaller than eight times that, so it becomes that
+// Scales the case by a power of two, so that the contract may take it. Features can hardly lie
+// start_distance apart in a mesh smaller than eight times that distance, so the mesh becomes that
 // large, if a range of the contract allows it. With a separation the mesh becomes twice to 512
-// times as large as that. Of a mesh of more than 400 triangles the middle one of its edges is
-// looked at in place of the mesh, and becomes twice to 8 times as large as the separation. If the
-// contract has a range, the case is scaled until its largest coordinate fits, or until its shortest
-// edge does.
+// times as large as the separation; in a mesh of more than 400 triangles the median edge becomes
+// twice to 8 times as large instead. If the contract has a range, the case is scaled until its
+// largest coordinate fits, or until its shortest edge does.
 corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 
-// Finds the cases for which Start::clean may be used, because what the caller then vouches for is
-// true.
+// Finds the cases for which Start::clean may be used, because they keep the caller's promise.
 
-// Whether the oracle calls every triangle clean (L9, detector/LAWS.md) in every step of the case
-// that is a new start. For an unclosed mesh that depends on where the built-in detector puts its
-// apexes, so it is asked for them, in a copy of this process, in which a crash does no harm.
+// Returns whether the oracle calls every triangle clean (L9, detector/LAWS.md) in every step of the
+// case that is a new start. For an unclosed mesh that depends on the apexes of the built-in
+// detector, so the detector is asked for them, in a copy of this process, where a crash does no
+// harm.
 bool starts_clean(const corpus::Case& c);
 
-// Whether trial `index` of a family vouches for the start of its case. That is done for the
-// built-in detector, in every second one of the trials that may. A large mesh is not looked at.
+// Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
+// detector that may. Large meshes never do.
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
 
-// The same configurations, with start clean in place of start verified.
+// Returns the configurations with start clean in place of start verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
-// What a campaign counts of a case besides its outcome: how far it goes, tags, set pairs of
-// contacts, and laws, of the built-in detector and of a plug-in.
+// Counts what a campaign counts of a case besides its outcome, for the built-in detector and for a
+// plug-in: extremes, tags, set pairs of contacts, and laws.
 
-// How far the cases go on which a detector is tried. Beyond that nothing is known of it.
+// Measures the extremes of the cases on which a detector is tried. Nothing is known beyond them.
 
-// The extremes of a case whose steps the oracle judged so. Costs O(N + M), and compares each frame
-// with one other. REQUIRES triangles of which a detector can be made.
+// Returns the extremes of a case for which `truth` has the oracle's judgement of each step. Costs
+// O(N + M), and compares each frame with one other. REQUIRES triangles that a detector accepts.
 Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth);
 
-// The places in steps_of(c) of the steps that do not go on from a committed one.
+// Returns the places in steps_of(c) of the steps that do not follow a committed step.
 std::vector<std::size_t> new_starts(const corpus::Case& c);
 
 struct CaseTally {
@@ -92,7 +91,7 @@ struct CaseTally {
   std::vector<FailureRecord> failures;  // laws
 };
 
-// A case that the built-in detector was examined on, in these configurations.
+// A case on which the built-in detector was examined, in these configurations.
 struct TallyInput {
   const CaseResults& results;
   std::span<const Configuration> configurations;
@@ -101,11 +100,11 @@ struct TallyInput {
 };
 
 // Counts each of the cases. If `with_laws` is set, the laws are checked in each configuration that
-// has view sets and asks for all pairs; those of all cases together, in one copy of this process
+// has view sets and asks for all pairs. One copy of this process checks them for all cases
 // (check_in_copies).
 std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases);
 
-// The reducer's judge for a law, in a configuration of the built-in detector.
+// Returns the reducer's judge for a law, in a configuration of the built-in detector.
 Judge judge_of_law(const Law& law, const Configuration& configuration);
 
 // Checks laws where a crash of the detector does no harm. A law runs the built-in detector again,
@@ -113,43 +112,44 @@ Judge judge_of_law(const Law& law, const Configuration& configuration);
 
 // Runs check(0) to check(count - 1), in this order, in a copy of this process. A check that ends
 // the copy is broken: its tally says how the copy ended, and the next check begins a new copy. So
-// whatever `check` keeps from one call to the next, it must be able to make again.
-// case_of(i) is the id of the case that check i is about, for the words of a tally. Throws what
-// `check` throws, and std::runtime_error if copies are killed from outside again and again. A copy
-// costs some ten milliseconds, mostly for pages that both processes write, so whoever has many
-// cases checks them together.
+// `check` must be able to make again whatever it keeps from one call to the next.
+// case_of(i) is the id of the case of check i, for the text of a tally. Throws what `check` throws,
+// and std::runtime_error if copies are killed from outside again and again. A copy costs some ten
+// milliseconds, mostly for pages that both processes write, so many cases should be checked
+// together.
 std::vector<LawTally> check_in_copies(std::size_t count,
                                       const std::function<std::string(std::size_t)>& case_of,
                                       const std::function<LawTally(std::size_t)>& check);
 
-// Puts a case to a plug-in in other forms (changes/changes.h), and judges what it answers.
+// Puts a case to a plug-in in other forms (changes/changes.h), and judges the answers.
 //
-// A law of a plug-in is broken if a claim holds in the case and not in its form: the form is judged
-// by the oracle like any case. A detector that claims to be deterministic breaks it also by other
-// answers to the same calls. Other answers that its claims allow are counted alone: an interval of
-// time may be wider in one form, and a collision may be a false alarm in one form.
+// A law of a plug-in is broken if a claim holds in the case and not in its form, which the oracle
+// judges like any case. A detector that claims to be deterministic also breaks the law by different
+// answers to the same calls. Different answers that its claims allow are only counted: one form may
+// have a wider interval of time, or a false alarm.
 
 struct FormCheck {
-  // Premise and differs are steps, and broken is 0 or 1; nothing if the form did not apply.
+  // `premise` and `differs` count steps, and `broken` is 0 or 1; all are 0 if the form did not
+  // apply.
   LawCount count;
-  std::optional<FailureRecord> failure;  // of the form, if the law is broken
+  std::optional<FailureRecord> failure;  // of the form, if it breaks the law
   std::uint64_t disturbances = 0;
 };
 
-// Runs the form of a case in the worker. Nothing is judged if it does not apply, if the contract
-// leaves some of its steps out, or if it runs out of time or memory. `run` is the run of the case.
-// Throws StoreProblem if there is no worker. REQUIRES a contracted case of meshes in which all
-// pairs count, and whose run holds, and a law about a change of such.
+// Runs the form of a case in the worker. Nothing is judged if the form does not apply, if the
+// contract leaves some of its steps out, or if it runs out of time or memory. `run` is the run of
+// the case. Throws StoreProblem if there is no worker. REQUIRES a contracted case of meshes in
+// which all pairs count and whose run holds, and a law about a change of such cases.
 FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker);
 
-// Whether cases of this detector are put to it in other forms, and this is such a case.
+// Returns whether this case is one that is put to this detector in other forms.
 bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c);
 
 // Runs the trials of a campaign in threads, each with a worker process of its own.
 
-// Numbers of trials of the run. `stored_trials` counts those that an earlier call stored;
-// `done_trials` includes them, the numbers of the second line do not.
+// Numbers of trials of the run. `stored_trials` counts the trials that an earlier call stored;
+// `done_trials` includes them; `defects`, `undecided` and `disturbed` do not.
 struct TrialProgress {
   std::uint64_t done_trials = 0, quota = 0, stored_trials = 0;
   std::uint64_t defects = 0, undecided = 0, disturbed = 0;
@@ -159,18 +159,18 @@ struct TrialsEnd {
   bool complete = false;        // every planned trial of the run is in the store
   double seconds = 0;           // the time of this call
   std::uint64_t trials = 0;     // judged in this call
-  std::string harness_problem;  // what kept the harness itself from going on; empty: nothing
-  // The problem that ended it early, if any: a store that could not be written, a worker that
-  // could not be had (the system gives no process, or the plug-in does not load any more), too
+  std::string harness_problem;  // why the harness itself could not go on; empty: it could
+  // The problem that ended the call early, if any: a store that could not be written, a worker that
+  // could not be started (the system gives no process, or the plug-in does not load any more), too
   // little memory.
   std::optional<Problem> problem;
 };
 
 // Makes and judges the trials that are not in the store yet, from the families in turn, until all
-// are done or the deadline is over. Every record is stored as soon as it is known, so that a
-// killed run loses only the cases that are being judged. The records do not depend on the number
+// are done or the deadline is over. Every record is stored as soon as it is complete, so that a
+// killed run loses only the cases being judged. The records do not depend on the number
 // of jobs. `progress` is called from one thread at a time. `only` gives the ids of the trials that
-// count as planned; without it all trials of the run do.
+// count as planned; if it is null, all trials of the run count.
 //
 // Throws StoreProblem if the store cannot even be read at the beginning; so it is for campaign/
 // alone.
@@ -178,11 +178,11 @@ TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline d
                      const std::function<void(const TrialProgress&)>& progress,
                      const std::set<std::string>* only = nullptr);
 
-// The case of a failure as it is stored: with the options of its configuration.
+// Returns the case of a failure as it is stored: with the options of its configuration.
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure);
-// The failure as it is stored, under the id of the case. One that a second run does not show is
-// flaky.
+// Returns the failure as it is stored, under the id of the case. `flaky`: a second run does not
+// show it.
 FailureRecord stored_failure(Source source, const corpus::Case& c,
                              const Configuration& configuration, const DetectorUnderTest& detector,
                              const Failure& failure, bool flaky, const std::string& output);
