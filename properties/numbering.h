@@ -1,5 +1,4 @@
-// Lists of the numbers of vertices or triangles, and of the points of a grid that is mapped onto
-// itself.
+// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@ using Numbers = std::vector<std::int32_t>;
 
 using detector::at;
 
-// 0 .. count - 1.
+// Returns 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -27,15 +26,15 @@ inline Numbers in_order(std::size_t count) {
 // Grids of side^dimensions points, numbered along the first axis first, and the maps of a grid
 // onto itself: axes exchanged and mirrored.
 
-// base^exponent in whole numbers. REQUIRES exponent >= 0.
+// Returns base^exponent in whole numbers. REQUIRES exponent >= 0.
 inline int power(int base, int exponent) {
   int result = 1;
   for (int i = 0; i < exponent; ++i) result *= base;
   return result;
 }
 
-// One map of the grid onto itself, for a grid of any side. Element i of what it returns is the
-// number of the point onto which point i is mapped.
+// A map of the grid onto itself, for a grid of any side. Element i of its result is the number of
+// the point onto which point i is mapped.
 using ImageOfGrid = std::function<std::vector<int>(int side)>;
 // Calls `visit` for each permutation of the axes with each choice of mirrored axes, the identity
 // first. `visit` may keep the map.

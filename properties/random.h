@@ -1,4 +1,5 @@
-// Integer-only random numbers, because the standard distributions differ between libraries.
+// Draws random numbers by integers only, because the standard distributions differ between
+// libraries.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@ class Random {
     next();
     next();
   }
-  // The random numbers of a name, such as a case's id, hashed by FNV-1a, 64 bits.
+  // Takes its seed from a name, such as a case's id, hashed by FNV-1a, 64 bits.
   explicit Random(std::string_view id) : Random(hash(id), 0) {}
   static constexpr std::uint64_t hash(std::string_view text) {
     std::uint64_t h = 0xcbf29ce484222325u;
@@ -30,27 +31,27 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  // 0 .. n-1; n is small, so the bias of the remainder is below 2^-50.
+  // Returns 0 .. n-1; n is small, so the bias of the remainder is below 2^-50.
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
   int between(int lo, int hi) { return lo + below(hi - lo + 1); }
   bool one_in(int n) { return below(n) == 0; }
-  // Multiples of 2^-30 in [0, 1) and in [-1, 1): exact, so sums of a few stay exact.
+  // Return multiples of 2^-30 in [0, 1), and of 2^-29 in [-1, 1): sums of a few of them are exact.
   double unit() { return static_cast<double>(next() >> 34) * 0x1p-30; }
   double signed_unit() { return 2 * unit() - 1; }
-  // A multiple of 2^-52 in [-1, 1).
+  // Returns a multiple of 2^-52 in [-1, 1).
   double full_mantissa() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
 
  private:
   std::uint64_t state_;
 };
 
-// One item of a list that is not empty.
+// Draws one item of a list. REQUIRES a list that is not empty.
 template <class List>
 auto& one_of(Random& random, List& list) {
   return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
 }
 
-// By Fisher and Yates.
+// Shuffles by Fisher and Yates.
 template <class List>
 List shuffled(Random& random, List list) {
   for (std::size_t i = list.size(); i > 1; --i) {
@@ -60,7 +61,7 @@ List shuffled(Random& random, List list) {
   return list;
 }
 
-// Begins each triangle at one of its corners.
+// Begins each triangle at a random one of its corners.
 template <class Triangles>
 void begin_anywhere(Random& random, Triangles&& triangles) {
   for (auto&& corners : triangles)

@@ -1,5 +1,5 @@
-// Compares one step of a detector with the oracle: the diff says how their answers differ, and
-// what the candidate pairs of a broad phase lack, and what a limiter allows too much or too little.
+// Compares one step of a detector with the oracle: the diff says how their answers differ, which
+// pairs the candidates of a broad phase lack, and what a limiter allows too much or too little.
 #pragma once
 
 #include <optional>
@@ -14,47 +14,48 @@
 
 namespace assay::properties {
 
-// What the oracle found in a step, as a contract sees it, and the places of contact at one time.
-// Whatever shows or judges a detector's step takes the oracle's facts from here, so that a contract
+// The oracle's facts about a step, as a contract sees them, and the places of contact at one time.
+// All code that shows or judges a detector's step takes these facts from here, so that a contract
 // is obeyed everywhere.
 
 struct StepTruth {
-  // The pairs that count, ascending, each with the first time at which it does.
+  // The pairs that count, ascending, each with the first time at which it counts.
   std::vector<detector::PairContact> pairs;
   // The contacts that the contract lets the detector leave out, ascending: pairs of neighbours, of
   // its own rings and distance at rest, and pairs that touch in features that it does not test. A
-  // pair that counts only later stands in both lists, here with its first time of all. What the
-  // relation of the case leaves out stands in neither list.
+  // pair that counts only later stands in both lists, here with its first time of all. Pairs that
+  // the relation of the case leaves out stand in neither list.
   std::vector<detector::PairContact> left_out;
   // The earliest of `pairs`; an upper bound if the judgement is not complete.
   std::optional<detector::PairContact> first;
-  // The contract has a separation, and something that counts is within it at t = 0. Such a step
-  // says nothing about how the detector finds a time.
+  // The contract has a separation, and a pair that counts is within it at t = 0. Such a step does
+  // not show how the detector finds a time.
   bool starts_near = false;
   bool complete = false;  // false: the oracle was stopped
 
-  // Of the contacts that count.
+  // Returns the answer by the contacts that count.
   detector::Answer answer() const;
 };
 
-// What the oracle says of a step under this contract: which triangles touch or, if the contract has
-// a separation, which come within it; with a margin also what comes within separation + margin.
-// What the contract leaves out is among it: truth_of takes it out. Under a separation, pairs that
-// share a vertex are not asked for. Of `options` the features are the contract's; the tested pairs
-// have to be those of tested_pairs (contract.h). Cost: oracle/mesh/step.h,
-// oracle/distance/step_distance.h.
+// Asks the oracle about a step under this contract: which triangles touch or, if the contract has a
+// separation, come within it; with a margin also which pairs come within separation + margin. The
+// result still has the contacts that the contract leaves out; truth_of separates them. Under a
+// separation, pairs that share a vertex are not asked for. The features are the contract's,
+// whatever `options` says; the tested pairs of `options` must be those of tested_pairs
+// (contract.h). Cost: oracle/mesh/step.h, oracle/distance/step_distance.h.
 oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
                                   const detector::TrianglesView& triangles,
                                   oracle::JudgeOptions options = {});
 
-// REQUIRES a judgement by judge_under this contract. O(n) in the number of pairs.
+// Returns the facts. REQUIRES a judgement by judge_under this contract. O(n) in the number of
+// pairs.
 StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
                    const detector::TrianglesView& triangles);
 
 using ContactPart = std::vector<detector::PairContact>;
 
-// The connected parts of the contact graph, each with its pairs. Triangles are nodes, and the
-// pairs whose first time is `time` are edges. Two times that share an enclosure count as one;
+// Returns the connected parts of the contact graph, each with its pairs. Triangles are nodes, and
+// the pairs whose first time is `time` are edges. Two times with the same enclosure count as one;
 // parts may then be joined, but never split. O(n log n).
 std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
                                        const detector::TimeEnclosure& time);
@@ -62,51 +63,52 @@ std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>&
 TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEnclosure& exact,
                  double tolerance);
 
-// Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
+// Judges a step by the claims of its detector. Pairs of the oracle that lie outside of the
 // contract's adjacency and features do not count against the detector: its first time is compared
-// with t*, the first time of the other pairs. If the detector does report such a pair, it is not
-// spurious. Under a separation it is: pairs that share a vertex are then not asked for.
+// with t*, the first time of the other pairs. If the detector reports such a pair, the pair is not
+// spurious. Only under a separation a pair that shares a vertex is spurious, because it is not
+// asked for.
 //
 // The detector's times are intervals. An interval is wrong if it does not hold the oracle's time:
 // if it begins after that time, or ends before it, each by more than the contract's tolerance
 // (compared in doubles: a tolerance of 0 exactly, another to 1e-16).
 //
 // A missing pair is excused if all-pairs is not claimed and one of two things holds: the pair is
-// in contact later than t* only, or its part of the contact graph at t* (triangles as nodes, pairs
-// in contact at t* as edges) holds a reported pair.
+// first in contact after t*, or its part of the contact graph at t* (triangles as nodes, pairs in
+// contact at t* as edges) holds a reported pair.
 //
-// If the contract has a margin, first-time is not judged, and no-spurious goes by what comes within
-// separation + margin (StepJudgement::within_slack), or is not judged without that. A step that was
-// answered by an error breaks `total`, or is Outcome::error if `total` is not claimed. It is
-// Outcome::error too if the built-in detector refuses the input by name (StepResult::problem),
-// because `total` speaks of valid input. `deterministic` is not judged here, because it needs two
-// runs: same_answers. O(n log n) in the number of pairs.
+// If the contract has a margin, first-time is not judged, and no-spurious is judged by the pairs
+// that come within separation + margin (StepJudgement::within_slack), or not at all without these.
+// A step that was answered by an error breaks `total`, or is Outcome::error if `total` is not
+// claimed. It is Outcome::error too if the built-in detector refuses the input by name
+// (StepResult::problem), because `total` speaks of valid input. `deterministic` is not judged here,
+// because it needs two runs: same_answers. O(n log n) in the number of pairs.
 //
-// What breaks a claim says its row (claims.h). If times-unique is claimed, an interval is wrong
-// unless it is the oracle's in every bit.
+// The row of a claim says what breaks it (claims.h). If times-unique is claimed, an interval is
+// wrong unless every bit is that of the oracle's interval.
 //
-// REQUIRES a judgement of the oracle that was asked for asked_features(contract), and the triangles
-// if the contract leaves out neighbours.
+// REQUIRES a judgement of the oracle for asked_features(contract), and the triangles if the
+// contract leaves out neighbours.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract = {},
                  const detector::TrianglesView& triangles = detector::Triangles(0, 3));
 
-// The features that the oracle is to be asked for under this contract.
+// Returns the features that the oracle must be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
 
-// The stage at which the detector with these options lost a pair. It is found by running the step
-// with less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none
-// does, "elementary test" if neither does. Culling none is tried for meshes of up to 2,000
-// triangles; for a larger one the answer is "pair search or elementary test".
+// Returns the stage at which the detector with these options lost a pair. It runs the step with
+// less culling: the stage is "view sets" if culling bvh finds the pair, "pair search" if only
+// culling none does, "elementary test" if neither does. Culling none is tried for meshes of up to
+// 2,000 triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair,
                             detector::Options options = {});
 
-// Adds to the diff of a step what its candidates show: each pair in contact that counts under the
-// contract has to be among them. If there are none, or the oracle was stopped, a step that would
-// hold is undecided. REQUIRES a judgement by asked_features(contract). O(n) in both numbers of
-// pairs.
+// Judges the candidates of a step and adds the result to its diff: each pair in contact that counts
+// under the contract must be among them. If no candidates were given, or the oracle was stopped, a
+// step that would hold is undecided. REQUIRES a judgement by asked_features(contract). O(n) in both
+// numbers of pairs.
 void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles, StepDiff& diff);
@@ -118,28 +120,29 @@ struct LimitedStep {
   const oracle::JudgeOptions& options;
 };
 
-// Adds to the diff of a step what its limit shows. Nothing is judged of a step that starts in
-// contact, or within the separation of the contract. `judgement` is of the whole step under the
-// contract. Where the limiter stops short of x_t1 the oracle is asked once more, about the step
-// from x_t0 to there. If it was stopped, a step that would hold is undecided.
+// Judges the limit of a step and adds the result to its diff. A step that starts in contact, or
+// within the separation of the contract, is not judged. `judgement` is of the whole step under the
+// contract. If the limiter stops short of x_t1, the oracle is asked once more, about the step from
+// x_t0 to that place. If the oracle was stopped, a step that would hold is undecided.
 //
-// The share is too short if it is below Contract::progress times t*, the least of 1 and the first
-// contact time of the whole step, where rounding cannot be the reason: so much of the step moves
-// some vertex by 2^10 units in its last place or more; the gaps at the start, beyond the
-// separation, are 2^6 units of the largest coordinate or more; and each of eight equal places from
-// that share to t* is free to go to, with its rounding, by the oracle. Else it is only counted.
+// Here t* is the first contact time of the whole step, or 1 if there is none. The share is too
+// short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding
+// cannot if that part of the step moves some vertex by 2^10 units in its last place or more, the
+// gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more, and
+// the oracle finds the way free to each of eight equally spaced places from that share to t*,
+// rounded. Else the share is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff);
 
-// The diff of a step that was refused as beyond the capacity. It is Outcome::refused where a number
-// of the contract's capacity is exceeded. Elsewhere it breaks `total`, or is Outcome::error without
-// that claim. It is undecided if the oracle was stopped before it had counted as much.
+// Returns the diff of a step that was refused as beyond the capacity. The outcome is `refused` if a
+// number of the contract's capacity is exceeded, and undecided if the oracle was stopped before it
+// had counted that far. Else the step breaks `total`, or is an error without that claim.
 StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
                          const Contract& contract, const detector::TrianglesView& triangles);
 
-// The diff of a step of a library without answers, of candidates or limits: it holds, or was an
-// error, which breaks `total`.
+// Returns the diff of a step of a library that gives candidates or limits but no answers: the step
+// holds, or was an error, which breaks `total`.
 StepDiff diff_without_answer(const detector::StepResult& result,
                              const oracle::StepJudgement& judgement, const Claims& claims,
                              const Contract& contract, const detector::TrianglesView& triangles);

@@ -1,6 +1,6 @@
-// How wrong the answers of a detector were: the one account of it, for a step or summed over many.
-// Campaigns, `check` and all benches count with it, so that each of its words has one meaning. And
-// what else is counted of a plug-in's steps, whatever it claims.
+// Measures how wrong the answers of a detector were, in one step or summed over many. Campaigns,
+// `check` and all benches use these counts, so that each word has one meaning. Other counts of a
+// plug-in's steps are here too.
 #pragma once
 
 #include <cstdint>
@@ -14,35 +14,35 @@
 
 namespace assay::properties {
 
-// First times that are off on one side of the exact one (TimeOff, agreement.h).
+// First times that are off on one side of the exact one (TimeOff, claims.h).
 struct TimesOff {
   std::uint64_t steps = 0;
   double worst_share = 0;  // of a step
   double worst_ulps = 0;
-  // How often each share of a step was met, for quantiles. A share is rounded upward to two digits
-  // (0.00012), so that no time is said to be better than it is, and sums stay short.
+  // By share of a step, how often it was met, for quantiles. A share is rounded upward to two
+  // digits (0.00012), so that no time looks better than it is, and sums stay short.
   std::map<double, std::uint64_t> shares;
 
-  // The rounded share at this part of the values in ascending order: 0.5 is the median, and 1 the
-  // worst. 0 if there is none.
+  // Returns the rounded share at this part of the values in ascending order: 0.5 gives the median,
+  // and 1 the worst. Returns 0 if there is none.
   double quantile(double part) const;
 
   TimesOff& operator+=(const TimesOff& other);
   friend bool operator==(const TimesOff&, const TimesOff&) = default;
 };
 
-// How a limiter uses what is possible, over the steps that start without a contact.
+// How far a limiter lets steps go, over the steps that start without a contact.
 struct LimitUse {
   std::uint64_t free = 0;     // steps without any contact
-  std::uint64_t cut = 0;      // of `free`: not gone to their end
+  std::uint64_t cut = 0;      // of `free`: stopped before their end
   std::uint64_t contact = 0;  // steps with a contact ahead
-  TimesOff unused;            // of `contact`: the share of the time until it that was not used
-  // Of `contact`: less than what is claimed was used, and rounding may be why (judge_limit).
+  TimesOff unused;            // of `contact`: the unused share of the time until the contact
+  // Of `contact`: less was used than is claimed, perhaps because of rounding (judge_limit).
   std::uint64_t excused = 0;
   std::map<std::string, std::uint64_t> stalls;  // of `contact`, by their cause (LimitDiff::stall)
 
-  // The share that was used of the time until the contact, at this part of the steps in ascending
-  // order: 0 is the worst, 0.5 the median. REQUIRES contact > 0.
+  // Returns the used share of the time until the contact, at this part of the steps in ascending
+  // order: 0 gives the worst, 0.5 the median. REQUIRES contact > 0.
   double share(double part) const;
   std::uint64_t stalled() const;
 
@@ -51,25 +51,25 @@ struct LimitUse {
 };
 
 // Steps that the oracle did not finish are not counted at all. A step without an answer is counted
-// in `steps` and `undecided` alone, so that all other numbers are of answered steps. Contacts are
+// only in `steps` and `undecided`, so that all other numbers are of answered steps. Contacts are
 // those that count under the contract.
 struct StepErrors {
   std::uint64_t steps = 0;
   std::uint64_t undecided = 0;     // neither `free` nor `collision`: undecided, an error, no run
-  std::uint64_t free = 0;          // nothing is in contact, not even what the contract leaves out
-  std::uint64_t contact = 0;       // something that counts is in contact
+  std::uint64_t free = 0;          // no pair is in contact, not even a left-out one
+  std::uint64_t contact = 0;       // a pair that counts is in contact
   std::uint64_t missed = 0;        // of `contact`: answered `free`
   std::uint64_t false_alarms = 0;  // of `free`: answered `collision`
-  // Of the steps with a contact that were answered `collision`: the first time is after the exact
-  // one, or before it, by more than the contract tolerates.
+  // Of the steps with a contact that were answered `collision`: the first time is after (late) or
+  // before (early) the exact one, by more than the contract tolerates.
   TimesOff late, early;
-  // Steps that would hurt a user who trusts the answer: missed, or late, or with a missing pair of
-  // a detector that claims pairs.
+  // Steps that would hurt a user who trusts the answer: missed, late, or without a pair that the
+  // detector's claims promise.
   std::uint64_t unsafe = 0;
-  // Steps that would let a user look in vain: a false alarm, or a spurious pair.
+  // Steps in which a user would look for a contact in vain: a false alarm, or a spurious pair.
   std::uint64_t alarming = 0;
-  // Pairs. Missing: in contact, asked for by the claims, and not reported. Spurious: reported, and
-  // not in contact.
+  // Numbers of pairs. Missing: in contact, asked for by the claims, and not reported. Spurious:
+  // reported, and not in contact.
   std::uint64_t missing = 0, spurious = 0;
   LimitUse limits;  // counted whatever is claimed, and for steps without an answer too
 
@@ -80,11 +80,11 @@ struct StepErrors {
   friend bool operator==(const StepErrors&, const StepErrors&) = default;
 };
 
-// Those of one step.
+// Returns the errors of one step.
 StepErrors errors_of(const StepDiff& diff);
 
-// {"steps": 3, ..., "late": {"steps": 1, "worst_share": 0.00012, ...}, ...}: every member by its
-// name. Most detectors are no limiters, and have no object `limits`.
+// Writes {"steps": 3, ..., "late": {"steps": 1, "worst_share": 0.00012, ...}, ...}: every member by
+// its name. Detectors that are no limiters have no object `limits`.
 void to_json(nlohmann::ordered_json& json, const StepErrors& errors);
 
 ASSAY_FIELDS(TimesOff, steps, worst_share, worst_ulps, shares)
@@ -100,54 +100,54 @@ void fields(Archive& archive, StepErrors& errors) {
   archive.may("limits", limits);
 }
 
-// What is counted of a plug-in's steps, whatever it claims: how wrong its answers are, how many
-// candidates it gives, what its contract leaves out. A trial keeps these sums, and tallies add them
-// up.
+// Counts a plug-in's steps, whatever it claims: how wrong its answers are, how many candidates it
+// gives, what its contract leaves out. A trial stores these sums, and tallies add them up.
 
-// Bounds on the share of failures that trials support.
+// Computes the bounds on the share of failures that trials support.
 
 // The confidence with which all bounds of a certificate hold together.
 inline constexpr double family_confidence = 0.95;
 
-// The exact one-sided upper bound of Clopper and Pearson (Biometrika 26, 1934): the largest share
-// p at which at most `failures` of `trials` still has a chance of `risk` or more. 1 without
-// trials.
+// Returns the exact one-sided upper bound of Clopper and Pearson (Biometrika 26, 1934): the largest
+// share p at which `failures` or fewer in `trials` still have a chance of `risk` or more. Returns 1
+// without trials.
 double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk);
 
-// The interval in which a share lies with confidence 95 %. `of` out of `in` trials count for the
-// share, but only `independent` of the `in` are worth counting, because the others depend on
-// these. It is the interval of Clopper and Pearson with both ends; the numbers may be fractions.
-// [0, 1] if there are none.
+// The interval in which a share of `of` out of `in` trials lies with confidence 95 %. Only
+// `independent` of the `in` trials count as evidence, because the others depend on these. It is the
+// two-sided interval of Clopper and Pearson; the numbers may be fractions. [0, 1] if there are no
+// trials.
 struct ShareInterval {
   double lo = 0, hi = 1;
 };
 ShareInterval share_interval(double of, double in, double independent);
 
-// The risk of each of `bounds` bounds so that all hold together with confidence 95 % (Bonferroni).
+// Returns the risk of each of `bounds` bounds such that all hold together with confidence 95 %
+// (Bonferroni).
 double risk_of_each(std::uint64_t bounds);
 
-// An interval of the first time that is wider than this says too little for the claim first-time.
+// An interval of the first time that is wider than this is too wide for the claim first-time.
 inline constexpr double widest_stated_time = widest_time_tolerance;
 
 struct StepMeasures {
   StepErrors errors;
-  // The sums over the trials of the squares of their numbers of free steps, and of steps with a
-  // contact. They tell how much the steps of one trial hang together.
+  // For each trial, the square of its number of free steps, and of steps with a contact; summed
+  // over trials. They show how much the steps of one trial depend on each other.
   std::uint64_t free_squared = 0, contact_squared = 0;
-  std::uint64_t without_time = 0;      // of the collisions: in a wider interval
-  std::uint64_t unanswered = 0;        // steps with a contact that have no answer to be judged
+  std::uint64_t without_time = 0;      // of the collisions: with a wider interval
+  std::uint64_t unanswered = 0;        // steps with a contact and without an answer to judge
   std::uint64_t candidate_steps = 0;   // steps for which candidates were given
   std::uint64_t candidates = 0;        // given in these steps
   std::uint64_t least_candidates = 0;  // pairs in contact that count, in these steps
-  // Steps that are within the separation at t = 0. They are judged, and counted nowhere else here.
+  // Steps within the separation at t = 0. They are judged, and counted nowhere else here.
   std::uint64_t starts_near = 0;
-  // What the contract leaves out.
-  std::uint64_t redrawn = 0;          // cases that it does not take at all
-  std::uint64_t steps_left_out = 0;   // steps left out of cases that it takes
+  // Left out by the contract.
+  std::uint64_t redrawn = 0;          // cases that the contract rejects wholly
+  std::uint64_t steps_left_out = 0;   // steps left out of the other cases
   std::uint64_t refused = 0;          // steps that were refused as beyond the capacity
   std::uint64_t left_out_misses = 0;  // steps that only the contract saves from being a miss
-  // Of any detector: trials that were judged with a contact that the contract does not leave out,
-  // trials that were run twice and compared, and trials that were judged by a relation.
+  // For any detector: judged trials with a contact that the contract does not leave out, trials
+  // that were run twice and compared, and trials judged by a relation.
   std::uint64_t contact_trials = 0, repeated_trials = 0, relation_trials = 0;
 
   static constexpr bool adds_up = true;
@@ -157,11 +157,12 @@ ASSAY_FIELDS(StepMeasures, errors, free_squared, contact_squared, without_time, 
              candidate_steps, candidates, least_candidates, starts_near, redrawn, steps_left_out,
              refused, left_out_misses, contact_trials, repeated_trials, relation_trials)
 
-// What the steps of one trial show. REQUIRES as many results as diffs, in the same order.
+// Returns the measures of the steps of one trial. REQUIRES as many results as diffs, in the same
+// order.
 StepMeasures measures_of(std::span<const StepDiff> diffs,
                          std::span<const detector::StepResult> results);
 
-// Whether a contact that the contract does not leave out was judged in one of the steps.
+// Returns whether a contact that the contract does not leave out was judged in one of the steps.
 bool has_judged_contact(std::span<const StepDiff> diffs);
 
 struct Rate {
@@ -170,17 +171,17 @@ struct Rate {
   double share() const { return in ? static_cast<double>(of) / static_cast<double>(in) : 0; }
 };
 
-// The share of the free steps that were answered collision. Steps of one trial depend on each
-// other. So the interval counts only (sum of n)^2 / (sum of n^2) of them, where n is the number of
-// free steps of a trial; if all trials have equally many, this is the number of trials (Kish,
+// Returns the share of the free steps that were answered collision. Steps of one trial depend on
+// each other. So the interval counts only (sum of n)^2 / (sum of n^2) steps, where n is the number
+// of free steps of a trial; if n is the same for all trials, this is the number of trials (Kish,
 // Survey Sampling, 1965, 11.7).
 Rate false_alarm_rate(const StepMeasures& measures);
-// The share of the steps with a contact that counts that were answered free. Its interval is made
-// in the same way.
+// Returns the share of steps answered free among the steps with a contact that counts. Its interval
+// is made in the same way.
 Rate miss_rate(const StepMeasures& measures);
-// 0 without steps.
+// Returns 0 without steps.
 double spurious_pairs_a_step(const StepMeasures& measures);
-// Candidates over the least possible number; 0 if no pair was in contact.
+// Returns the number of candidates over the least possible number; 0 if no pair was in contact.
 double candidates_over_least(const StepMeasures& measures);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// A detector that is judged: what it claims, and how the processes are started that run it. All
-// verbs that run cases in a worker have one.
+// A detector that is judged: its claims, and the way to start the processes that run it. All verbs
+// that run cases in a worker have one.
 #pragma once
 
 #include <cstdint>
@@ -26,30 +26,31 @@ struct DetectorUnderTest {
   Contract contract;
   std::vector<Configuration> configurations;
   bool of_queries = false;  // only the elementary query of a plug-in is judged
-  // What a plug-in claims of its elementary query; nothing if that is not judged.
+  // The claims of a plug-in on its elementary query; empty if the query is not judged.
   Claims query_claims{};
-  // The parts that the library holds and that are not judged, in words: "elementary query".
+  // The parts of the library that are not judged, in words: "elementary query".
   std::vector<std::string> unjudged_parts{};
-  // Of the built-in detector: what it is asked besides contacts. Each of these configurations is
-  // certified in the stratum of its name alone (question_families).
+  // The questions that the built-in detector is asked besides contacts. Each of these
+  // configurations is certified only in the stratum of its name (question_families).
   std::vector<Configuration> of_questions{};
 
   Claims claims_in(const Configuration& configuration) const;
-  // What it claims of this case, which may be a query (query_case.h).
+  // Returns the claims on this case, which may be a query (query_case.h).
   Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
-  // The same detector in this configuration alone. What the built-in one is asked, and so its
-  // contract, goes by that.
+  // Returns the detector in this configuration alone. The contract of the built-in one depends on
+  // the configuration, because its options say what is asked.
   DetectorUnderTest in(const Configuration& configuration) const;
-  // The same detector as it is asked in a stratum of this family.
+  // Returns the detector as it is asked in a stratum of this family.
   DetectorUnderTest in_stratum(std::string_view family) const;
 };
 
-// The built-in detector with every culling and pairs all, and the view cullings with pairs first
-// and in bounded arithmetic; and asked how far steps may be gone, and what comes within 2^-6.
+// Returns the built-in detector with every culling and pairs all, with the view cullings and pairs
+// first, with the view cullings in bounded arithmetic, and with two questions: how far steps may
+// go, and which pairs come within 2^-6.
 DetectorUnderTest built_in_detector();
 
-// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
-// its query.
+// The part of a plug-in that is judged. `by_library`: all parts of the library, its steps or
+// candidates and its query.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
 struct Subject {
@@ -57,17 +58,17 @@ struct Subject {
   std::filesystem::path worker;                  // the program assay-worker
   std::optional<std::filesystem::path> plugin;   // nothing: the built-in detector
   std::shared_ptr<const JudgedLibrary> library;  // its files and their digests
-  PluginDescription description;                 // what the plug-in says of itself
+  PluginDescription description;                 // the plug-in's own
   WorkerLimits limits;                           // of its processes
-  Isolation isolation = Isolation::limits;       // that the first of a plug-in's processes had
+  Isolation isolation = Isolation::limits;       // of the plug-in's first process
 
-  // The detector in this library; the built-in one, if it is empty. Fails if it cannot serve, does
-  // not hold the part that is asked for, or cannot be isolated as it is asked for.
+  // Opens the detector in this library; the built-in one if `library` is empty. Fails if the
+  // library cannot serve, lacks the requested part, or cannot be isolated as requested.
   static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
                                 DetectorPart part, const WorkerLimits& limits);
 
-  // A process that runs its cases, not yet started. `variation` and `asks_twice` are those of
-  // WorkerLimits.
+  // Returns a process for the detector's cases, not yet started. `variation` and `asks_twice` are
+  // those of WorkerLimits.
   WorkerProcess process(std::uint32_t variation = 0, bool asks_twice = false) const;
 };
 

@@ -1,5 +1,5 @@
-// What a detector's run of a case comes to in one configuration: the diffs of its steps, what it
-// breaks, and the first failure, in words.
+// The verdict on a detector's run of a case in one configuration: the diffs of its steps, the
+// claims that it breaks, and the first failure, in words.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct BodyTriangle {
 class BodyNames {
  public:
   BodyNames() = default;
-  // It has no names if there is no relation (null), or one without bodies. O(triangles).
+  // Has no names if there is no relation (null), or one without bodies. O(triangles).
   BodyNames(const detector::CountedPairs* counted_pairs, const detector::TrianglesView& triangles);
 
   bool empty() const { return by_triangle_.empty(); }
@@ -33,7 +33,7 @@ class BodyNames {
   const BodyTriangle& of(std::int32_t triangle) const {
     return by_triangle_[detector::at(triangle)];
   }
-  // " (triangle 3 of body 0 and triangle 1 of body 2)"; empty if there are no names.
+  // Returns " (triangle 3 of body 0 and triangle 1 of body 2)"; empty if there are no names.
   std::string text(const detector::TrianglePair& pair) const;
 
  private:
@@ -51,19 +51,19 @@ struct Failure {
   std::string configuration;
   std::string stage;        // the stage of the built-in detector that lost the pair
   std::string feature;      // the feature of the pair
-  std::string cause;        // only of a plug-in, whose stages nobody knows (cause.h)
+  std::string cause;        // only of a plug-in, whose stages are unknown (cause.h)
   std::string explanation;  // one line for people: by how much, both answers and their times
 
-  // Claim, kind, stage, feature, cause: what a shrunk case must keep.
+  // Returns claim, kind, stage, feature and cause, which a shrunk case must keep.
   std::string signature() const;
 };
 
-// "triangles 3 and 8 at t = 0.5 (vertex-face)", with both ends of a time between two doubles;
-// `what` stands behind the triangles.
+// Returns "triangles 3 and 8 at t = 0.5 (vertex-face)", with both ends if the time lies between two
+// doubles; `what` stands behind the triangles.
 std::string contact_text(const detector::PairContact& contact, const std::string& what = "");
 
-// What a step shows of the first claim that it breaks; configuration, stage and cause are left
-// empty. REQUIRES a diff of this result under this contract that breaks a claim.
+// Returns the failure of a step by the first claim that it breaks; configuration, stage and cause
+// are left empty. REQUIRES a diff of this result under this contract that breaks a claim.
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
                    const Contract& contract);
 
@@ -71,14 +71,15 @@ struct Verdict {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> breaches;      // in the order of Claim, each once
   std::string explanation;          // how the run ended, if it did not complete
-  std::uint64_t disturbances = 0;   // how often it was killed from outside and repeated
+  std::uint64_t disturbances = 0;   // how often the run was killed from outside and repeated
   std::vector<StepDiff> steps;      // only of a completed run
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
   std::optional<Failure> failure;   // for a defect: the first step that shows one
 };
 
-// The failure that the verdict on a run shows. In exact arithmetic the built-in detector's times
-// must be the oracle's in every bit; a plug-in is judged by its claims. REQUIRES a defect.
+// Returns the failure that the verdict on a run shows. In exact arithmetic every bit of the
+// built-in detector's times must be the oracle's; a plug-in is judged by its claims. REQUIRES a
+// defect.
 Failure failure_of(const Verdict& verdict, const corpus::Case& c,
                    std::span<const oracle::StepJudgement> truth, const CaseRun& run,
                    const Configuration& configuration, const DetectorUnderTest& detector);

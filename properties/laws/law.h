@@ -1,10 +1,10 @@
-// A law: a statement that holds of every step of every case, as code, and how often it was met.
+// A law: a statement that holds in every step of every case, as code, and how often it was met.
 //
-// A law that is never met proves nothing, so each one counts the steps in which its premise held,
-// and of these the close ones, in which the law was near to being broken or to not applying: the
-// smallest of the values that it rests on is at most 1 % of the largest. These are |view values|
-// over the step; for L13 they say how far the triangles of a certified patch face its direction
-// (case_facts.h).
+// A law that is never met proves nothing, so each law counts the steps in which its premise held,
+// and among these the close ones, in which the law was nearly broken or nearly did not apply: the
+// smallest of the values on which it rests is at most 1 % of the largest. These values are |view
+// values| over the step; for L13 they say how far the triangles of a certified patch face its
+// direction (case_facts.h).
 #pragma once
 
 #include <cstdint>
@@ -21,38 +21,38 @@ struct LawTally {
   std::uint64_t premise = 0;       // steps in which the premise held
   std::uint64_t close = 0;         // steps of these that were close
   std::uint64_t broken_steps = 0;  // steps of these that refute the law
-  std::string first_broken;        // case id, step, what; of several tallies the least text
+  std::string first_broken;        // case id, step, finding; the least text of several tallies
 
   LawTally& operator+=(const LawTally& other);
   friend bool operator==(const LawTally&, const LawTally&) = default;
 };
 
-// Under which cullings a campaign has to meet the premise of a law. What is clean from step to step
-// goes other ways under each culling: view-point knows it after every step, and view-auto may have
-// done a step without views. So a law about it that is met under one culling says nothing of the
-// others.
+// The cullings under which a campaign has to meet the premise of a law. Each culling finds out in
+// another way what is clean from step to step: view-point knows it after every step, and view-auto
+// may have done a step without views. So a law about clean triangles that is met under one culling
+// says nothing about the others.
 enum class PremiseScope : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
 
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
   std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
   std::string_view statement;  // the law in one or two sentences
-  std::string_view needs;      // what the law asks of the oracle
-  void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
-  // The law is checked on one case in so many, because laws that run the case again are dear.
+  std::string_view needs;      // what the law needs from the oracle
+  void (*check)(CaseFacts&, LawTally&);  // adds its tally of this case
+  // The law is checked on one case in this many, because laws that run the case again are dear.
   int one_in = 1;
   PremiseScope met_under = PremiseScope::any_culling;
-  // The change that it is about, if any detector can be put the changed case; else null.
+  // The change that the law is about, if the changed case can be put to any detector; else null.
   const CaseChange* change = nullptr;
 };
 
-// All laws in a fixed order: by number, then sets, claims, changes.
+// Returns all laws in a fixed order: by number, then sets, claims, changes.
 std::span<const Law> laws();
 
-// Whether the case is in the share of cases on which the law is checked (Law::one_in).
+// Returns whether the case is in the share of cases on which the law is checked (Law::one_in).
 bool is_checked_on(const Law& law, std::string_view case_id);
 
-// nullptr for an unknown name.
+// Returns the law of this name, or nullptr.
 const Law* law_named(std::string_view name);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// How a law is written: as a function that looks at one step (or at a whole case).
+// The form of a law: a function that looks at one step (or at a whole case).
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace assay::properties {
 
-// What files of laws hold, each a few laws about one thing; law.cpp joins them.
+// The laws of each file, a few laws about one thing; law.cpp joins them.
 
 std::span<const Law> view_value_laws();      // L1
 std::span<const Law> view_set_laws();        // L2, sets
@@ -28,8 +28,8 @@ std::span<const Law> repetition_laws();      // metamorphic: the same steps in a
 std::span<const Law> question_laws();        // L16, L17, stops
 std::span<const Law> option_laws();          // options, states and sizes in pairs
 
-// What a law observes: nothing if its premise does not hold; else what is wrong, as a text that is
-// empty if the law holds.
+// The observation of a law in a step: nothing if its premise does not hold; else a text that says
+// how the law is broken, empty if it holds.
 using Observation = std::optional<std::string>;
 
 inline Observation not_met() { return std::nullopt; }
@@ -38,10 +38,10 @@ inline Observation holds_if(bool condition, std::string_view otherwise) {
   return condition ? holds() : Observation(otherwise);
 }
 
-// For a law that runs the case again, which takes long: it is checked on one case in 16.
+// Law::one_in of a law that runs the case again, which takes long.
 inline constexpr int one_case_in_16 = 16;
 
-// Whether the law was close in a step in which its premise held (law.h).
+// Returns whether the law was close in a step in which its premise held (law.h).
 using IsClose = bool (*)(CaseFacts&, std::size_t);
 inline bool is_close_by_view(CaseFacts& facts, std::size_t step) { return facts.is_close(step); }
 
@@ -53,8 +53,8 @@ void each_step(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally, is_close);
 }
 
-// How two results of a step differ, to the last bit: the first field that does; empty if none does.
-// Wall-clock times are not looked at.
+// Returns the first field in which two results of a step differ, to the last bit; empty if none
+// does. Wall-clock times are not compared.
 std::string difference(const detector::StepResult& a, const detector::StepResult& b);
 
 }  // namespace assay::properties

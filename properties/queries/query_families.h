@@ -1,5 +1,6 @@
-// Families of random elementary queries (generators/families.h): generic, degenerate, just beside
-// degenerate, and with everyday numbers. Those of contact are the strata of a campaign of queries.
+// Families of random elementary queries (generators/families.h): generic, degenerate, nearly
+// degenerate, and with everyday numbers. The families of contact are the strata of a campaign of
+// queries.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +17,37 @@
 
 namespace assay::properties {
 
-// Queries of contact: "query-small-int" comes first, "query-extreme" last.
+// Returns the families of contact: "query-small-int" comes first, "query-extreme" last.
 std::span<const Family> query_families();
-// Those of the self-test: all but "query-extreme".
+// Returns the families of the self-test: all families of contact but "query-extreme".
 std::span<const Family> self_test_queries();
 
-// Queries of distance: do a moving vertex and face, or two moving edges, come within d of each
-// other, and when first? "distance-generic" comes first. The family of parallel edges has edges
-// alone. No campaign asks them.
+// Returns the families of distance: do a moving vertex and face, or two moving edges, come within d
+// of each other, and when first? "distance-generic" comes first. The family of parallel edges has
+// only edges. No campaign asks these queries.
 std::span<const Family> distance_families();
 
-// The family of this name, be it of meshes or of contacts of queries; null if there is none.
+// Returns the family of this name, of meshes or of queries of contact; null if there is none.
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
-// Whether its exponents are those of all doubles: the oracle takes a hundred times as long. Of
-// these families "query-extreme" alone is a stratum of named campaigns: it has denormals and all
-// exponents, as the others have.
+// Returns whether the family's exponents are those of all doubles: the oracle then takes a hundred
+// times as long. Among these families only "query-extreme" is a stratum of named campaigns, because
+// it has denormals and all exponents like the others.
 bool is_dear_query_family(std::string_view name);
 
-// Random queries with exponents over all doubles, for the elementary test and the view test: the
-// slowest that are known. The family is fixed: query `index` of `seed` is the same for ever, so
-// that the times of two versions can be compared.
+// Returns a random query with exponents over all doubles, for the elementary test and the view
+// test: the slowest queries known. The family is fixed: query `index` of `seed` is the same for
+// ever, so that the times of two versions can be compared.
 //
 // Most are degenerate, because doubles settle the others: few mantissas, many zeros, points that
-// coincide or stay, everything in one plane or on one line, roots next to 1 that many bits tell
-// apart (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
+// coincide or stay, all points in one plane or on one line, roots next to 1 that differ only in
+// late bits (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
 QueryTask extreme_contact(std::uint64_t seed, std::uint64_t index);
-// The points of such a query.
+// Draws the points of such a query.
 void make_extreme(Random& random, std::span<detector::MovingPoint> points);
 
-// The query as a case. Its place is drawn too, because even and odd places are of two kinds.
+// Returns a random query as a case. The index of the query is drawn too, because even and odd
+// indices are of two kinds.
 template <QueryTask (*query)(std::uint64_t seed, std::uint64_t index)>
 RandomCase case_of_drawn(Random& random, std::string id) {
   const std::uint64_t seed = random.next();
@@ -53,7 +55,7 @@ RandomCase case_of_drawn(Random& random, std::string id) {
   return {case_of_query(query(seed, index).query, std::move(id)), {}};
 }
 
-// A row of such a family.
+// Returns the row of such a family.
 template <QueryTask (*query)(std::uint64_t seed, std::uint64_t index)>
 constexpr Family family_of(std::string_view name, std::string_view about, int one_in) {
   return {name, about, false, true, case_of_drawn<query>, 0, query, one_in};

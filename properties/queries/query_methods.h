@@ -1,5 +1,5 @@
-// What is asked of an elementary query, contact or distance; a list of the methods that answer,
-// which must all agree; and the check that they do.
+// The questions of an elementary query, contact or distance; the methods that answer them, which
+// must all agree; and the check that they do.
 #pragma once
 
 #include <array>
@@ -23,18 +23,19 @@ using Query = detector::FourPoints;
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
   std::optional<detector::TimeEnclosure> first = {};       // set if the method answers with a time
-  int rung = 0;                                            // which of the method's rungs decided
-  // Of the distance referee alone: between which times the first one lies.
+  int rung = 0;                                            // the rung of the method that decided
+  // Only from the distance referee: the times between which the first one lies.
   std::optional<oracle::DistanceVerdict> proof = {};
 };
 
-// A query, what is asked of it, and what is known of the answer.
+// A query, its question, and the facts known about its answer.
 struct QueryTask {
   Query query;
-  std::optional<double> met_at = {};  // a time at which the answer is yes, where one is known
-  // Whether, and when first, the features come within this distance. Absent: whether they meet.
+  std::optional<double> met_at = {};  // a time at which the answer is yes, if known
+  // The question is whether, and when first, the features come within this distance. Absent:
+  // whether they meet.
   std::optional<detector::Separation> within = {};
-  // Of a query that is listed: its name, and the answer that the oracle must give by this rung.
+  // For a listed query: its name, and the answer that the oracle must give by this rung.
   std::string name = {};
   std::optional<MethodAnswer> truth = {};
 };
@@ -46,33 +47,34 @@ struct QueryMethod {
   const char* name;
   MethodAnswer (*answer)(const QueryTask& task);
   QueryChecks checks = QueryChecks::nothing;
-  int one_in = 1;              // of so many of these queries one is put to the method
+  int one_in = 1;              // one in this many queries is put to the method
   bool is_referee = false;     // leaves open what it cannot prove
-  const char* word = nullptr;  // by which a user may ask it (method_of)
+  const char* word = nullptr;  // a user's word for the method (method_of)
   bool knows_distance = false;
   std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "" for none
-  // Of free-sound and no-spurious. Bounded arithmetic may raise false alarms; plain doubles and
-  // floats promise nothing.
+  // Of free-sound and no-spurious, the claims that the method makes. Bounded arithmetic may raise
+  // false alarms; plain doubles and floats promise nothing.
   Claims claims = {Claim::free_sound, Claim::no_spurious};
 };
 
-// The oracle's answer, with the first time if that is wanted.
+// Returns the oracle's answer, with the first time if that is wanted.
 MethodAnswer oracle_answer(const QueryTask& task, detector::Want want);
 
-// All methods. The self-test holds against the oracle's timed answer: the oracle asked for yes or
-// no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no, and
-// timed), the detector's integers alone, and the second referee, which has no times and leaves
-// touches open. Of queries of distance: the distance referee, the oracle's contacts where the
-// distance is 0, and its least distance, which is at most the distance where the answer is yes.
+// Returns all methods. The self-test compares with the oracle's timed answer: the oracle asked for
+// yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,
+// and timed), the detector's integers alone, and the second referee, which has no times and leaves
+// touches open. For queries of distance it compares the distance referee, the oracle's contacts if
+// the distance is 0, and the oracle's least distance, which must be at most the distance if the
+// answer is yes.
 std::span<const QueryMethod> query_methods();
 
-// The method that a user may ask by this word, for yes or no: the oracle, its referee with all the
-// work that it may do, or the detector's ladder in some arithmetic. Null if there is none.
+// Returns the method that a user may ask by this word, for yes or no: the oracle, its referee with
+// the greatest limits of work, or the detector's ladder in some arithmetic. Null if there is none.
 const QueryMethod* method_of(std::string_view word);
 
-// Puts one query to the methods, and tells what contradicts what.
+// Puts one query to the methods, and tells their contradictions.
 
-// What a family of queries came to.
+// The results of a family of queries.
 struct QueryTally {
   std::uint64_t queries = 0;
   std::uint64_t contacts = 0;  // or within the distance
@@ -84,23 +86,23 @@ struct QueryTally {
 };
 ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, rungs)
 
-// Compares every method that checks such queries with the oracle's timed answer (`pick` chooses
-// those that are put to some of the queries alone): verdicts are equal, times are equal in every
-// bit or within what is proved, a time that is known is not missed, and a listed query has its
-// known answer by its rung. Returns what contradicts, or nothing. The dearest part is the algebraic
+// Compares every method that checks such queries with the oracle's timed answer; `pick` chooses the
+// methods that get only some of the queries. Verdicts must be equal, times equal in every bit or
+// within the proved bounds, a known time must not be missed, and a listed query must have its known
+// answer by its rung. Returns the contradiction, or nothing. The dearest part is the algebraic
 // kernel.
 std::optional<std::string> check_query(const QueryTask& task, std::uint64_t pick, QueryTally& tally,
                                        std::span<const QueryMethod> methods = query_methods());
 
-// Whether the answer contradicts that of the oracle, or the time that is known. One that is open
-// does too, if it proves that the first time is elsewhere.
+// Returns whether the answer contradicts that of the oracle, or the known time. An open answer does
+// too if it proves that the first time is elsewhere.
 bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle, const QueryTask& task);
 
-// The question, the kind and all coordinates as hexadecimal doubles, one point a line.
+// Returns the question, the kind and all coordinates as hexadecimal doubles, one point a line.
 std::string exact_text(const QueryTask& task);
 std::string exact_text(const detector::MovingPoint& path);
-// "contact at [0x1p-1, 0x1p-1]": the answers of the oracle and of all methods, one a line. Of a
-// distance: that of the oracle, and the least distance.
+// Returns the answers of the oracle and of all methods, one a line: "contact at [0x1p-1, 0x1p-1]".
+// For a distance: the answer of the oracle, and the least distance.
 std::string answers_text(const QueryTask& task);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
 // Runs the oracle's own check: families of queries go through all methods, in several threads. The
-// small worlds that it goes through stand last.
+// small worlds among these families stand last.
 #pragma once
 
 #include <array>
@@ -16,34 +16,34 @@
 
 namespace assay::properties {
 
-// What the self-test consists of: families of cases, each case made alone from its seed and index.
+// A family of cases of the self-test. Each case is made from its seed and index alone.
 struct SelfTestFamily {
   std::string name, about;
-  // All of a listed family are checked, if at least `from` random small-integer queries are asked
-  // for; of a random one, one for each `one_in` of them.
+  // All queries of a listed family are checked, if at least `from` random small-integer queries are
+  // asked for. A random family has one query for each `one_in` of these.
   std::uint64_t list_size = 0, from = 0, one_in = 0;
-  // The query of a case; nothing for some indices of a small world, which hold no case.
+  // Returns the query of a case; nothing for some indices of a small world, which hold no case.
   std::function<std::optional<QueryTask>(std::uint64_t seed, std::uint64_t index)> query;
-  // A family of whole steps has this in its place.
+  // A family of whole steps has this in place of `query`.
   SmallStep (*step)(std::uint64_t seed, std::uint64_t index) = nullptr;
 
-  // How many indices to check if `queries` random small-integer queries are asked for.
+  // Returns how many indices to check if `queries` random small-integer queries are asked for.
   std::uint64_t indices(std::uint64_t queries) const;
-  // Checks a case. Returns what is wrong with it, or nothing.
+  // Checks a case. Returns its contradiction, or nothing.
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const;
-  // The case with its exact numbers, and what each method says of it.
+  // Returns the case with its exact numbers, and the answer of each method.
   std::string text(std::uint64_t seed, std::uint64_t index) const;
 };
 
-// The named queries of a corpus, each with its answer, its first time, and the rung of the oracle
-// that must decide it. The rung is checked because a rung that left its share to the next one would
-// still answer rightly, only more slowly. Fails if there is none, or if a file cannot be read.
+// Returns the named queries of a corpus, each with its answer, its first time, and the rung of the
+// oracle that must decide it. The rung is checked because a rung that left its work to the next one
+// would show only in slower answers. Fails if there is no query, or if a file cannot be read.
 Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus);
 
-// All families, the cheap and most telling ones first: the named queries of the corpus, small
-// worlds, whole small steps, random queries, then the larger worlds (only if many queries are asked
-// for).
+// Returns all families, the cheap and most telling ones first: the named queries of the corpus,
+// small worlds, whole small steps, random queries, then the larger worlds (only if many queries are
+// asked for).
 Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::path& corpus);
 
 struct SelfTestOptions {
@@ -65,11 +65,11 @@ struct FamilyResult {
   std::vector<SelfTestFailure> failures;  // the first few, ascending by index
 };
 
-// `progress` is told how many indices of the family are done, from one thread at a time.
+// Checks a family. `progress` is told how many of its indices are done, from one thread at a time.
 FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
                         const std::function<void(std::uint64_t done_count)>& progress);
 
-// A case of the self-test, found by its name "family:seed:index"; nothing if there is none.
+// A case of the self-test; self_test_case finds it by its name "family:seed:index".
 struct SelfTestCase {
   const SelfTestFamily* family = nullptr;
   std::uint64_t seed = 0, index = 0;
@@ -90,10 +90,10 @@ class SmallWorld {
   // on the other axes are 0.
   SmallWorld(int side, int dimensions, WorldMotion motion);
 
-  // The number of places of the enumeration. Most hold no query, because an equal one stands at
-  // another place.
+  // Returns the number of places of the enumeration. Most places hold no query, because an equal
+  // one stands at another place.
   std::uint64_t places() const;
-  // The query at a place, or nothing. Takes 10 ns to 2 us.
+  // Returns the query at a place, or nothing. Takes 10 ns to 2 us.
   std::optional<Query> at(std::uint64_t place) const;
 
   using Path = std::array<int, 2>;  // grid points at t=0 and t=1

@@ -1,6 +1,6 @@
 // Metamorphic laws: a case that is changed in a way that must not matter gives the same answers,
-// changed likewise. Of the built-in detector every bit is compared, in pinned runs. Laws that need
-// nothing of the inside of a detector are judged of plug-ins too: these are put the case in its
+// changed likewise. For the built-in detector every bit is compared, in pinned runs. Laws that need
+// nothing from the inside of a detector are judged for plug-ins too, which get the case in its
 // other form.
 #pragma once
 
@@ -13,30 +13,29 @@
 
 namespace assay::properties {
 
-// Whether the law is judged of a plug-in: if it is about a change of the case that any detector can
-// be put, or says that threads do not show, which the second runs of trials tell. No state is saved
-// and restored, because the interface of plug-ins has no such call.
+// Returns whether the law is judged for plug-ins: it is about a change of the case that can be put
+// to any detector, or says that threads do not show, which the second runs of trials test. No state
+// is saved and restored, because the interface of plug-ins has no such call.
 inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
 bool is_of_plugins(const Law& law);
 
-// Whether the case is in the share of cases that a plug-in is given in the form of this law.
+// Returns whether the case is in the share of cases that a plug-in gets in the form of this law.
 bool is_given_in_form(const Law& law, std::string_view case_id);
 
-// How the answer to a step of the form differs from that to the step of the case, both given by one
-// detector; empty if it does not. `pairs`: whether all pairs were asked for.
+// Returns how one detector's answer to a step of the form differs from its answer to the step of
+// the case; empty if it does not. `pairs`: whether all pairs were asked for.
 std::string difference_in_form(const detector::StepResult& of_case, const Form& form,
                                const detector::StepResult& of_form, bool pairs = true);
 
-// Compares the pinned run of the case with that of its form, or, if the change is made on a grid,
-// that of the rounded case.
+// Compares the pinned run of the case with that of its form. If the change is made on a grid, the
+// rounded case takes the place of the case.
 void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change);
 template <const CaseChange& change>
 void check_change(CaseFacts& facts, LawTally& tally) {
   check_change(facts, tally, change);
 }
 
-// Plays the form through the built-in detector, which chooses for itself, and compares answers,
-// pairs and times.
+// Plays the form through the built-in detector, unpinned, and compares answers, pairs and times.
 void check_form(CaseFacts& facts, LawTally& tally, const CaseChange& change);
 template <const CaseChange& change>
 void check_form(CaseFacts& facts, LawTally& tally) {

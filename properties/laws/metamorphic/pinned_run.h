@@ -1,10 +1,9 @@
-// A run of a case in which everything that the detector would choose for itself is prescribed
-// (pinned).
+// Pins a run of a case: everything that the detector would choose for itself is prescribed.
 //
 // View primitives and apexes are means in doubles, summed in the order of the vertices. In a mesh
-// that is numbered otherwise, mirrored or moved they would differ in the last bits. So a changed
-// run takes them from the run that it is compared with, changed like the vertices, and the two can
-// be compared in every bit.
+// that is renumbered, mirrored or moved they would differ in the last bits. So a changed run takes
+// them from the original run, changed like the vertices, and the two runs can be compared in every
+// bit.
 #pragma once
 
 #include <memory>
@@ -15,34 +14,34 @@
 
 namespace assay::properties {
 
-// The run that gave the results of `facts`, pinned, as a case. Nothing if a step has no views, if
-// view-auto left something dirty at a new start that another culling would release by layers, or if
-// no detector can be made.
+// Returns the run that gave the results of `facts`, pinned, as a case. Returns nothing if a step
+// has no views, if view-auto left a triangle dirty at a new start that another culling would
+// release by layers, or if no detector can be made.
 //
 // Each step has two frames of its own, after the first frame of the case, which shapes the tree.
-// What is pinned are the case's ghosts, so that it goes with the mesh in whatever changes that: a
-// fan for each hole, and for each component one triangle of a vertex and the two ends of its view
+// The pinned points are stored as the case's ghosts, so that they change with the mesh: a fan for
+// each hole, and for each component one triangle of a vertex and the two ends of its view
 // primitive.
 std::optional<corpus::Case> pinned_run(const CaseFacts& facts);
 
-// The options of the case, for a run of another mesh. view-auto decides by cost, for the mesh as a
-// whole, whether it uses its views. In a pinned run every step had views, and the other run shall
-// have them too, so its culling becomes view-line, which sees from pinned points as well.
+// Returns the options of the case, for a run of another mesh. view-auto decides by cost, for the
+// mesh as a whole, whether it uses views. In a pinned run every step had views, and so must the
+// other run; therefore its culling becomes view-line, which can also see from pinned points.
 detector::Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
-  // Nothing if the holes of the mesh are not among those of the run (a boundary through repeated
-  // vertices may be split in several ways). A mesh that the detector refuses has a player too:
-  // every step of it is that error. The run must outlive the player.
+  // Returns nothing if the holes of the mesh are not among those of the run (a boundary through
+  // repeated vertices may be split in several ways). A mesh that the detector refuses has a player
+  // too: each of its steps is that error. The run must outlive the player.
   static std::optional<PinnedPlayer> make(const corpus::Case& run, const detector::Options& options,
                                           const StagesOf& stages_of);
 
   detector::StepResult evaluate(std::size_t step);
-  // A step between any two positions, with the primitives and apexes of `step`.
+  // Evaluates a step between any two positions, with the primitives and apexes of `step`.
   detector::StepResult evaluate(std::size_t step, const detector::PositionsView& x_t0,
                                 const detector::PositionsView& x_t1);
-  // Commits the step if the script does so and the step was answered.
+  // Commits the step if the script commits it and the step was answered.
   void commit(std::size_t step, const detector::StepResult& result);
   std::vector<detector::StepResult> play();
   // REQUIRES a mesh that was not refused.

@@ -1,4 +1,5 @@
-// The configurations in which the claims are tried: options, questions, states and sizes in pairs.
+// Draws the configurations in which the claims are tried: options, questions, states and sizes in
+// pairs.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,14 @@
 
 namespace assay::properties {
 
-// Values of several factors in pairs: faults hide in corners of their product, where no test of one
-// of them alone looks.
+// Draws values of several factors so that all pairs of values occur: faults hide where two factors
+// meet, which no test of one factor alone reaches.
 
-// One value of each factor, and how many values each has.
+// One value for each factor, and the number of values of each.
 using FactorRow = std::vector<std::uint8_t>;
 using FactorSizes = std::vector<std::uint8_t>;
 
-// A value of factor f and one of factor g, with f < g.
+// A value a of factor f and a value b of factor g, with f < g.
 struct TwoValues {
   std::size_t f, g;
   std::uint8_t a, b;
@@ -28,20 +29,20 @@ struct TwoValues {
 using MayMeet = std::function<bool(const TwoValues&)>;
 inline bool all_may_meet(const TwoValues&) { return true; }
 
-// Rows in which every two values stand together that may meet, and no others. A greedy choice: each
-// row begins with two values that do not stand together yet, and each further factor takes the
-// value that makes most of such pairs. Equal seeds give equal rows, others mostly other ones.
-// REQUIRES in each factor a value that may meet all others.
+// Returns rows in which all pairs of values occur that may meet, and no others. The choice is
+// greedy: each row begins with a pair of values that is still missing, and each further factor
+// takes the value that adds most missing pairs. Equal seeds give equal rows, different seeds mostly
+// different ones. REQUIRES in each factor a value that may meet all others.
 std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t seed,
                                      const MayMeet& may_meet = all_may_meet);
 
-// What a detector has behind it when the case begins.
+// The history of a detector when the case begins.
 enum class StateBefore : std::uint8_t {
   fresh,      // nothing
-  elsewhere,  // it has committed a step elsewhere
-  carried,    // it has committed a step that ends where the case begins
-  restored,   // before each step its state goes into a detector that has committed something else
-  reset,      // it has played the case, and was reset
+  elsewhere,  // committed a step elsewhere
+  carried,    // committed a step that ends where the case begins
+  restored,   // before each step its state moves into a detector that has committed something else
+  reset,      // played the case, and was reset
 };
 constexpr auto names_of(StateBefore) {
   using enum StateBefore;
@@ -52,7 +53,7 @@ constexpr auto names_of(StateBefore) {
                                             {reset, "reset"}});
 }
 
-// Within which distance, of the extent of the mesh, pairs are looked for.
+// The distance, as a share of the mesh's extent, within which pairs are looked for.
 enum class Apart : std::uint8_t { none, little, much };
 constexpr auto names_of(Apart) {
   using enum Apart;
@@ -60,12 +61,12 @@ constexpr auto names_of(Apart) {
       {{none, "contact"}, {little, "little apart"}, {much, "apart"}});
 }
 
-// What is asked before each step is played. None of it may show in what the step then answers.
+// The question that is asked before each step is played. It must not show in the step's answer.
 enum class Question : std::uint8_t {
   none,
-  limit,          // how far the step may be gone
-  stopped_step,   // the step, and it is stopped
-  stopped_limit,  // how far, and that is stopped
+  limit,          // how far the step may go
+  stopped_step,   // the step, which is stopped
+  stopped_limit,  // how far it may go, which is stopped
 };
 constexpr auto names_of(Question) {
   using enum Question;
@@ -78,7 +79,7 @@ constexpr auto names_of(Question) {
 struct DrawnOptions {
   detector::Options options;  // without separation and relation, which follow from the case
   StateBefore state = StateBefore::fresh;
-  bool is_scaled = false;  // by a power of two, up to the largest doubles or down to the least
+  bool is_scaled = false;  // by a power of two, up to the largest doubles or down to the smallest
   Apart apart = Apart::none;
   LeftOut left_out = LeftOut::nothing;
   Question question = Question::none;
@@ -87,11 +88,11 @@ struct DrawnOptions {
   std::string text() const;
 };
 
-// One of the rows of the case's mesh and size, of one of several covering arrays. Not drawn are:
-// a separation with other cullings and arithmetics than answer it, with scaled coordinates, which
-// leave the range of distances, or among many triangles, where the oracle takes long; a far body
-// without a tree, with scaled coordinates, or with a start that is vouched for, which is hard to
-// tell then.
+// Draws a row for the case's kind of mesh and size, from one of several covering arrays. These
+// pairs are not drawn: a separation with cullings and arithmetics that do not answer it, with
+// scaled coordinates, which leave the range of distances, or with many triangles, where the oracle
+// takes long; a far body without a tree, with scaled coordinates, or with a vouched start, which is
+// then hard to check.
 DrawnOptions drawn_options(const CaseFacts& facts);
 
 }  // namespace assay::properties
