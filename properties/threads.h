@@ -1,4 +1,4 @@
-// Work that several threads share.
+// Shares work among several threads.
 #pragma once
 
 #include <exception>
@@ -11,9 +11,8 @@
 namespace assay::properties {
 
 // Calls `work` in this thread and in up to jobs - 1 others at the same time, and returns when all
-// of these calls have returned. Each call has to take work until nothing is left: if the system
-// gives fewer threads, those that there are do it all. If calls throw, throws what the first of
-// them threw.
+// of these calls have returned. Each call must take work until none is left: if the system gives
+// fewer threads, the existing ones do all of it. If calls throw, rethrows the first exception.
 inline void in_threads(int jobs, const std::function<void()>& work) {
   std::mutex mutex;
   std::exception_ptr first;

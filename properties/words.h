@@ -1,6 +1,6 @@
-// The words of an enum, as a table in the order of its values, which count from 0; those of a
-// count; whole numbers in words; and words from outside, such as a plug-in's name, made safe to
-// print anywhere.
+// Turns values into words and back: the values of an enum, by a table in their order from 0;
+// counts; and whole numbers. Makes text from outside, such as a plug-in's name, safe to print
+// anywhere.
 #pragma once
 
 #include <charconv>
@@ -16,14 +16,14 @@ namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 
-// The word of a value; "unknown" for a value that the enum does not have.
+// Returns the word of a value; "unknown" for a value that the enum does not have.
 template <class Enum, std::size_t n>
 constexpr const char* word_of(const char* const (&words)[n], Enum value) {
   const auto place = static_cast<std::size_t>(value);
   return place < n ? words[place] : "unknown";
 }
 
-// The rows of an enum whose list says more than names, in the order of its values.
+// The rows of an enum whose list has more than names, in the order of its values.
 template <Listed Enum>
 inline constexpr auto all_rows = names_of(Enum{});
 template <Listed Enum>
@@ -31,7 +31,8 @@ constexpr const auto& row_of(Enum value) {
   return all_rows<Enum>[static_cast<std::size_t>(value)];
 }
 
-// A whole number that is written in digits alone and fits into T; nothing for other words.
+// Returns the whole number that the word spells in digits alone, if it fits into T; nothing for
+// other words.
 template <class T = std::uint64_t>
 std::optional<T> whole_number_of(std::string_view word) {
   T number = 0;
@@ -40,14 +41,14 @@ std::optional<T> whole_number_of(std::string_view word) {
   return is_number ? std::optional(number) : std::nullopt;
 }
 
-// "once" or "3 times".
+// Returns "once" or "3 times".
 inline std::string times_text(std::uint64_t count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
-// The text as UTF-8 without control characters: each of these becomes '?', and each byte that is
-// no part of a character becomes U+FFFD. A terminal can then show it, and writers of JSON and XML,
-// which escape quotes and brackets themselves, accept it.
+// Returns the text as UTF-8 without control characters: each of these becomes '?', and each byte
+// that is no part of a character becomes U+FFFD. A terminal can then show the text, and writers of
+// JSON and XML, which escape quotes and brackets themselves, accept it.
 std::string printable(std::string_view text);
 
 }  // namespace assay::properties

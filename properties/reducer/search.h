@@ -14,7 +14,7 @@ namespace assay::properties {
 
 class ReductionSearch {
  public:
-  // Judges `failing` once. If it fails, has_finding(), and there is something to reduce.
+  // Judges `failing` once. If it fails, has_finding() is true and the case can be reduced.
   ReductionSearch(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
                   const OnBetter& on_better);
 
@@ -27,18 +27,18 @@ class ReductionSearch {
   // Returns whether it did.
   bool offer(const corpus::Case& candidate);
 
-  // The same, but `candidate` need not be smaller.
+  // Makes `candidate` the best case as offer() does, even if it is not smaller.
   bool replace(const corpus::Case& candidate);
 
-  // What the judge says of a case of any size: a finding with the signature searched for, or
-  // nothing. The best case stays as it is.
+  // Returns the judge's finding on a case of any size if its signature matches, or nothing. The
+  // best case stays as it is.
   std::optional<Finding> ask(const corpus::Case& candidate);
 
-  // From now on a failure of the same claim and kind counts as the same, whatever its feature and
-  // cause, or one of the whole signature that the best case has by then.
+  // Sets which signatures match from now on: those of the same claim and kind, whatever feature and
+  // cause (`alone`), or only those equal to the best case's whole signature at that time.
   void match_kind_alone(bool alone) { kind_alone_ = alone; }
 
-  // A limit is reached: nothing is judged any more.
+  // Returns whether a limit is reached: no case is judged any more.
   bool has_ended() const;
   std::uint64_t calls() const { return calls_; }
   double seconds() const;
@@ -57,7 +57,7 @@ class ReductionSearch {
   corpus::Case best_;
   Finding finding_;
   MeshSize size_;
-  MeshSize reported_;  // the least size that on_better_ was told
+  MeshSize reported_;  // the smallest size passed to on_better_
   std::uint64_t calls_ = 0;
   bool matches(const Finding& finding) const;
 
@@ -69,32 +69,32 @@ class ReductionSearch {
   double pass_start_ = 0;
 };
 
-// How far the vertices of a mesh are from the triangles of the reported pair.
+// The distances of the vertices of a mesh from the triangles of the reported pair.
 
 struct Rings {
-  // Both are by vertex. `distance` is in edges from the nearest vertex of the focus, or
-  // `unreached` if no path leads there. `parent` is a neighbour that is nearer by one, or the
-  // vertex itself if its distance is 0 or unreached.
+  // Both are by vertex. `distance` is in edges from the nearest vertex of the focus, or `unreached`
+  // if no path leads there. `parent` is a neighbour that is nearer by one edge, or the vertex
+  // itself if its distance is 0 or unreached.
   std::vector<int> distance;
   std::vector<std::int32_t> parent;
   std::vector<std::vector<std::int32_t>> neighbours;  // ascending
   std::vector<std::int32_t> far_first;                // vertices: farthest first, then by number
-  int farthest = 0;                                   // greatest distance that is reached
+  int farthest = 0;                                   // greatest distance but `unreached`
 
   static constexpr int unreached = 1 << 30;
 };
 
-// The rings around finding().focus of the best case, or around its first triangle if the focus is
-// empty. O(n log n).
+// Returns the rings around finding().focus of the best case, or around its first triangle if the
+// focus is empty. O(n log n).
 Rings rings_of(const ReductionSearch& search);
 
-// The triangles with all vertices at a distance of `ring` or less.
+// Returns the case with the triangles whose vertices all have a distance of `ring` or less.
 corpus::Case within(const corpus::Case& c, const Rings& rings, int ring);
 
 // Offers to drop or change ranges [begin, end) of a list, halves first. `try_range` is called with
 // ever smaller ranges and returns whether it succeeded. After a success the list (`size`) is
-// shorter, and the same place is tried again. A range is not tried a second time after a success
-// elsewhere; a later call of the pass does that.
+// shorter, and the same place is tried again. After a success elsewhere a range is not tried a
+// second time; only a later call of the pass does that.
 template <class Size, class TryRange>
 void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
   for (std::size_t chunk = std::max<std::size_t>(1, (size() + 1) / 2);; chunk /= 2) {
@@ -106,23 +106,23 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 }
 
 // The passes of the reducer, in the order in which they run. Each pass proposes cases to the
-// search, which keeps the best one. Whether a pass made progress shows in the size of that case.
+// search, which keeps the best one. A pass made progress if the size of that case is smaller.
 //
 // To add one: a function here, a row in reducer/reducer.cpp, a test in
 // tests/properties/reducer/reducer_passes_test.
 
-// mesh_passes.cpp: a mesh of more than 1,000 triangles is cut before any pass begins, which would
-// take too long: to the least number of triangles around the reported pair that still fails, found
-// by doubling and then halving, and by halves and quarters that are left out. A failure of the same
-// claim and kind counts as the same, because another contact may now come first. If more than 1,000
-// triangles are left in the end, only size shows the failure, and their number is returned. It
-// returns 0 if fewer are left, and if a limit ended the search.
+// mesh_passes.cpp: cuts a mesh of more than 1,000 triangles, with which passes would take too long,
+// before any pass begins. It looks for the least number of triangles around the reported pair that
+// still fails, by doubling and then halving, and leaves out halves and quarters. A failure of the
+// same claim and kind counts as the same, because another contact may now come first. If more than
+// 1,000 triangles are left, the failure depends on size, and returns their number. Returns 0 if
+// fewer are left, or if a limit ended the search.
 std::size_t cut_large_mesh(ReductionSearch& search);
 
 // step_passes.cpp: passes that shorten the sequence.
-void drop_later_steps(ReductionSearch& search);  // those after the step that shows the failure
+void drop_later_steps(ReductionSearch& search);  // those after the failing step
 void drop_steps(ReductionSearch& search);        // halves, then one by one
-void merge_steps(ReductionSearch& search);       // from the start of one step to the end of next
+void merge_steps(ReductionSearch& search);       // from the start of one step to the next one's end
 
 // mesh_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
 // drop_components.
@@ -132,7 +132,7 @@ void drop_faces(ReductionSearch& search);       // halves, then one by one, far 
 void drop_unused_vertices(ReductionSearch& search);
 void drop_ghosts(ReductionSearch& search);  // ghosts that the case states
 
-// There too: passes that keep a closed mesh closed (a cycle stays a cycle).
+// mesh_passes.cpp: passes that keep a closed mesh closed (a cycle stays a cycle).
 void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one vertex
 void cut_and_close(ReductionSearch& search);  // rings around the pair, their loops closed by fans
 void merge_balls(ReductionSearch& search);    // groups of neighbours become one vertex each
@@ -145,32 +145,32 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
 void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
 
-// There too: all triangulated spheres with few vertices.
+// small_meshes.cpp: lists all triangulated spheres with few vertices.
 
 using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike; a cycle
 
-// Every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are 1, 10,
-// 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
-// listed apart). They are found by edge flips, under which they are connected (Wagner 1936), and
-// are made once.
+// Returns every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are
+// 1, 10, 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
+// listed apart). They are found by edge flips, which connect them all (Wagner 1936), and are made
+// once.
 const std::vector<SphereMesh>& sphere_meshes(int vertices);
 
 SphereMesh mirrored(SphereMesh mesh);
 
-// The mesh with the edge of corners i and i+1 of triangle t flipped, so that it joins the two
-// opposite vertices. Empty if that edge is not shared by exactly two triangles, or if the new edge
-// exists already.
+// Returns the mesh with the edge of corners i and i+1 of triangle t flipped, so that it joins the
+// two opposite vertices. Empty if that edge is not shared by exactly two triangles, or if the new
+// edge exists already.
 SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 
-// step_passes.cpp: vertices that moved are put to rest.
+// step_passes.cpp: puts moving vertices to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
-// There too: the relation says less.
+// step_passes.cpp: makes the relation state less.
 void simplify_relation(ReductionSearch& search);  // without it, without its parts, at rest at first
 
-// There too: passes on the view primitive that the case states.
+// step_passes.cpp: passes on the view primitive that the case states.
 void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
-void drop_view(ReductionSearch& search);      // the detector's own one serves as well
+void drop_view(ReductionSearch& search);      // so that the detector uses its own
 
 // number_passes.cpp: passes that make coordinates simpler.
 void translate(ReductionSearch& search);          // along each axis, so that many become 0
@@ -179,12 +179,12 @@ void round_vertices(ReductionSearch& search);     // one vertex at a time, fewer
 void simplify_numbers(ReductionSearch& search);   // one coordinate at a time, towards 0
 void simplify_together(ReductionSearch& search);  // a few coordinates at once, at random
 
-// escape.cpp: random changes from which a smaller mesh can be reached, for when all other passes
+// escape.cpp: makes random changes from which a smaller mesh may be reached, once all other passes
 // are stuck. The same case always gets the same changes.
 void escape(ReductionSearch& search);
 
-// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size
-// stays.
+// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size stays
+// the same.
 void canonical_order(ReductionSearch& search);
 
 }  // namespace assay::properties

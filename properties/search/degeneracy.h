@@ -1,4 +1,4 @@
-// Degeneracies of a query: how near it is to each, and steps onto them.
+// Measures how near a query is to each degeneracy, and moves it onto them.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace assay::properties {
 
-// How near a query is to each way of being degenerate, by the oracle's exact polynomials.
+// Measures how near a query is to each degeneracy, by the oracle's exact polynomials.
 
-// Ways in which a query is hard. Notation: oracle/query/contact_events.h.
+// The kinds of degeneracy that make a query hard. Notation: oracle/query/contact_events.h.
 enum class Hardness : std::uint8_t {
   double_root,  // two roots of F coincide: its discriminant is 0
   end_of_step,  // a root at t = 0 or t = 1
-  side,         // the contact is at the end of a feature: an L is 0 at a root
+  side,         // the contact is at the end of a feature: some L is 0 at a root
   flat,         // F is 0 throughout
   no_area,      // the normal is 0 at a root: a face without area, or parallel edges
   bound,        // the least Bernstein coefficient of F lies at the error bound of a filter
-  distance,     // the least distance is that which is asked about, or 0 without a contact
+  distance,     // the least distance equals the query's, or is 0 without a contact
 };
 constexpr auto names_of(Hardness) {
   using enum Hardness;
@@ -33,8 +33,8 @@ constexpr auto names_of(Hardness) {
                                          {distance, "at the distance"}});
 }
 
-// A share from 0, for exactly so, to 1 for each kind. A share below 2^-53 may be told as 0 where it
-// is a value at a root, which is no double; zeros of F at an end, of its discriminant and of F
+// The share of each kind, from 0 (exactly degenerate) to 1. If it is a value at a root, which is no
+// double, a share below 2^-53 may be given as 0. Zeros of F at an end, of its discriminant and of F
 // itself are exact.
 struct Gap {
   std::array<double, all_values<Hardness>.size()> share{};
@@ -42,17 +42,17 @@ struct Gap {
   double operator[](Hardness kind) const { return share[static_cast<std::size_t>(kind)]; }
 };
 
-// `time` is when the features meet, or where they are looked at if they do not. The distance asked
-// about is 0 for a contact. About 10 us.
+// Returns the gap of a query. `time` is the time at which the features meet, or, if they do not, at
+// which they are examined. `separation` is the query's distance, 0 for a contact. About 10 us.
 Gap gap_of(const detector::FourPoints& query, double time, double separation = 0);
 
-// One number to compare queries by: the bits of the smallest share, and half of those of the next.
-// From 0 to 96; a share of 0 counts as 64 bits.
+// Returns one number by which queries are compared: the bits of the smallest share, and half of
+// those of the next. From 0 to 96; a share of 0 counts as 64 bits.
 double nearness(const Gap& gap);
 
-// Newton steps of a query onto degeneracies: the points are moved, as little as may be, until
-// polynomials of the query are 0 at a time. It computes in doubles, so it comes within rounding of
-// what it aims at; lattice walks (moves.h) do the rest, and the oracle judges.
+// Moves a query onto degeneracies by Newton steps: the points move as little as possible, until
+// polynomials of the query are 0 at a time. The steps are computed in doubles, so they come within
+// rounding of the degeneracy; lattice walks (moves.h) do the rest, and the oracle judges.
 
 enum class Degeneracy : std::uint8_t {
   coplanar,     // F(t) = 0: a root at t, be it 0, 1 or in between
@@ -68,14 +68,16 @@ struct DegeneracyAt {
   int side = 0;  // i of L_i
 };
 
-// Nothing if the steps do not come near, or if a number overflows on the way. The points whose bit
-// of `moving` is set move: bit i for point i at t = 0, bit 4 + i for it at t = 1. About 20 us.
+// Returns the moved query; nothing if the steps do not come near the goals, or if a number
+// overflows on the way. The bits of `moving` say what moves: bit i is point i at t = 0, bit 4 + i
+// is point i at t = 1. About 20 us.
 inline constexpr unsigned all_ends_move = 0xff;
 std::optional<detector::FourPoints> moved_onto(const detector::FourPoints& query,
                                                std::span<const DegeneracyAt> goals,
                                                unsigned moving = all_ends_move);
 
-// F at a time, and the first root in [0, 1] that doubles see; nothing if they see none.
+// Return F at a time, and the first root of F in [0, 1] as computed in doubles; nothing if there is
+// none.
 double coplanarity_at(const detector::FourPoints& query, double time);
 std::optional<double> root_of(const detector::FourPoints& query);
 

@@ -1,5 +1,5 @@
-// The moves of the search: small changes of a case that bring it nearer to what is hard, or make it
-// another case. All of them keep a case valid; whether the contract takes it is asked afterwards.
+// The moves of the search: small changes that bring a case nearer to a degeneracy, or make it
+// another case. All moves keep a case valid; whether the contract takes it is checked afterwards.
 #pragma once
 
 #include <array>
@@ -17,21 +17,21 @@ namespace assay::properties {
 
 class Random;
 
-// The two features of a case at which the search works: those of its first contact, or, where
-// nothing meets, two that come near each other.
+// The two features of a case on which the search works: those of its first contact, or, without a
+// contact, two that come near each other.
 
 struct Focus {
   std::size_t step = 0;                    // of corpus::steps_of
   std::array<std::int32_t, 4> vertices{};  // in the order of detector::FourPoints
   int first_group = 1;
-  double time = 0;  // when they meet, or are nearest of a few times, as doubles see it
+  double time = 0;  // when they meet, or, of a few times, are nearest, in doubles
   std::optional<detector::PairContact> contact;
-  std::vector<detector::TrianglePair> pairs;  // all that meet first
+  std::vector<detector::TrianglePair> pairs;  // all pairs that meet first
 };
 
-// REQUIRES the oracle's judgement of each step under the contract. Where nothing meets, a few pairs
-// of triangles of the mesh are drawn, and the nearest features of these are taken. Nothing for a
-// mesh without two such features.
+// Returns the focus of a case; nothing for a mesh without two such features. If there is no
+// contact, a few pairs of triangles of the mesh are drawn, and their nearest features are taken.
+// REQUIRES the oracle's judgement of each step under the contract.
 std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
                               const Contract& contract, Random& random);
 
@@ -40,28 +40,28 @@ detector::FourPoints query_at(const corpus::Case& c, const Focus& focus);
 // Puts the paths of the four points into the two frames of the step.
 void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& query);
 
-// The pair in contact; else two triangles of which each holds one of the features.
+// Returns the pair in contact; without a contact, two triangles that hold one of the features each.
 detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus);
 
-// Whether what meets first meets within one component, not between two.
+// Returns whether the first contact is within one component, not between two.
 bool is_within_a_component(const corpus::Case& c, const Focus& focus);
 
-// Whether a culling by views may leave out what meets first.
+// Returns how far a culling by views may leave out the first contacts.
 //
 // Two triangles of one component that are both seen from behind are left out, and so are two that
-// are both seen from the front. A case in which all that meets first is of such pairs is found only
-// by what a detector knows of its start and of its ghosts (L3, L11); one in which that is nearly
-// so, only by an exact view test. Example: two layers of a roll, seen from its axis, of which the
-// inner one goes through the outer one.
+// are both seen from the front. If all first contacts are of such pairs, a detector finds them only
+// by its knowledge of the start and of ghosts (L3, L11); if that is nearly so, only by an exact
+// view test. Example: two layers of a roll, seen from its axis; the inner one goes through the
+// outer one.
 //
-// From 0 to 1: how far that pair of the first ones which is least alike has one sign, at a few
-// times as doubles see them. It is 1 if all are of one sign, and 0 without a contact or a view
-// primitive. It says nothing where two components meet, because such pairs are never left out
-// (L10). About 2 us for a pair.
+// The result is from 0 to 1: how far a pair's two triangles have one sign, at a few times, in
+// doubles, for the least alike pair of the first contacts. It is 1 if all pairs have one sign, and
+// 0 without a contact or a view primitive. It is meaningless if two components meet, because such
+// pairs are never left out (L10). About 2 us for a pair.
 double seen_alike(const corpus::Case& c, const Focus& focus);
 
-// A case in the making. A move after which the triangles or vertices in focus are others loses the
-// focus, and moves that need one then do nothing.
+// A case in the making. A move that changes which triangles or vertices are in focus drops the
+// focus, and moves that need a focus then do nothing.
 struct Candidate {
   corpus::Case c;
   std::optional<Focus> focus;
@@ -69,11 +69,11 @@ struct Candidate {
 
 struct MoveContext {
   const Contract& contract;
-  // Another case that was found hard, for crossovers; null if there is none yet.
+  // Another hard case, for crossovers; null if there is none yet.
   const Candidate* other = nullptr;
 };
 
-// What a move changes. An elementary query is changed by moves of features alone.
+// The part of a case that a move changes. Only moves of features change an elementary query.
 enum class MoveKind : std::uint8_t {
   features,  // the four points in focus, or all coordinates alike
   steps,     // frames
@@ -86,31 +86,31 @@ struct Move {
   std::string_view name;
   std::string_view about;
   MoveKind kind;
-  int weight;  // it is drawn as often as this, in comparison
+  int weight;  // the relative frequency with which it is drawn
   void (*make)(Random&, Candidate&, const MoveContext&);
 };
 
-// The first lets the features meet, the second changes the size.
+// Returns all moves. The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// The lists of which it is made.
+// Return the lists of which moves() is made.
 std::span<const Move> feature_moves();
 std::span<const Move> step_moves();
 std::span<const Move> mesh_moves();
 std::span<const Move> view_moves();
 
 // Lets a vertex go through a triangle along a ray of a view-point. Vertices move along rays or
-// rest, so no triangle changes its sign, and the triangle and those of the vertex are of one sign.
-// In a clean closed mesh one of the other sign is met before (L3). The point may become a short
-// line.
+// rest, so no triangle changes its sign, and the triangle and those of the vertex have one sign. In
+// a clean closed mesh a triangle of the other sign is met before (L3). The view-point may become a
+// short line.
 void pass_by_ray(Random& random, Candidate& child, const MoveContext& context);
 
-// The mesh once more inside itself, or around itself. The two hang together at a corner or two, so
+// Puts a copy of the mesh inside the mesh, or around it. The two are joined at a corner or two, so
 // they are one component, and their layers differ (L9).
 void nest(Random& random, Candidate& child, const MoveContext& context);
 
-// The query with another path of its first point: so that the two features meet at a time, at a
-// corner, on an edge or inside; both are drawn from simple numbers.
+// Returns the query with another path of its first point, so that the two features meet at some
+// time, at a corner, on an edge or inside; time and place are drawn from simple numbers.
 detector::FourPoints brought_together(Random& random, detector::FourPoints query);
 
 }  // namespace assay::properties

@@ -1,11 +1,11 @@
-// A search that aims: it looks for cases on which a detector fails, and does not draw them blindly.
+// Searches for cases on which a detector fails, by aiming rather than drawing blindly.
 //
-// It keeps the best case of each cause in an archive, and makes new cases of these by moves
-// (moves.h), or draws fresh ones. A case is the better the nearer the oracle's polynomials are to a
-// degeneracy (degeneracy.h), and the farther off the detector's own answers are. Cases are small,
-// because there the oracle takes microseconds.
+// The search keeps the best case of each cause in an archive, and makes new cases from these by
+// moves (moves.h), or draws fresh ones. A case is better if the oracle's polynomials are nearer to
+// a degeneracy (degeneracy.h), and if the detector's answers are farther off. Cases are small, so
+// that the oracle takes only microseconds.
 //
-// What it finds are defects. Its cases are no trials: they were chosen, so no bound rests on them.
+// The search finds defects. Its cases are no trials: they were chosen, so no bound rests on them.
 #pragma once
 
 #include <filesystem>
@@ -23,11 +23,11 @@ namespace assay::properties {
 // Examines some cases, each as the contract has it.
 using ExamineCases = std::function<std::vector<CaseResults>(std::vector<corpus::Case>)>;
 
-// Where fresh cases come from. A case of at most so many triangles is wanted; a larger one is not
+// A source of fresh cases. `draw` should make a case of at most most_triangles; a larger one is not
 // taken.
 struct CaseSource {
   std::string name;
-  int weight = 1;  // it is drawn from as often as this, in comparison
+  int weight = 1;  // the relative frequency with which it is drawn from
   std::function<corpus::Case(Random&, const std::string& id, Eigen::Index most_triangles)> draw;
 };
 
@@ -36,27 +36,26 @@ struct SearchSpace {
   std::vector<CaseSource> sources;
   // Brings a case into a range of the contract; applied to fresh cases.
   std::function<corpus::Case(corpus::Case)> bring;
-  // The detector is given the view primitives of cases; if not, none is moved.
+  // Whether the detector is given the view primitives of cases; if not, none is moved.
   bool gives_views = true;
 };
 
-// A part of a search that depends on nothing but its name: it begins with an empty archive. For
-// some cases at a time it has a theme (Swarm), with meshes of a size of their own, because what
-// helps to find one fault keeps others away. Some themes are fresh cases alone. Others move small
-// meshes onto degeneracies, or, for a detector that is given views, seek what is found by no view:
-// contacts within a sheet or between nested shells that are seen from one side, and other pasts of
-// such steps.
+// A part of a search that depends only on its name: it begins with an empty archive. For some cases
+// at a time it has a theme (Swarm), with its own size of meshes, because a theme that finds one
+// fault hides others. Some themes only draw fresh cases. Others move small meshes onto
+// degeneracies, or, for a detector that is given views, seek contacts that no view finds: within a
+// sheet or between nested shells that are seen from one side, and after other past steps.
 struct SearchLane {
-  std::string id;           // what the ids of its cases begin with
-  std::uint64_t cases = 0;  // so many are asked
+  std::string id;           // the ids of its cases begin with it
+  std::uint64_t cases = 0;  // the number of cases to ask
 };
 
 struct SearchDefect {
-  corpus::Case c;  // its id is that of the lane and the number of the case
+  corpus::Case c;  // its id is the lane's id and the number of the case
   std::size_t configuration = 0;
   Failure failure;
   CaseRun run;              // that failed
-  std::uint64_t after = 0;  // so many cases were asked in the lane, this one included
+  std::uint64_t after = 0;  // cases asked in the lane so far, with this one
 };
 
 struct LaneResult {
@@ -68,63 +67,64 @@ struct LaneResult {
   std::set<std::string> causes;     // of the cases that the archive holds
 };
 
-// A lane of which the contract takes no case ends early. `stop` is asked between batches of cases.
-// The same lane gives the same result wherever it runs.
+// Searches in a lane. A lane from which the contract takes no case ends early. `stop` is asked
+// between batches of cases. The same lane gives the same result wherever it runs.
 LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop);
 
-// What a lane of the search does for a while: which moves it makes, where its cases come from, how
-// large they are. What helps to find one fault keeps others away, so each swarm has a theme, and
-// within it about half of the sources are switched off, as its name draws; in themes of many moves
-// about half of these, too.
+// A swarm says what a lane does for a while: its moves, the sources of its cases, and their sizes.
+// A choice that finds one fault hides others, so each swarm has a theme, and in it about half of
+// the sources are switched off at random; in themes of many moves also about half of the moves.
 
 enum class Theme : std::uint8_t {
-  everything,    // a lane begins so: fresh cases and all moves
-  fresh,         // no moves: finds what is frequent
-  degeneracies,  // moves of small meshes: finds what is rare
-  pasts,         // other pasts of steps in which what meets is of one sign: state (L8, L9)
-  views,         // other views of what meets within a component (L1, L2, L10)
-  sheets,        // meshes in which what meets is of one sign: ghosts and layers (L5, L11)
+  everything,    // the first theme of a lane: fresh cases and all moves
+  fresh,         // no moves: finds frequent failures
+  degeneracies,  // moves of small meshes: finds rare failures
+  pasts,         // other past steps before contacts of one sign: state (L8, L9)
+  views,         // other views of contacts within a component (L1, L2, L10)
+  sheets,        // meshes with contacts of one sign: ghosts and layers (L5, L11)
 };
 constexpr bool is_of_culling(Theme theme) { return theme >= Theme::pasts; }
 
-// Which cases of the archive are moved: any; those in which what meets first meets within a
-// component; those of them in which it is of one sign (seen_alike).
+// Which cases of the archive are moved: any; those with the first contact within a component; those
+// in which this contact is also of one sign (seen_alike).
 enum class Parents : std::uint8_t { any, within_a_component, alike };
 
 struct Swarm {
   Theme theme = Theme::everything;
   Parents parents = Parents::any;
-  std::vector<const Move*> moves;          // each as often as its weight
+  std::vector<const Move*> moves;          // drawn by their weights
   std::vector<const CaseSource*> sources;  // the same
   Eigen::Index most_triangles = 0;
   std::size_t most_frames = 0;
   int fresh_one_in = 1;
 
-  // Drawn by the name of the lane and the number of its case with which the swarm begins. A
+  // Draws a swarm by the name of the lane and the number of the case with which the swarm begins. A
   // detector that is given no views has no themes of culling.
   Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t begin);
 };
 
-// The sources of fresh cases: the families of the strata, their queries as meshes of few
+// Chooses the sources of fresh cases: the families of the strata, their queries as meshes of few
 // triangles and as queries, hard cases by construction, and the curated cases.
 
 struct SourceChoice {
   bool meshes = true, queries = false;
   std::filesystem::path curated{};  // folder of the curated cases; empty: none
-  // Leaves a curated case out. A fault that a case was made for is found by it without any search.
+  // Returns whether to leave a curated case out, such as one that was made for the planted fault
+  // and finds it without any search.
   std::function<bool(const corpus::Case&)> leaves_out{};
 };
 
-// They may be drawn from in several threads. A curated case is read when it is first drawn.
+// Returns the sources. Several threads may draw from them. A curated case is read when it is first
+// drawn.
 std::vector<CaseSource> case_sources(const SourceChoice& choice);
 
-// The four points of a query as a closed mesh: a corner and the face across it, or two edges across
-// each other, are its only features that do not share a vertex.
+// Returns the four points of a query as a closed mesh. Its only features without a shared vertex
+// are a corner and the face opposite, or two opposite edges.
 corpus::Case tetrahedron(const detector::FourPoints& query, std::string id);
 
-// The two features of a query as a mesh of two triangles, whose other corners lie away from the
-// features.
+// Returns the two features of a query as a mesh of two triangles, whose other corners lie away from
+// the features.
 corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id);
 
 }  // namespace assay::properties

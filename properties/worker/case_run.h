@@ -16,24 +16,24 @@
 
 namespace assay::properties {
 
-// The built-in detector with these options. Of a plug-in's configuration only the name and is_timed
-// are used.
+// The built-in detector with these options. For a plug-in only the name and is_timed are used.
 struct Configuration {
   std::string name;
   detector::Options options;
-  std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
+  std::string fault = {};  // the fault to plant in the detector (faults/fault.h), or empty
   bool is_timed = false;   // whether CaseRun::times is asked for
-  // Whether it is also asked, before each step, how far that may be gone (CaseRun::limits).
+  // Whether the detector is also asked, before each step, how far the step may go
+  // (CaseRun::limits).
   bool asks_limits = false;
 };
 
 // Processor seconds and memory of the process that ran a case, with all of its threads, as that
-// process tells them. They are for benches alone. A plug-in runs in that process and could forge
+// process states them. They are for benches alone: a plug-in runs in that process and could forge
 // them, so nothing is judged by them.
 struct RunTimes {
   double create = 0;
-  std::vector<double> steps;  // one for each step, until its answer; a commit is included
-  // The highest resident memory of that process since it began; 0 if the system does not tell it.
+  std::vector<double> steps;  // for each step the time until its answer, commit included
+  // The highest resident memory of that process since it began; 0 if unknown.
   std::uint64_t peak_bytes = 0;
 };
 
@@ -63,26 +63,26 @@ using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 // How far a limiter lets the caller go in one step (L17).
 struct LimitAnswer {
   double share = -1;              // of the step; -1: not stated
-  detector::Positions positions;  // where the caller stops
+  detector::Positions positions;  // the positions at which the caller stops
 };
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
+  // One line: the signal, the refusal, or the first error of a step. Empty if there was none.
   std::string explanation;
-  // One result for each step of the case if the run completed, else none. If a plug-in does not
-  // state the time of a pair, or the first time, it is [0, 1].
+  // One result for each step of the case if the run completed, else none. A time that a plug-in
+  // does not state, of a pair or the first one, is [0, 1].
   std::vector<detector::StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
-  // Only of a limiter, and where limits are asked for: what it allows in each step; nothing where
-  // it failed to say.
+  // Only from a limiter, if limits are asked for: its answer in each step; nothing if it failed to
+  // answer.
   std::vector<std::optional<LimitAnswer>> limits = {};
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.
   std::vector<std::string> errors = {};
   // For each step whether a plug-in refused it as beyond its capacity; its answer is then an error.
-  // Empty if it refused none so.
+  // Empty if it refused no step.
   std::vector<std::uint8_t> over_capacity = {};
   // Whether the detector answers steps at all. A library that only lists candidates does not: each
   // of its steps is stored as undecided or, if it failed, as an error.
@@ -90,57 +90,55 @@ struct CaseRun {
   // Only if the run completed and its configuration asks for times.
   std::optional<RunTimes> times = {};
 
-  // The members below tell the circumstances of the run. The host fills them in, and
-  // same_answers() looks neither at them nor at times.
+  // The members below are the circumstances of the run. The host fills them in, and same_answers()
+  // compares neither them nor times.
   //
-  // How often the worker was killed from outside while this run was under way (it was then
-  // repeated), or before it began.
+  // How often the worker was killed from outside during this run (which was then repeated), or
+  // before it began.
   std::uint64_t disturbances = 0;
-  // The processor time of the last attempt: that of the worker with its threads, and that of the
-  // processes that it started if the run was long enough to look at them (child_process.h).
+  // The processor time of the last attempt: of the worker with its threads, and of the processes
+  // that it started if the run was long enough to measure them (child_process.h).
   double processor_seconds = 0;
-  // The last lines that a plug-in printed since the run before this one was heard
-  // (isolation.h). Of cases that were sent together they may be of a later one.
-  // Nothing with isolation none.
+  // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
+  // If cases were sent together, the lines may be of a later one. Empty with isolation none.
   std::string output = {};
 };
 
-// Runs the case in this process, so that whatever the detector does to the process, it does to the
-// caller. Steps that commit advance the state. The detector is given the case's view primitive if
-// its culling uses views (for view-point the primitive's q0 alone). A step that runs out of memory
-// is undecided.
+// Runs the case in this process, so that a crash of the detector ends the caller. Steps that commit
+// advance the state. The detector is given the case's view primitive if its culling uses views (for
+// view-point the primitive's q0 alone). A step that runs out of memory is undecided.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 
 // Runs the case in the same way, but disturbed. Each step is first evaluated with a stop: at the
 // first time that the detector asks, then at the second and so on; after each stopped evaluation
-// it is evaluated whole. Then it is taken while a second detector of the same stages works on the
-// same step in between. A right detector gives the same results as undisturbed, because undecided
-// evaluations change nothing and two detectors share nothing. One result is returned for each
-// step: one that differs from `undisturbed`, if there is one. REQUIRES a mesh that is not refused.
+// it is evaluated whole. Then the step is played while a second detector of the same stages works
+// on the same step in between. A right detector gives the same results as undisturbed, because
+// undecided evaluations change nothing and two detectors share nothing. Returns one result for each
+// step: one that differs from `undisturbed`, if any does. REQUIRES a mesh that is not refused.
 std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
                                                 const Configuration& configuration,
                                                 std::span<const detector::StepResult> undisturbed);
-// The results as a run that can be compared with another: without the counts of marking, because
-// these depend on the marking before, whether its step was committed or not.
+// Returns the results as a run that can be compared with another: without the counts of marking,
+// which depend on the marking before, whether its step was committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);
 
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
-// Why step s has no answer; empty if nothing is said about it.
+// Returns why step s has no answer; empty if no reason is known.
 std::string error_of(const CaseRun& run, std::size_t s);
 
-// Notes that step s was refused as beyond the capacity; whether it was.
+// Note that step s was refused as beyond the capacity, and return whether it was.
 void note_capacity(CaseRun& run, std::size_t s);
 bool is_over_capacity(const CaseRun& run, std::size_t s);
 
-// The run to report for a case that did not fit into memory.
+// Returns the run to report for a case that did not fit into memory.
 CaseRun out_of_memory();
 
-// Whether two runs of one case agree in everything but times and circumstances.
+// Returns whether two runs of one case agree in everything but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
 
-// Measures what a case takes in the process that runs it, part by part: the processor time of this
-// process with all of its threads, and its memory. Measures nothing if it is off.
+// Measures the cost of a case in the process that runs it, part by part: the processor time of this
+// process with all of its threads, and its memory. Measures nothing if `is_on` is false.
 class RunClock {
  public:
   // Begins to time the making of the detector.
@@ -160,8 +158,8 @@ class RunClock {
 
 // Plays a case through the built-in detector, which carries its state from step to step.
 
-// The primitive that the case states for the step (corpus::view_of_step), as the detector takes
-// it; none if the case states none, or if the culling uses no views. It is inline because
+// Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
+// the detector; none if the case states none, or if the culling uses no views. It is inline because
 // tests/mutation links the detector alone.
 inline std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> view,
                                                        detector::Culling culling) {
@@ -173,15 +171,15 @@ inline std::vector<detector::ViewPrimitive> given_view(std::optional<detector::V
 
 class CasePlayer {
  public:
-  // Makes a new detector from the first frame, with these stages or the standard ones. What counts
-  // is the case's to say, not the options'. The case must outlive the player. Errors and cost are
-  // those of Detector::create.
+  // Makes a new detector from the first frame, with these stages or the standard ones. The relation
+  // is that of the case, not that of the options. The case must outlive the player. Errors and cost
+  // are those of Detector::create.
   static detector::Expected<CasePlayer> make(const corpus::Case& c,
                                              const detector::Options& options,
                                              std::optional<detector::Stages> stages = {},
                                              const detector::StopFunction& stop = {});
 
-  // The number of steps of the case. All functions below REQUIRE s < steps().
+  // Returns the number of steps of the case. All functions below REQUIRE s < steps().
   std::size_t steps() const { return script_.size(); }
   const corpus::CaseStep& step(std::size_t s) const { return script_[s]; }
   const detector::Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
@@ -191,8 +189,8 @@ class CasePlayer {
   // an answer. Steps may be played in any order; a step that does not continue the detector's
   // state is a new start for it.
   detector::StepResult play(std::size_t s, const detector::StopFunction& stop = {});
-  // Returns the same result, but the state stays as it is; detector().commit() can still advance
-  // it.
+  // Returns the result that play() would, but the state stays as it is; detector().commit() can
+  // still advance it.
   detector::StepResult look(std::size_t s, const detector::StopFunction& stop = {});
 
   detector::Detector& detector() { return detector_; }
@@ -203,8 +201,8 @@ class CasePlayer {
 
   const corpus::Case* case_;
   std::vector<corpus::CaseStep> script_;
-  // The view primitives given, by step. They are computed beforehand, so that whoever times a step
-  // times the detector alone.
+  // The view primitives given, by step. They are computed beforehand, so that the time of a step is
+  // that of the detector alone.
   std::vector<std::vector<detector::ViewPrimitive>> views_;
   detector::Detector detector_;
 };

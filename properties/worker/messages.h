@@ -1,9 +1,9 @@
-// What travels between the host and its worker: plain bytes, with lengths in front. Both ends are
-// built from the same sources and run on the same machine, which wire_version checks. So plain
+// The messages between the host and its worker: plain bytes, with lengths in front. Both ends are
+// built from the same sources, which wire_version checks, and run on the same machine. So plain
 // data travels as it lies in memory.
 //
-// What a message holds is listed once, below and beside the types (fields.h), for both directions.
-// The channel that carries messages stands last.
+// The fields of a message are listed once for both directions, below and beside the types
+// (fields.h). The channel that carries messages stands last.
 #pragma once
 
 #include <sys/types.h>
@@ -49,9 +49,10 @@ inline constexpr bool travels_as_bytes =
               detector::StepCounts, detector::StepTimes, corpus::CaseStep,
               std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
-// Writes or reads what a message holds. Names are for other archives; the two ends of a message are
-// built from the same list. A message that is too short, or states more than it holds, is not
-// complete() and leaves the rest untouched: the other end was damaged by the code that it ran.
+// Writes or reads the fields of a message. Names are for other archives; both ends of a message are
+// built from the same list. A message that is too short, or states more items than it holds, is not
+// complete() and leaves the remaining fields untouched: the other end was damaged by the code that
+// it ran.
 template <bool reads>
 class Wire : public NamedFields<Wire<reads>> {
  public:
@@ -63,7 +64,7 @@ class Wire : public NamedFields<Wire<reads>> {
     pass(item);
   }
   std::string take() { return std::move(bytes_); }
-  // The whole message was read, and nothing is left.
+  // Returns whether the whole message was read, and nothing is left.
   bool complete() const { return ok_ && rest_ == 0; }
 
  private:
@@ -79,7 +80,7 @@ class Wire : public NamedFields<Wire<reads>> {
       fields(*this, item);
     }
   }
-  // A byte that is no valid bool, or no value of the enum, is never stored in one.
+  // A number that is no valid bool or enum value is never stored in one.
   template <class T, class Number>
   void pass_up_to(T& item, Number last) {
     Number number = reads ? Number{0} : static_cast<Number>(item);
@@ -109,7 +110,7 @@ class Wire : public NamedFields<Wire<reads>> {
       }
     }
   }
-  // Writes them as a vector, without a copy. A writer does not change what it is given.
+  // Writes the items as a vector, without a copy. A writer does not change them.
   template <class T>
   requires(!reads) void pass(std::span<const T>& items) {
     pass_count(items.size(), 1);
@@ -132,8 +133,8 @@ class Wire : public NamedFields<Wire<reads>> {
     if constexpr (reads) rows.resize(static_cast<Eigen::Index>(count / 3), 3);
     pass_bytes(rows.data(), count * sizeof(T));
   }
-  // The number of items that have at least `size` bytes each; 0 if the message cannot hold those
-  // that it states.
+  // Passes the number of items of at least `size` bytes each; 0 if the message is too short for the
+  // number that it states.
   std::size_t pass_count(std::size_t of_items, std::size_t size) {
     auto count = static_cast<std::uint64_t>(of_items);
     pass_bytes(&count, sizeof count);
@@ -161,7 +162,7 @@ class Wire : public NamedFields<Wire<reads>> {
 // The messages, field by field. A new field of a result or an option does not compile until it is
 // named here.
 
-// The relation that counts is the case's, and travels with it.
+// The relation of the options does not travel: that of the case counts, and travels with it.
 template <class Archive>
 void fields(Archive& archive, detector::Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
@@ -177,7 +178,7 @@ ASSAY_FIELDS(LimitAnswer, share, positions)
 
 template <class Archive>
 void fields(Archive& archive, CaseRun& run) {
-  // The last three are the host's to say.
+  // The host sets the last three.
   auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
          disturbances, processor_seconds, output] = run;
   archive("end", end, "explanation", explanation, "steps", steps, "candidates", candidates,
@@ -190,7 +191,7 @@ ASSAY_FIELDS(corpus::CaseView, q0, q1)
 ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
-// Only what a detector may know travels, and never the expected facts.
+// Only facts that a detector may know travel, and never the expected facts.
 template <class Archive>
 void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);
@@ -213,7 +214,7 @@ void fields(Archive& archive, Claims& claims) {
 ASSAY_FIELDS(PluginParts, steps, query, candidates, limit, takes_threads)
 ASSAY_FIELDS(PluginDescription, name, version, claims, contract, parts)
 
-// The worker's first message: who it is, or why it cannot serve.
+// The worker's first message: its description, or why it cannot serve.
 struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
@@ -222,8 +223,8 @@ struct Hello {
 };
 ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 
-// Cases and how to run them. A RunReply comes back for each configuration of the first case, in
-// order, then for those of the next.
+// Cases and their configurations. A RunReply comes back for each configuration of the first case,
+// in order, then for each of the next case.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
   std::vector<corpus::Case> cases;
@@ -233,7 +234,7 @@ ASSAY_FIELDS(RunRequest, number, cases, configurations)
 
 struct RunReply {
   std::uint64_t number = 0;  // of the request
-  std::uint64_t place = 0;   // of the run in it
+  std::uint64_t place = 0;   // of the run in the request
   CaseRun run;
 };
 ASSAY_FIELDS(RunReply, number, place, run)
@@ -254,7 +255,7 @@ bool decode(const std::string& bytes, T& message) {
   return reader.complete();
 }
 
-// Differs if the two ends were built from sources with other plain data.
+// Returns a hash that differs if the two ends were built from sources with different plain data.
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :
@@ -265,30 +266,31 @@ constexpr std::uint64_t wire_version() {
   return hash;
 }
 
-// What a plug-in says is checked where it is read (plugin_reading.cpp), in its own process. If that
-// process damages its own memory, its reply may be none; such a reply counts as a crash.
+// The results of a plug-in are checked where they are read (plugin_reading.cpp), in its own
+// process. If that process damages its own memory, its reply may be malformed, which counts as a
+// crash.
 
 // Bytes of the longest line of text in a reply.
 inline constexpr std::size_t longest_reply_text = 4096;
 
-// The most bytes that a reply to this case may have: that of a reply with every pair of triangles
-// in contact in each step, and with positions.
+// Returns the most bytes that a reply to this case may have: those of a reply with every pair of
+// triangles in contact in each step, and with positions.
 std::uint64_t longest_reply(const corpus::Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
-// Whether all that the run of a case says is about that case: its steps, triangles and vertices.
+// Returns whether all results of a run fit the case: its steps, triangles and vertices.
 bool fits(const CaseRun& run, const corpus::Case& c);
 
 // A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
 // SIGPIPE.
 
-// too_long: the other end began a message of more bytes than there may be.
+// too_long: the other end began a message of more bytes than are allowed.
 enum class Transfer { done, closed, timed_out, too_long };
 
-// Is asked before each wait how long to wait at most before asking again. If it returns nothing,
-// waiting is over; if 0, it is over when nothing is there to be read. An empty function waits for
-// ever.
+// Is called before each wait, and returns how long to wait at most before the next call. If it
+// returns nothing, waiting is over; if 0, waiting is over unless there is something to read. An
+// empty function waits for ever.
 using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 
 class Channel {
@@ -301,19 +303,19 @@ class Channel {
   Channel& operator=(Channel&&) = delete;
   ~Channel();  // closes
 
-  // Two connected channels, both closed on exec; nothing if the system has no more. The first one
-  // tells its senders.
+  // Returns two connected channels, both closed on exec; nothing if the system has no more. The
+  // first one knows its senders.
   static std::optional<std::pair<Channel, Channel>> connected();
 
   int descriptor() const { return descriptor_; }
-  // The process that sent what was received last, as this process sees it; 0: unknown.
+  // Returns the sender of the bytes received last, by its id in this process's view; 0: unknown.
   pid_t sender() const { return sender_; }
   Transfer send(const std::string& message, const Patience& patience = {});
-  // Receives a message of at most `most` bytes. Memory is taken only for what has come, and not
-  // for what was announced.
+  // Receives a message of at most `most` bytes. Memory is allocated only for bytes that have
+  // arrived, not for announced ones.
   Transfer receive(std::string& message, const Patience& patience = {},
                    std::uint64_t most = ~std::uint64_t{0});
-  // Whether the other end has closed, without waiting.
+  // Returns whether the other end has closed, without waiting.
   bool is_closed() const;
 
  private:

@@ -1,4 +1,4 @@
-// Random small steps with small-integer coordinates, where degenerate contacts are frequent:
+// Makes random small steps with small-integer coordinates, where degenerate contacts are frequent:
 // coplanar and collinear motion, zero-area triangles, contacts at t=0 and t=1, ties.
 #pragma once
 
@@ -16,8 +16,8 @@ struct SmallStep {
   detector::ViewPrimitive point, line;  // small integers too; the line's ends may move apart
 };
 
-// Case `index` of `seed`. A hash of both is the only source of randomness, so that any case can be
-// made alone, on any machine.
+// Makes case `index` of `seed`. A hash of both is the only source of randomness, so that any case
+// can be made alone, on any machine.
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace assay::properties

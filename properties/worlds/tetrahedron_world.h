@@ -1,11 +1,11 @@
-// Small worlds of tetrahedra, proved motion by motion: the detector, and the laws of closed
-// meshes, are held against the oracle on every motion on a tiny grid, seen from every view-point
-// of that grid.
+// Proves small worlds of tetrahedra, motion by motion: compares the detector, and the laws of
+// closed meshes, with the oracle on every motion on a tiny grid, seen from every view-point of that
+// grid.
 //
-// For each class of motions and view-points (TetrahedronMotions), with the faces outward and
-// with them turned round, this is checked:
-// - the detector with culling view-point from there, start verified and all pairs, has the
-//   oracle's pairs and times; if the start is clean, so it has with start clean and first pairs;
+// For each class of motions and view-points (TetrahedronMotions), with the faces outward and turned
+// round, checks that:
+// - the detector with culling view-point from there, start verified and all pairs, has the oracle's
+//   pairs and times; if the start is clean, also with start clean and first pairs;
 // - L3: with a clean start the first contact is in K;
 // - L4: with a clean start, all positive or all negative: no contact;
 // - L5: all positive over the step and winding number 1 at t=0: no contact, whatever the start.
@@ -23,8 +23,8 @@
 
 namespace assay::properties {
 
-// The motions of a tetrahedron's four vertices on a tiny grid. Of motions that differ only by a
-// symmetry one stands for all.
+// Lists the motions of a tetrahedron's four vertices on a tiny grid, one for all motions that
+// differ only by a symmetry.
 //
 // The vertices are at 0, 2, .., 2 (side - 1) on each axis, at t=0 and at t=1; they may coincide.
 // View-points are at all integers from 0 to 2 (side - 1), so that some lie strictly inside of the
@@ -32,9 +32,9 @@ namespace assay::properties {
 //
 // Motions are of one class if they are equal up to the order of the vertices and the grid's
 // mirrors and permutations of axes. Neither changes which features touch, nor when. But an odd
-// permutation of the vertices, like a mirror, turns the faces round, so whoever checks a class
-// checks it with both orientations. A motion reversed in time is of another class, because its
-// first contact is another one.
+// permutation of the vertices, like a mirror, turns the faces round, so each class is checked with
+// both orientations. A motion reversed in time is of another class, because its first contact is a
+// different one.
 
 struct TetrahedronGrid {
   int side = 2;        // vertex places on an axis
@@ -42,11 +42,11 @@ struct TetrahedronGrid {
   int movers = 4;      // how many vertices move at most
 };
 
-// One motion of a class, with one view-point of each set that its own symmetries map onto each
-// other.
+// One motion of a class, with view-points: one of each set of those that its own symmetries map
+// onto each other.
 struct TetrahedronMotion {
   std::array<detector::MovingPoint, 4> vertices;
-  // How many motions of the grid, with their vertices in order, are of this class.
+  // The number of motions of the grid, with their vertices in order, in this class.
   std::uint64_t stands_for = 0;
   struct View {
     detector::Point q;
@@ -59,15 +59,15 @@ class TetrahedronMotions {
  public:
   explicit TetrahedronMotions(const TetrahedronGrid& grid);
 
-  // The classes are split into blocks, the unit of work of a thread. Their order is fixed, and
-  // shuffled, so that what fits into a time limit is a fair sample.
+  // Returns the number of blocks. A block of classes is the unit of work of a thread. The order of
+  // blocks is fixed, and shuffled, so that those that fit into a time limit are a fair sample.
   std::size_t blocks() const { return blocks_.size(); }
   // Calls `visit` on the classes of a block in a fixed order, until it returns false.
   void for_each(std::size_t block,
                 const std::function<bool(const TetrahedronMotion&)>& visit) const;
 
-  // Motions, with their vertices in order, times view-points: the sum of `stands_for` of all
-  // classes.
+  // Returns the number of motions, with their vertices in order, times view-points: the sum of
+  // `stands_for` over all classes.
   std::uint64_t all() const;
 
  private:
@@ -99,7 +99,7 @@ struct TetrahedronWorld {
   TetrahedronGrid grid;
 };
 
-// All worlds, the smaller ones first: each takes longer than the one before it.
+// Returns all worlds, the smaller ones first: each takes longer than the one before it.
 std::span<const TetrahedronWorld> tetrahedron_worlds();
 
 struct TetrahedronWorldOptions {
@@ -119,16 +119,15 @@ struct TetrahedronWorldResult {
   std::uint64_t one_sign = 0;      // for L4: clean start, all positive or all negative
   std::uint64_t all_positive = 0;  // for L5: all positive and winding number 1
   double seconds = 0;
-  // The first case, in the order of the enumeration, that does not hold, and what does not hold in
-  // it.
+  // The first case, in the order of the enumeration, that does not hold, and why it does not.
   std::optional<corpus::Case> counterexample;
   std::string explanation;
 };
 
-// Takes 0.1 to 0.5 ms for each class.
+// Proves a world. Takes 0.1 to 0.5 ms for each class.
 TetrahedronWorldResult prove(const TetrahedronWorld& world, const TetrahedronWorldOptions& options);
 
-// The check of one class of a tetrahedron's motions: detector and laws against the oracle.
+// Checks one class of a tetrahedron's motions: compares detector and laws with the oracle.
 
 struct TetrahedronFailure {
   corpus::Case c;

@@ -1,10 +1,10 @@
-// An elementary query as a case, so that everything that runs and judges cases treats it like any
-// other.
+// Turns an elementary query into a case, so that all code that runs and judges cases can treat it
+// like any other.
 //
 // The case has four vertices in the order of FourPoints, two triangles (0,1,2) and (1,3,2), one
 // step, and the option `query`. The option is `vertex-face`, for vertex 0 and the face (1,2,3), or
 // `edge-edge`, for the edges 01 and 23. The triangles hold these features, so that a picture shows
-// them; whatever else of the triangles meets is not asked.
+// them; contacts between other features are not asked for.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,16 @@ namespace assay::properties {
 
 corpus::Case case_of_query(const detector::FourPoints& query, std::string id);
 
-// Whether the case says that it is a query, rightly or not.
+// Returns whether the case says that it is a query, rightly or not.
 bool says_query(const corpus::Case& c);
-// The query of such a case; nothing if the case is none.
+// Returns the query of such a case; nothing if the case is no query.
 std::optional<detector::FourPoints> query_of(const corpus::Case& c);
 
-// The two features of the query, by the vertices of its case.
+// Returns the two features of the query, by the vertices of its case.
 detector::Feature features_of(const detector::FourPoints& query);
 
 const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
-// What the case says of itself in this way; an empty word if it does not say that it is a query.
+// Returns the value of the case's option `query`; empty if it has none.
 std::string query_word(const corpus::Case& c);
 void say_query(corpus::Case& c, const std::string& word);
 
