@@ -1,6 +1,6 @@
-// Times several subjects on the same case, side by side, and returns what they answered and the
-// times of each round. A subject is the built-in detector in this process, by its options, or any
-// detector in a worker. What is compared is measured in turn.
+// Times several subjects on the same case, side by side, and returns their answers and the times of
+// each round. A subject is the built-in detector in this process, by its options, or any detector
+// in a worker. Subjects are measured in turn.
 //
 // Below stand medians and ratios of such measurements, each with its interval.
 #pragma once
@@ -21,10 +21,10 @@
 
 namespace assay::reports {
 
-// The processor time of this thread in one run of `work`, in ns. The work of other programs does
-// not count, but their effect on caches and clock rates remains.
+// Returns the processor time of this thread in one run of `work`, in ns. The work of other programs
+// does not count, but their effect on caches and clock rates remains.
 double ns_of(const std::function<void()>& work);
-// The same by the clock on the wall, for work in several threads.
+// Returns the time by the wall clock, for work in several threads.
 double wall_ns_of(const std::function<void()>& work);
 
 // The hash FNV-1a, over 64-bit words.
@@ -33,11 +33,11 @@ constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
   return (hash ^ word) * 0x100000001b3u;
 }
 
-// A hash of everything in a result that depends neither on time nor on the searches before the
-// step (as the counts of marking do).
+// Returns a hash of all parts of a result that depend neither on time nor, like the counts of
+// marking, on the searches before the step.
 std::uint64_t result_hash(const detector::StepResult& result);
 
-// How a case is played and timed.
+// The way in which a case is played and timed.
 using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
 // The stages of a detector in this process; a test may replace some.
@@ -52,13 +52,13 @@ struct SweptSubject {
 struct SweepPlan {
   int rounds = 2;
   Clock* clock = ns_of;  // of subjects in this process
-  // Subjects in this process look at each step once before it is timed, so that a short case does
-  // not show what new memory costs.
+  // Subjects in this process look at each step once before it is timed, so that the time of a short
+  // case does not include the cost of new memory.
   bool is_warm = false;
-  // A subject whose first run had a step of more seconds is not run again. The samples of all
-  // rounds are then those of that run.
+  // A subject whose first run had a step of more seconds is not run again. That run is then the
+  // sample of every round.
   double longest_repeated = HUGE_VAL;
-  // A subject that took so many times as long as the fastest one takes part in two rounds alone.
+  // A subject that took this many times as long as the fastest one takes part in two rounds only.
   double far_off = HUGE_VAL;
   std::function<void()> tick = [] {};  // called between runs
 };
@@ -67,27 +67,27 @@ struct SweepPlan {
 struct SweptRuns {
   std::optional<properties::CaseRun> first;   // the one that is judged
   std::vector<properties::RunTimes> samples;  // of each round, without the first run
-  std::string ending;                         // how a run ended that did not complete, in words
+  std::string ending;                         // in words, how a run ended that did not complete
   bool is_once = false;  // the first run is the only one, and stands for every round
   bool has_differing_runs = false;
 
-  // In ms, one for each round.
+  // Return times in ms, one for each round.
   std::vector<double> sums() const;
   std::vector<double> of_step(std::size_t step) const;
   std::vector<double> create_ms() const;
 };
 
-// Runs the case rounds + 1 times by each subject, in turn, a whole case each time: forward, and
-// then forward and backward by turns, so that what is compared was measured side by side. The first
-// round is judged and not timed. The times of a worker are those of its own clock, with all of its
-// threads. A subject whose run did not complete is not run again. Throws UnusableData if the
-// detector in this process refuses the mesh, or a step of it is an error.
+// Runs the case rounds + 1 times by each subject, in turn, a whole case each time. The order of
+// subjects is forward, and then forward and backward by turns, so that compared times are measured
+// side by side. The first round is judged and not timed. The times of a worker are those of its own
+// clock, with all of its threads. A subject whose run did not complete is not run again. Throws
+// UnusableData if the detector in this process refuses the mesh, or a step of it is an error.
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
                              const SweepPlan& plan);
 
-// Medians of repeated measurements with intervals that need no model of their noise, ratios of
-// interleaved measurements, quantiles. Rank intervals stand first, then intervals by the bootstrap.
-// All of it is deterministic.
+// Computes medians of repeated measurements, with intervals that need no model of their noise,
+// ratios of interleaved measurements, and quantiles. Rank intervals stand first, then intervals by
+// the bootstrap. All results are deterministic.
 
 // A median with a rank interval. The ends are order statistics of the samples: the closest pair
 // x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more, whatever the
@@ -99,37 +99,37 @@ struct Estimate {
   std::vector<double> samples;  // raw, in the order in which they were taken
 };
 
-// REQUIRES samples not empty. The median of an even number of samples is the mean of the middle
-// two.
+// Returns the median of samples, which for an even number is the mean of the middle two. REQUIRES
+// samples not empty.
 Estimate median_of(std::vector<double> samples);
 
-// An estimate for a figure that is counted and not sampled.
+// Returns an estimate for a figure that is counted and not sampled.
 Estimate exactly(double value);
 
-// The median of the ratios a[i] / b[i] of measurements that were taken next to each other, so that
-// whatever slows a whole round down cancels. REQUIRES equal sizes.
+// Returns the median of the ratios a[i] / b[i] of measurements that were taken next to each other,
+// so that a slowdown of a whole round cancels. REQUIRES equal sizes.
 Estimate ratio_of(std::span<const double> a, std::span<const double> b);
 
-// The estimate times `factor`, for example to turn ns a mesh into ns a triangle.
+// Returns the estimate times `factor`, for example to turn ns a mesh into ns a triangle.
 Estimate scaled(Estimate estimate, double factor);
 
-// The k of the rank interval for n samples, 1-based.
+// Returns the k of the rank interval for n samples, 1-based.
 std::size_t rank_of_lower_end(std::size_t n);
 
-// The value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples not
-// empty.
+// Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples
+// not empty.
 double quantile(std::vector<double> samples, double share);
 
-// Percentile bootstrap intervals of medians (Efron and Tibshirani, "An Introduction to the
-// Bootstrap", 1993, section 13.3): the samples are drawn again with replacement many times, and
-// the interval holds the middle 95 % of the medians of the draws.
+// Computes percentile bootstrap intervals of medians (Efron and Tibshirani, "An Introduction to the
+// Bootstrap", 1993, section 13.3): the samples are drawn again with replacement many times, and the
+// interval holds the middle 95 % of the medians of the draws.
 //
 // The intervals are deterministic: the draws come from the project's own integer random numbers,
 // seeded alike for every call. They are narrower than the rank interval if samples are few, and
 // lack its guarantee: with five samples the true coverage is nearer to 85 than to 95 %.
 
-// REQUIRES samples not empty. 2,000 draws: the ends are good to about 1 % of the interval's
-// probability. O(2,000 n).
+// Returns the median with a bootstrap interval. REQUIRES samples not empty. 2,000 draws: the ends
+// are good to about 1 % of the interval's probability. O(2,000 n).
 Estimate bootstrap_median(std::vector<double> samples);
 
 // The same for the ratios a[i] / b[i] of measurements taken next to each other. REQUIRES equal

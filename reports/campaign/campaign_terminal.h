@@ -1,5 +1,5 @@
-// A campaign on the terminal: what `run` and `certify` are asked of it, the options that say it,
-// what is shown while it runs, and what `certify` checks by itself.
+// Runs a campaign on the terminal: the request to `run` and `certify`, the options that state it,
+// the display while it runs, and the checks that `certify` makes by itself.
 #pragma once
 
 #include <cstdint>
@@ -40,27 +40,26 @@ struct CampaignWords {
 // its own way.
 void add_campaign_options(CLI::App& verb, CampaignWords& words);
 
-// From this call on ctrl-C leaves with what is stored. Fails if a name, a file or a library is
-// wrong.
+// Turns the words into a request. From this call on ctrl-C ends the program, and stored rows stay.
+// Fails if a name, a file or a library is wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
-// Makes the folder of a run, and looks whether these files of it can be written, and its folder of
-// failures.
+// Makes the folder of a run, and checks that these files in it, and its folder of failures, can be
+// written.
 Expected<void> may_keep_run(const std::filesystem::path& out,
                             const std::vector<std::string>& files);
 
-// Does the part of the campaign that the store does not hold yet. Says what it is going to do, how
-// far it is and how long that will take, and shows the failures, with their files and pictures
-// below `out`, as soon as all of them are shrunk. Fails if a file or the store could not be
-// written; what is stored then stays.
+// Does the part of the campaign that the store does not hold yet. Prints its plan, its progress and
+// the remaining time, and shows the failures, with their files and pictures below `out`, as soon as
+// all of them are shrunk. Fails if a file or the store could not be written; stored rows then stay.
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out);
 
-// What `certify` checks by itself, as evidence of a certificate: the corpus, the oracle, the speed.
+// Makes the checks of `certify`, as evidence of a certificate: the corpus, the oracle, the speed.
 
-// Rows sum up all cases of one input, such as the curated ones, in one configuration. The failures
-// are those in which a configuration contradicts the oracle, in the form in which a trial's failure
-// is stored. A curated case of which only an expected fact fails is told of in its row alone.
+// Rows sum up all cases of one input, such as the curated ones, in one configuration. Failures are
+// cases in which a configuration contradicts the oracle, in the stored form of a trial's failure. A
+// curated case that only misses an expected fact is named in its row alone.
 struct JudgedCorpus {
   std::vector<properties::JudgedSource> rows;
   std::vector<properties::FailureRecord> failures;
@@ -68,10 +67,11 @@ struct JudgedCorpus {
 
 // Runs the curated cases and queries of the corpus `shipped`, and the scenes, which are built into
 // the program, unless it is empty; then the cases that the user added to the campaign
-// (`--corpus DIR`). Prints what each input comes to. In curated cases the built-in detector is held
-// to the expected facts, with every culling, and a plug-in to the oracle under its claims. In
-// scenes, and in the user's cases, whose ids begin with "own/", both are held to the oracle, whose
-// judgement of a case serves all configurations. Fails if the corpus cannot be read.
+// (`--corpus DIR`). Prints the result of each input. In curated cases the built-in detector is
+// compared with the expected facts, with every culling, and a plug-in with the oracle under its
+// claims. In scenes, and in the user's cases, whose ids begin with "own/", both are compared with
+// the oracle, whose judgement of a case serves all configurations. Fails if the corpus cannot be
+// read.
 Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
                                     const std::filesystem::path& shipped);
 
@@ -79,19 +79,20 @@ Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
 // the built-in detector, and prints it. 10 s in all.
 std::vector<properties::SpeedFigure> measure_speed();
 
-// Where the cases of a corpus lie: what is shipped with the program, and a folder of the detector's
-// owner, which `run` and `certify` take beside it.
+// Finds the cases of a corpus: those shipped with the program, and those in a folder of the
+// detector's owner, which `run` and `certify` add.
 
-// The folder of the shipped corpus: curated cases, known failures, the conformance set. It lies
-// beside the program, as that was built or installed, so the program holds no path of another
-// machine. The environment variable ASSAY_CORPUS names another folder. Fails if there is none.
+// Returns the folder of the shipped corpus: curated cases, known failures, the conformance set. It
+// lies beside the program, as that was built or installed, so the program holds no path of another
+// machine. The environment variable ASSAY_CORPUS names another folder. Fails if there is no such
+// folder.
 Expected<std::filesystem::path> shipped_corpus();
 
-// The cases of a folder of the owner: every file of it that ends with .json.
-// Fails if one cannot be read, or if there is none.
+// Reads the cases in a folder of the owner: every file whose name ends with .json. Fails if one
+// cannot be read, or if there is none.
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder);
 
-// SHA-256 over the names and bytes of these files.
+// Returns the SHA-256 over the names and bytes of these files.
 std::string digest_of_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::reports

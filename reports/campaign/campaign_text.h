@@ -1,5 +1,5 @@
-// What a campaign came to, as plain text: a rendering of its predicate (certificate/statement.h),
-// or of its findings and gates where that holds less; and the files of its failures.
+// Renders the results of a campaign as plain text: its predicate (certificate/statement.h), or its
+// findings and gates where the predicate holds less; and writes the files of its failures.
 #pragma once
 
 #include <filesystem>
@@ -14,51 +14,51 @@
 
 namespace assay::reports {
 
-// All tables that the findings fill: strata, laws, planted faults, worlds.
+// Returns all tables that the findings fill: strata, laws, planted faults, worlds.
 std::string findings_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 
-// A row for each gate with its outcome, and below it at most five reasons.
+// Returns a row for each gate with its outcome, and below it at most five reasons.
 std::string gates_text(const properties::Judgement& judgement);
 
-// "DEFECT: 3 trials with a defect, 0 undecided, 1 laws broken".
+// Returns "DEFECT: 3 trials with a defect, 0 undecided, 1 laws broken".
 std::string verdict_text(const properties::RunFindings& findings,
                          const properties::Judgement& judgement);
 
-// "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder. Without
-// `out` they are for the folder of the run: so they stand in certificates and pages, behind
-// "assay".
+// Returns "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder.
+// Without `out` they are for the folder of the run, as in certificates and pages, which put "assay"
+// in front.
 std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
                          const DetectorWords& detector);
 
-// The detector of a run, as a replay line names it.
+// Returns the detector of a run, as a replay line names it.
 DetectorWords detector_of(const properties::RunFindings& findings);
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run, and a picture (.svg) of the smallest mesh of each signature.
 // `text` gets one paragraph for the signature that was met most often: claim, how often, both
-// sizes, triangles, feature, and the line that replays it. Nine others are a line each, the
+// sizes, triangles, feature, and the line that replays it. Nine others get a line each, the
 // smallest meshes first, with every broken claim among them; the rest is one count. `detector` is
 // the one that failed.
 Expected<void> write_failures(const properties::FailureList& failure_list,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
 
-// As many groups of failures are shown at most.
+// The most groups of failures that are shown.
 inline constexpr std::size_t most_groups_shown = 5;
 
-// The groups of failures (properties/campaign/gates/gates.h), a line each with the smallest mesh of
-// each, and how many more there are. Empty if there are not even two kinds.
+// Returns the groups of failures (properties/campaign/gates/gates.h), a line each with the smallest
+// mesh of each, and how many more there are. Empty if there are fewer than two kinds of failure.
 std::string groups_text(const properties::RunFindings& findings,
                         const nlohmann::ordered_json& predicate);
 
-// The groups of failures, then a paragraph for each signature of them, and a line for each further
+// Returns the groups of failures, then a paragraph for each signature, and a line for each further
 // case of it.
 std::string failures_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 
-// The trials without a verdict, then the slowest of the others. Each has its processor time
-// and the line that replays it.
+// Returns the trials without a verdict, then the slowest of the others, each with its processor
+// time and the line that replays it.
 std::string slow_trials_text(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

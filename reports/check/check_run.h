@@ -1,5 +1,5 @@
-// `check` on one mesh, whoever asks: each step goes through the detector and, unless left out, the
-// oracle, and the two are compared.
+// Runs `check` on one mesh, for every caller: each step goes through the detector and, unless left
+// out, the oracle, and the two are compared.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace assay::reports {
 
-// What one claim of a plug-in came to.
+// The result of one claim of a plug-in.
 struct ClaimResult {
   enum class State : std::uint8_t { holds, broken, undecided, not_judged };
   std::string claim;
@@ -28,75 +28,76 @@ struct ClaimResult {
 };
 
 struct CheckOutcome {
-  bool is_judged = true;  // the oracle judged it
+  bool is_judged = true;  // the oracle judged the steps
   bool defect = false, undecided = false;
   bool unsound = false;       // a second opinion contradicts the oracle
   bool facts_differ = false;  // expected facts of a case file do not hold
   bool judged_by_claims = false;
-  bool has_answers = true;  // false: a library of candidates alone
-  std::string ending;       // how a plug-in's run ended; empty: it went through
+  bool has_answers = true;  // false: the library gives only candidates
+  std::string ending;       // how a plug-in's run ended; empty: it completed
   std::string limit_reached;
-  std::string rest;       // of a mesh at rest, which bodies meet; empty where that is not known
-  std::string unwritten;  // why a file that was asked for was not written
-  std::vector<std::string> asked_again;  // what came of asking a plug-in about steps that are kept
+  std::string rest;       // for a mesh at rest: the bodies that meet; empty if unknown
+  std::string unwritten;  // why a requested file was not written
+  std::vector<std::string> asked_again;  // what a plug-in answered about kept steps
   std::vector<std::string> losses;       // of the input
-  std::map<properties::Claim, std::uint64_t> first_broken;  // of each claim: its step, from 0
+  std::map<properties::Claim, std::uint64_t> first_broken;  // by claim: the step, from 0
   std::optional<std::uint64_t>
-      first_missed;  // the first contact answered free, whatever is claimed
+      first_missed;  // the first step with a contact that was answered free, whatever is claimed
   std::size_t judged_steps = 0;
-  // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
-  // plug-in does whatever it claims.
+  // Only for a plug-in: the claims that hold, the claims that were not judged, and measures that do
+  // not depend on claims.
   std::vector<std::string> held_claims;
   std::vector<properties::NotJudged> not_judged;
   properties::StepMeasures measures;
   std::optional<std::size_t> collision_step;  // the first step with a collision, counted from 0
   detector::TimeEnclosure collision_time;
-  // The first step in which the oracle finds a contact and there is no answer to be judged, when
-  // that contact is, and what the detector gave instead.
+  // The first step with a contact by the oracle and no answer that can be judged, the time of the
+  // contact, and the detector's error in place of an answer.
   std::optional<std::size_t> unanswered_step;
   detector::TimeEnclosure unanswered_time;
   std::string unanswered_error;
 
   // Counts a judged step of a plug-in.
   void count(const properties::StepDiff& diff, const detector::StepResult& result);
-  // What all of them come to. `steps_left_out` is the number of steps of the input that the
-  // contract leaves out.
+  // Judges the claims by all counted steps. `steps_left_out` is the number of steps of the input
+  // that the contract leaves out.
   void judge_claims(const properties::DetectorUnderTest& plugin, std::size_t steps_left_out);
 
-  // In the order of claims, those that are not judged last. REQUIRES judge_claims.
+  // Returns the results in the order of claims, those of unjudged claims last. REQUIRES
+  // judge_claims.
   std::vector<ClaimResult> claim_results() const;
-  // The last lines of what `check` prints, each with its end of line.
+  // Returns the last lines of the output of `check`, each with its end of line.
   std::string summary() const;
   const char* word() const;
   int exit_code(bool fail_on_collision) const;
-  // The exit code, or the problem if a file was not written.
+  // Returns the exit code, or the problem if a file was not written.
   Expected<int> end(bool fail_on_collision) const;
 };
 
-// The report of `check`, schema assay-check/1 (reports/schemas/check.schema.json). `steps`: an
-// entry for each step that was judged (steps/step_report.h).
+// Returns the report of `check`, schema assay-check/1 (reports/schemas/check.schema.json). `steps`:
+// an entry for each judged step (steps/step_report.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const StepAnswers& answers,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);
 
-// Takes frames of one mesh, which are read as their steps come, or reads one case file. Fails if
-// its options are not understood. REQUIRES a file.
+// Takes frames of one mesh, which are read when their steps are reached, or reads one case file.
+// Fails if the options of the case are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
-// The same of several meshes as bodies of one, or of frames of which not all pairs count: `rest`
-// has all but the files. REQUIRES a file of each.
+// Reads several meshes as bodies of one, or frames in which not all pairs count; `rest` has all of
+// the input but the files. REQUIRES a file of each body.
 using BodyWords = std::vector<std::vector<std::string>>;
 corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles rest);
 
 struct CheckQuestion {
-  // What the input was read from, for reports and replay lines; bodies are empty if it has none.
+  // The files of the input, for reports and replay lines; bodies are empty if it has none.
   std::vector<std::string> files;
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
-  DetectorWords detector;     // its `threads` is not used; the one below is
-  std::uint64_t threads = 0;  // 0: all cores; a plug-in is told 1
-  std::string answers;        // a table of answers (GivenAnswers), in place of a detector; or empty
-  properties::Adjacency adjacency = properties::Adjacency::all;  // of these
+  DetectorWords detector;     // its `threads` is not used, but the one below
+  std::uint64_t threads = 0;  // 0: all cores, or 1 for a plug-in
+  std::string answers;        // table of answers (GivenAnswers) in place of a detector, or empty
+  properties::Adjacency adjacency = properties::Adjacency::all;  // of the answers in the table
   bool no_oracle = false;
   // The share in (0,1] of the oracle's questions that get a second opinion. REQUIRES the oracle.
   std::optional<double> second_opinion;
@@ -105,9 +106,9 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
-  std::string ply_file;  // where the mesh is written with what is in contact marked; empty: nowhere
-  std::string again;     // the line that asks this again, to be pasted; empty where there is none
-  bool shows_all_steps = true;  // false: only those that are not as claimed
+  std::string ply_file;         // file for the mesh with its contacts marked; empty: none
+  std::string again;            // the line to paste that asks this again; empty if there is none
+  bool shows_all_steps = true;  // false: only steps that are not as claimed
 };
 
 // A step that breaks a claim, or differs from the oracle.
@@ -121,9 +122,9 @@ struct StepFailure {
 };
 
 struct CheckListener {
-  std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
-  detector::StopFunction stop = {};                  // may be empty; what it leaves is undecided
-  // What is to be done with a step that fails; the text is printed. May be empty.
+  std::function<void(const std::string& text)> say;  // gets each text to print, as it becomes known
+  detector::StopFunction stop = {};                  // may be empty; unreached steps are undecided
+  // Is called with each failing step; the text that it returns is printed. May be empty.
   std::function<std::string(const StepFailure&)> on_failure = {};
 };
 
@@ -133,21 +134,21 @@ struct CheckAnswer {
 };
 
 // Checks one mesh. The steps of `input` are used up; for a plug-in they become those that its
-// contract takes. If a file that is read on the way is refused, `listener` was told of all steps
-// before its frame. `worker` is the program assay-worker, for a plug-in. Recorded answers of the
-// input are judged, and then no detector runs here.
+// contract takes. If a frame's file is refused on the way, `listener` was told of all steps before
+// that frame. `worker` is the program assay-worker, for a plug-in. If the input has recorded
+// answers, these are judged, and no detector runs here.
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
 
-// `check --separation D` or `--offset` on one mesh: whether triangles that share no vertex come
-// within D of each other, which, when first, and how near any two of them come. The oracle alone is
-// asked.
+// Runs `check --separation D` or `--offset` on one mesh: whether triangles that share no vertex
+// come within D of each other, which, when first, and how near any two of them come. Only the
+// oracle is asked.
 
 // Finite lengths of 0 or more, in the mesh's units.
 struct AskedDistance {
   double separation = 0;
-  // By body. If there are any, the distance asked of two triangles is the exact sum of the offsets
+  // By body. If there are offsets, the distance for two triangles is the exact sum of the offsets
   // of their bodies, in place of `separation`.
   std::vector<double> offsets;
 };
@@ -157,32 +158,33 @@ struct SeparationAnswer {
   nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
 };
 
-// Asks the oracle for each step. Of the question only what bears on the oracle is used: files,
-// jobs, limits, and whether a report is wanted. REQUIRES as many offsets as bodies, or none.
-// `fail_when_near`: exit code 5 where a step is near.
+// Asks the oracle for each step. Only those members of the question are used that concern the
+// oracle: files, jobs, limits, and whether a report is wanted. `fail_when_near`: exit code 5 if a
+// step is near. REQUIRES as many offsets as bodies, or none.
 Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const AskedDistance& d,
                                             bool fail_when_near, CheckInput& input,
                                             const CheckListener& listener);
 
-// What is kept of steps that fail: of each the part of the mesh that shows it, as files that other
+// Keeps failing steps: for each the part of the mesh that shows the failure, as files that other
 // programs read (steps/case_export.h).
 
-// What is to be kept of the steps that fail, and where.
+// Where failing steps are kept, and how long they are shrunk.
 struct Keeping {
   std::string folder;          // step N, from 1, goes into FOLDER/step-N; empty: nothing is kept
   std::string origin;          // the input, for people
-  double shrink_seconds = 20;  // for each failing step that the plug-in fails on again
+  double shrink_seconds = 20;  // for each step on which the plug-in fails again
 };
 
-// Checks one mesh (check_run.h) and keeps what fails. With a plug-in in the question, which a log
-// is of the same code as, that is asked about each step alone, and what it fails on is shrunk.
+// Checks one mesh (check_run.h) and keeps failing steps. If the question names a plug-in of the
+// same code as the detector of the log, the plug-in is asked about each step alone, and the steps
+// on which it fails are shrunk.
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);
 
-// What each claim of a log came to, as a suite of JUnit XML. A claim that is broken fails, and one
-// of which the log tells nothing, or not enough, is skipped.
+// Returns the result of each claim of a log as a suite of JUnit XML. A broken claim fails; a claim
+// about which the log says nothing, or not enough, is skipped.
 std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
-// The suite of a log that could not be judged.
+// Returns the suite of a log that could not be judged.
 std::string junit_suite_of_problem(const std::string& log, const std::string& message);
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// The elementary query of a plug-in, as `check` judges it: many queries at once, by its claims.
+// Judges the elementary query of a plug-in for `check`: many queries at once, by its claims.
 // Nothing is stored.
 #pragma once
 
@@ -18,10 +18,10 @@
 
 namespace assay::reports {
 
-// What came of one query; nothing if the contract does not take it, or it was not asked.
+// The results of one query; nothing if the contract does not take it, or it was not asked.
 using JudgedQuery = std::optional<properties::CaseResults>;
 
-// The first query that broke a claim in some way.
+// The first query that broke a claim in one way.
 struct QueryFailure {
   std::string signature;    // of the failure
   std::uint64_t times = 0;  // how many queries had it
@@ -37,21 +37,20 @@ class QueryDetector {
   // The plug-in's name, claims, contract and isolation, one line each.
   std::string title() const;
   const std::string& name() const { return subject_.detector.name; }
-  // That of its contract: 0 if it is asked for contact.
+  // Returns the separation of its contract: 0 if it is asked for contact.
   double separation() const { return subject_.detector.contract.separation; }
 
-  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query
-  // that is not asked any more, because the plug-in crashed too often before, is counted as not
-  // asked.
+  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. After too
+  // many crashes of the plug-in, the remaining queries count as not asked.
   Expected<std::vector<JudgedQuery>> judge(const std::vector<detector::FourPoints>& queries,
                                            const std::vector<std::string>& names);
 
-  // What all queries came to, one line each: what the plug-in does whatever it claims, the claims
-  // that are broken and by which queries, and the verdict.
+  // Returns the results of all queries, one line each: the measures that do not depend on claims,
+  // the broken claims with the queries that break them, and the verdict.
   std::string text() const;
-  // A JSON object with "left_out", "undecided", "not_asked", "measures", "broken".
+  // Returns a JSON object with "left_out", "undecided", "not_asked", "measures", "broken".
   nlohmann::ordered_json to_json() const;
-  // The exit code of the verdict.
+  // Returns the exit code of the verdict.
   int exit_code() const;
 
  private:
@@ -60,7 +59,7 @@ class QueryDetector {
   // Asks and judges some queries. If `deterministic` is claimed, the second worker is asked too, in
   // the other order. Runs that did not take place end with RunEnd::not_run.
   std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
-  // Whether the query has the same answer if a new process is asked it alone.
+  // Returns whether a new process that is asked only this query gives the same answer.
   bool answers_alone(const detector::FourPoints& query, const properties::CaseRun& run) const;
 
   properties::Subject subject_;

@@ -1,6 +1,6 @@
-// A case as it is shown: its steps, what the oracle and the detector found in them, where two
-// triangles meet or are nearest to each other, and view sets. Places are computed in plain doubles,
-// and no verdict rests on them.
+// The scene of a case, to be shown: its steps, the contacts found by the oracle and the detector,
+// the places where two triangles meet or are nearest to each other, and view sets. Places are
+// computed in plain doubles, and no verdict rests on them.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,11 +28,11 @@ struct NearestPoints {
   Eigen::Vector3d middle() const { return 0.5 * (a + b); }
 };
 
-// The closest points, at time t in [0,1] of the step, of the two features of a contact
+// Returns the closest points, at time t in [0,1] of the step, of the two features of a contact
 // (detector/contact_place.h). In a contact they coincide up to rounding, and are one point if an
-// edge pierces a face. If no feature is named, as by a plug-in: the closest points of the two
-// triangles, by what they do not share. Nothing if there is no such place, because all features
-// share a vertex, or because it overflows.
+// edge pierces a face. If no feature is named, as by a plug-in, they are the closest points of the
+// two triangles, by features that share no vertex. Nothing if all features share a vertex, or if a
+// place overflows.
 std::optional<NearestPoints> contact_places(detector::PairContact contact,
                                             const detector::TrianglesView& triangles,
                                             const detector::SteppedMesh& motion, double t);
@@ -43,59 +43,61 @@ struct SceneStep {
   corpus::CaseStep span;
   properties::StepTruth truth;                 // under the detector's contract
   std::optional<detector::StepResult> answer;  // by the detector; nothing if its run broke off
-  // How the two differ; nothing if the detector did not run.
+  // How truth and answer differ; nothing if the detector did not run.
   std::optional<properties::StepDiff> diff;
   properties::CandidatePairs candidates = {};  // only of a plug-in that gives some
 
-  // Whether `answer` has view sets to be shown.
+  // Returns whether `answer` has view sets to show.
   bool has_views() const { return answer && !answer->doubts.empty(); }
-  // What the claims and the contract make of a pair that is in contact or reported, in words:
-  // "missing", "late", "early", "spurious", "no candidate" and "answered free" break a claim; "not
-  // claimed", alone or behind what differs, "left out by the contract", "agrees" and "not run" do
-  // not.
+  // Returns the judgement, by claims and contract, of a pair that is in contact or reported, in
+  // words: "missing", "late", "early", "spurious", "no candidate" and "answered free" break a
+  // claim; "not claimed", alone or behind one of these, "left out by the contract", "agrees" and
+  // "not run" do not.
   std::string difference(const detector::TrianglePair& pair, const CaseScene& scene) const;
 };
 
 struct CaseScene {
-  corpus::Case c;  // as the detector's contract has it
+  corpus::Case c;  // as fitted to the detector's contract
   std::vector<SceneStep> steps;
   std::optional<detector::Surface> surface;    // the mesh and its ghosts; nothing if it was refused
-  properties::Claims claims;                   // that are judged under the contract
-  properties::Contract contract;               // that it is judged under
-  bool reports_pairs = true;                   // false: the detector says nothing of pairs
+  properties::Claims claims;                   // judged under the contract
+  properties::Contract contract;               // under which the case is judged
+  bool reports_pairs = true;                   // false: the detector reports no pairs
   std::string ending;                          // how the detector's run broke off; else empty
-  std::optional<properties::Failure> failure;  // what is wrong, if the case still fails
+  std::optional<properties::Failure> failure;  // the failure, if the case still fails
 
-  // The step and the pair that the picture is about: those of the failure, else of the first
+  // Return the step and the pair that the picture is about: those of the failure, else of the first
   // contact.
   std::size_t shown_step() const;
   std::optional<detector::TrianglePair> shown_pair() const;
 
-  // What the contract wants of distances, "d 0.01, slack 0.002"; empty if it asks what touches.
+  // Returns the distances of the contract, "d 0.01, slack 0.002"; empty if it asks for contact.
   std::string asked_distance() const;
-  // Where the two of a contact are nearest to each other at its time: the two features of a query,
-  // else the two triangles, if the contract asks for a distance, else the features that touch.
+  // Returns where the two sides of a contact are nearest to each other at its time. The sides are
+  // the two features of a query; else, if the contract asks for a distance, the two triangles; else
+  // the features that touch.
   std::optional<NearestPoints> nearest_points(const SceneStep& step,
                                               detector::PairContact contact) const;
 };
 
 double middle(const detector::TimeEnclosure& time);
 
-// `worker` runs the detector; null: it is not at hand. Nothing if the contract cannot represent a
-// coordinate. The case is judged exactly, which is dear: meant for shrunk cases.
+// Makes the scene. `worker` runs the detector; null: the detector is not available. Returns nothing
+// if the contract cannot represent a coordinate. The case is judged exactly, which is dear: meant
+// for shrunk cases.
 std::optional<CaseScene> make_scene(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,
                                     const properties::Configuration& configuration,
                                     properties::WorkerProcess* worker);
 
-// The contact of this pair, or null.
+// Returns the contact of this pair, or null.
 const detector::PairContact* contact_of(const std::vector<detector::PairContact>& contacts,
                                         const std::optional<detector::TrianglePair>& pair);
 
-// View sets under the names that pages and pictures show, and their colours.
+// Gives view sets the names and colours of pages and pictures.
 
-// The view set of a triangle over a step. A triangle in doubt (dirty, violated) is in that set
-// whatever its sign is, as in the search for pairs.
+// The view set of a triangle over a step. A triangle in doubt is `dirty` or `violated` whatever its
+// sign is, as in the search for pairs.
 enum class ViewSet : std::uint8_t { none, positive, negative, zero, dirty, violated };
 
 // Names and colours in the order of ViewSet. The colours are mid-tones for light and dark grounds
@@ -105,8 +107,8 @@ inline constexpr std::array<const char*, 6> view_set_names = {"none", "V+",    "
 inline constexpr std::array<const char*, 6> view_set_colours = {"#9aa0a6", "#56b4e9", "#e69f00",
                                                                 "#f0e442", "#cc79a7", "#d55e00"};
 
-// The set of a triangle; `none` if the step has no view sets. A triangle that is both touched by a
-// ghost and dirty counts as violated.
+// Returns the set of a triangle; `none` if the step has no view sets. A triangle that is both
+// touched by a ghost and dirty counts as violated.
 inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle) {
   if (triangle >= result.signs.size()) return ViewSet::none;
   const std::uint8_t doubt = triangle < result.doubts.size() ? result.doubts[triangle] : 0;
@@ -118,16 +120,16 @@ inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle
                                                 : ViewSet::zero;
 }
 
-// Runs a stored case through the detector that failed on it, to show what it does there.
+// Runs a stored case through the detector that failed on it, to show its answers.
 
 class SceneMaker {
  public:
-  // `detector` is nothing for a plug-in whose library is not known. If a library is no longer
-  // there, the scenes only lack the detector's part.
+  // `detector` is nothing for a plug-in whose library is not known. If a library no longer exists,
+  // the scenes only lack the detector's part.
   explicit SceneMaker(const std::optional<DetectorWords>& detector);
 
-  // The scene of a case, in the configuration that the case's options state (a plug-in has one).
-  // Nothing if a coordinate is beyond the detector's contract.
+  // Returns the scene of a case, in the configuration that the case's options state (a plug-in has
+  // one). Returns nothing if a coordinate is beyond the detector's contract.
   std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
 
   // Writes the picture of a case beside its file, as .svg in place of .json. Writes none for a
@@ -141,7 +143,7 @@ class SceneMaker {
   std::string absent_;  // why the plug-in is not run
 };
 
-// "mesh.svg" for "mesh.json", "mesh.x.svg" for "mesh.x".
+// Returns "mesh.svg" for "mesh.json", "mesh.x.svg" for "mesh.x".
 std::string picture_file(const std::string& case_file);
 
 // A mesh of more triangles than this is too much for a picture and its reader.
@@ -149,17 +151,18 @@ inline constexpr Eigen::Index most_shown_triangles = 2000;
 
 // Draws a failing mesh as a small picture, for those who see only the log.
 
-// SVG 1.1 without script, style sheet or background: an isometric projection of the mesh at the
-// time of its contact, seen from the side that shows most of the failing pair. Triangles have the
-// colours of their view sets; if the detector shows none, the two of the pair have a colour each,
-// and the others are grey. The pair is outlined and numbered, ghosts are dashed, and the contact is
-// a disc (exact) and a ring (the detector's): two of these and the segment between them where the
-// nearest points are apart. `title` stands below, and the distance where one is asked for.
+// Returns SVG 1.1 without script, style sheet or background: an isometric projection of the mesh at
+// the time of its contact, seen from the side that shows most of the failing pair. Triangles have
+// the colours of their view sets; if the detector shows none, the two of the pair have a colour
+// each, and the others are grey. The pair is outlined and numbered, ghosts are dashed, and the
+// contact is a disc (exact) and a ring (the detector's). If the nearest points are apart, each has
+// its own mark, with a segment between them. `title` stands below, and also the distance if the
+// contract asks for one.
 // O(n log n) in the triangles.
 std::string mesh_svg(const CaseScene& scene, const std::string& title);
 
-// The same contact as a strip of three such pictures from one side: where the step begins, where
-// the two meet, where it ends. Dashes show the ways of the vertices that move. `title` is told to
+// Returns the same contact as a strip of three such pictures from one side: at the start of the
+// step, at the contact, at the end. Dashes show the ways of the vertices that move. `title` is for
 // readers who do not see the picture. REQUIRES a step.
 std::string strip_svg(const CaseScene& scene, const std::string& title);
 

@@ -1,11 +1,11 @@
-// What calls from Python have in common: problems of the other rooms as exceptions, ctrl-C during
-// work that does not hold the interpreter, and arrays of NumPy: as the views that the detector
-// reads, without a copy if their layout allows a view, and as its results.
+// Common parts of calls from Python: problems of the other rooms as exceptions, ctrl-C during work
+// that does not hold the interpreter, and arrays of NumPy, both as input of the detector, without a
+// copy if their layout allows a view, and as its results.
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
-// arrays too. Everything else is converted once by assay/arrays.py, or refused there with its
-// dtype and shape.
+// arrays too. assay/arrays.py converts any other array once, or refuses it with its dtype and
+// shape.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -36,17 +36,17 @@ namespace assay::python {
   raise_input_error(detector::name_of(problem.error), problem.message);
 }
 
-// Asks Python now and then whether a signal has come, such as that of ctrl-C. A clock decides how
-// often it asks, because asking waits for the interpreter. Only the thread that made this object
-// asks; others may help with the work. REQUIRES that the interpreter is held when this object is
-// made and when raise() is called; it is released in between.
+// Asks Python now and then whether a signal has arrived, such as that of ctrl-C. A clock decides
+// how often it asks, because asking waits for the interpreter. Only the thread that made this
+// object asks; others may help with the work. REQUIRES that the interpreter is held when this
+// object is made and when raise() is called; it is released in between.
 class Interruption {
  public:
   detector::StopFunction stop_function() {
     return [this] { return check(); };
   }
 
-  // Raises what the handler of the signal has raised; for ctrl-C that is KeyboardInterrupt.
+  // Raises the exception of the signal's handler; for ctrl-C that is KeyboardInterrupt.
   void raise() const {
     if (raised_) throw pybind11::error_already_set(*raised_);
   }
@@ -59,7 +59,7 @@ class Interruption {
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
     if (PyErr_CheckSignals() == 0) return false;
-    // It is kept here, because what is called until the work has ended must not find it.
+    // The exception is kept here, because calls before the end of the work must not find it.
     raised_ = std::make_unique<pybind11::error_already_set>();
     return has_come_ = true;
   }
@@ -70,8 +70,8 @@ class Interruption {
   std::atomic<bool> has_come_ = false;
 };
 
-// Returns work(stop), during which other threads of Python may run, or raises what ctrl-C raised
-// meanwhile.
+// Returns work(stop), during which other threads of Python may run, or raises the exception of a
+// ctrl-C meanwhile.
 template <class Work>
 auto interruptible(const Work& work) {
   Interruption interruption;
@@ -92,7 +92,7 @@ class RowsArgument {
   // `name` is that of the argument, for errors. Raises TypeError and ValueError.
   RowsArgument(const pybind11::object& object, const char* name);
 
-  // Valid as long as this object, which holds the array.
+  // Returns a view that is valid as long as this object, which holds the array.
   View view() const;
 
  private:
@@ -116,7 +116,7 @@ class QueriesArgument {
   pybind11::array array_;
 };
 
-// An array of the vector's elements, which owns them and is not writeable.
+// Returns an array of the vector's elements, which owns them and is not writeable.
 template <class Number, class Element>
 pybind11::array array_of(std::vector<Element> elements) {
   static_assert(sizeof(Number) == sizeof(Element));
@@ -142,13 +142,13 @@ pybind11::array owning_array(Matrix matrix) {
   return pybind11::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
 }
 
-// Answers by the names of the fields of assay.StepResult: `answer`, `first` (none without a
-// collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the kind of the
-// feature pair that has the first time (FeatureKind), and its vertices.
+// Returns the answers by the names of the fields of assay.StepResult: `answer`, `first` (none
+// without a collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the
+// kind of the feature pair that has the first time (FeatureKind), and its vertices.
 pybind11::dict arrays_of(detector::Answer answer, const detector::TimeEnclosure& first,
                          const std::vector<detector::PairContact>& contacts);
 
-// All fields of a result. REQUIRES that it is no error.
+// Returns all fields of a result. REQUIRES that it is no error.
 pybind11::dict arrays_of(detector::StepResult result);
 
 }  // namespace assay::python

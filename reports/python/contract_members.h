@@ -1,4 +1,4 @@
-// The words of claims and contracts in Python, and what they mean in the plug-in interface.
+// Maps the words of claims and contracts in Python to the plug-in interface.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -18,7 +18,8 @@ inline pybind11::tuple claim_words() {
   return words;
 }
 
-// The words of each member in the order of their numbers; none of a number.
+// Returns the words of each member in the order of their numbers; none for a member that is a
+// number.
 inline pybind11::dict words_of_members() {
   pybind11::dict members;
   assay_description description = {};
@@ -34,7 +35,8 @@ inline pybind11::dict words_of_members() {
   return members;
 }
 
-// Takes over the members, of which `described` of assay/hosting.py has made numbers of words.
+// Sets the members of the description. `described` of assay/hosting.py has turned their words into
+// numbers.
 inline void set_contract(assay_description& description, const pybind11::dict& numbers) {
   properties::Contract contract;
   visit_members(description, contract, [&]<class T>(const char* name, T& member, const auto&) {

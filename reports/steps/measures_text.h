@@ -1,5 +1,5 @@
-// What was measured of a run, in words and as JSON: what a plug-in does whatever it claims, up to
-// which size its claims were tried, how planted faults were found.
+// Renders the measures of a run in words and as JSON: those of a plug-in, whatever it claims, the
+// sizes up to which its claims were tried, and how planted faults were found.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,31 +9,32 @@
 
 namespace assay::reports {
 
-// A row for each stratum and one for all of them: false alarms with their interval, misses,
-// spurious pairs, how late and how early times are, what the contract leaves out. Then the claims
-// that were not judged. Empty for the built-in detector.
+// Returns a row for each stratum and one for all of them: false alarms with their interval, misses,
+// spurious pairs, how late and how early times are, and how much the contract leaves out. Then the
+// claims that were not judged. Empty for the built-in detector.
 std::string measures_text(const properties::RunFindings& findings);
 
-// The same for a few steps, in words: "1 of 2 free steps answered collision; 28874 spurious pairs;
-// ...". Empty if there is nothing to say.
+// Returns the measures of a few steps, in words: "1 of 2 free steps answered collision; 28874
+// spurious pairs; ...". Empty if there is nothing to say.
 std::string measures_sentence(const properties::StepMeasures& measures);
 
-// Of `judged_up_to`, `tried` and `power` of a predicate (certificate/statement.h).
+// The next three functions take `judged_up_to`, `tried` and `power` of a predicate
+// (certificate/statement.h).
 
-// "meshes of up to 2048 triangles", or, where they differ, "meshes of up to 2048 triangles
+// Returns "meshes of up to 2048 triangles", or, if sizes differ, "meshes of up to 2048 triangles
 // (free-sound, total), of up to 60 (deterministic)". Empty if there are none.
 std::string sizes_text(const nlohmann::ordered_json& judged_up_to);
-// "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5 components, 812
-// pairs in a step, 200 triangles; relations: 0 cases".
+// Returns "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5
+// components, 812 pairs in a step, 200 triangles; relations: 0 cases".
 std::string extremes_text(const nlohmann::ordered_json& extremes);
-// "72 by random cases, 44 by their curated case alone".
+// Returns "72 by random cases, 44 by their curated case alone".
 std::string found_text(const nlohmann::ordered_json& power);
 
-// The columns of one row, without its name: of steps, or of queries, which have no pairs.
+// Returns the columns of one row, without its name: for steps, or for queries, which have no pairs.
 std::string measures_row(const properties::StepMeasures& measures, bool of_queries);
 std::string measures_head(bool of_queries);
 
-// What the steps of a plug-in came to, as JSON (`measures` of a certificate's stratum).
+// Returns the measures of a plug-in's steps as JSON (`measures` of a certificate's stratum).
 nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
 }  // namespace assay::reports

@@ -1,5 +1,5 @@
-// A verb and its options, as the verb's own file states them to CLI11, and the options that several
-// verbs have. CLI11 takes six seconds to compile, so only verbs include this.
+// Adds a verb and its options to CLI11, from the verb's own file, and the options that several
+// verbs share. CLI11 takes six seconds to compile, so only verbs include this.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,16 +16,16 @@
 
 namespace assay::reports {
 
-// The titles under which the options of a verb stand: the second one, if an option states none.
+// The titles of the groups of a verb's options. An option that states none stands under the second.
 struct OptionGroup {
   static constexpr const char *input = "Input", *question = "What is asked",
                               *detector = "The detector", *limits = "Limits and threads",
                               *output = "What is written";
 };
 
-// Adds an option with what stands behind it ("--out DIR"), or a word without one ("FILE"). The
-// target, which must outlive the parsing, keeps its value if the option is not given. It may be a
-// function instead, which is called with the word once that has passed the checks.
+// Adds an option with its word ("--out DIR"), or a word without an option ("FILE"). The target must
+// outlive the parsing, and keeps its value if the option is not given. If it is a function, it is
+// called with the word once the word has passed the checks.
 template <class Target>
 CLI::Option* add(CLI::App& verb, const std::string& name, Target&& target,
                  const std::string& about) {
@@ -39,17 +39,17 @@ CLI::Option* add(CLI::App& verb, const std::string& name, Target&& target,
   return option->type_name(blank == std::string::npos ? "" : name.substr(blank + 1));
 }
 
-// The options of the command line as help names them ("--out DIR"), once it is parsed.
+// Returns the options of the parsed command line as help names them ("--out DIR").
 std::vector<std::string> given_options(const CLI::App& verb);
 
-// A verb of the command line: its name, and what it does once the command line is parsed, which
+// A verb of the command line: its name, and its action once the command line is parsed, which
 // returns the exit code.
 struct VerbAction {
   std::string name;
   std::function<int()> act;
 };
 
-// A verb with what its manual says.
+// Adds a verb with the text of its manual.
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& about);
 
 // Makes a verb with these options and this action, which returns the exit code, or the problem with
@@ -67,8 +67,8 @@ VerbAction make_verb(CLI::App& app, const char* name, const char* about,
           }};
 }
 
-// An option whose word is one of `words`, or has the form that the option's name tells ("--why
-// A,B"). Its target stays as it is if the option is not given.
+// Adds an option whose word is one of `words`, or has the form in the option's name ("--why A,B").
+// The target keeps its value if the option is not given.
 template <class Target, class Parse>
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, Target& target,
                         const std::string& words, Parse parse, const std::string& about) {
@@ -80,20 +80,21 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, Target& target,
       ->check(one_of(words, parse));
 }
 
-// The options --jobs (all cores, unless told otherwise) and --seed.
+// Add the options --jobs (default: all cores), --time, --memory and --seed.
 void add_jobs(CLI::App& verb, int& jobs);
-// The options --time and --memory of a verb that does its work in this process (work.h).
+// --time and --memory are for a verb that does its work in this process (work.h).
 void add_limits(CLI::App& verb, std::optional<double>& seconds,
                 std::optional<std::uint64_t>& bytes);
 void add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& about);
-// The option --part: which part of a plug-in a campaign is about.
+// Adds the option --part: the part of a plug-in that a campaign is about.
 void add_part(CLI::App& verb, DetectorPart& part);
-// The options --detector, --isolation and --threads. Returns the option --detector.
+// Adds the options --detector, --isolation and --threads. Returns the option --detector.
 CLI::Option* add_detector(
     CLI::App& verb, DetectorWords& detector,
     const std::string& about =
         "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-// The same without --threads, and --threads alone, for a verb that takes all cores if it is 0.
+// Add the same options without --threads; and --threads alone, for a verb that takes all cores if
+// it is 0.
 CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about);
 void add_threads(CLI::App& verb, std::uint64_t& threads);
 

@@ -1,5 +1,5 @@
-// Words as text: with characters replaced, joined to one line, or as a command that can be pasted;
-// and which program this is.
+// Turns words into text: replaces characters, joins words to one line, makes commands that can be
+// pasted; and names this program's version.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,14 +12,14 @@
 
 namespace assay::reports {
 
-// Writes characters that have a meaning in a format in the way in which that format wants them: the
-// text in which each character that is a key of `characters` is replaced by its value.
+// Returns the text with each character that is a key of `characters` replaced by its value, as
+// formats demand for characters that have a meaning in them.
 std::string replace(std::string_view text, const std::map<char, std::string_view>& characters);
 
-// The text escaped for XML, with characters that XML 1.0 does not take replaced.
+// Returns the text escaped for XML, with characters that XML 1.0 does not allow replaced.
 std::string xml_escaped(const std::string& text);
 
-// The items of a list as one line of text, with `between` between them.
+// Returns the items of a list as one line of text, with `between` between them.
 template <class List>
 std::string join(const List& list, const char* between) {
   std::string text;
@@ -27,34 +27,34 @@ std::string join(const List& list, const char* between) {
   return text;
 }
 
-// The word itself, or the word in quotes if a shell would read it as something else.
+// Returns the word itself, or the word in quotes if a shell would read it otherwise.
 std::string shell_word(const std::string& word);
 
-// Where a line is to be pasted.
+// The folder in which a line is to be pasted.
 enum class PastePlace : std::uint8_t { this_folder, any_folder };
 
-// A line that runs this program, to be pasted into a shell: the program, then `words`, which are
-// shell_words, and for any folder with absolute_paths. The program is "assay" if that is what a
-// shell finds on the PATH, else its path: in this folder "build/release/assay" if it lies below. A
-// line for any folder goes to this one first if it names a detector in Python, which lies here.
-// Every line to paste is made here or is the next, but for those that a certificate or a page
-// holds: they begin with "assay" on every machine.
+// Returns a line that runs this program, to be pasted into a shell: the program, then `words`,
+// which must be shell_words, and for any folder must have absolute_paths. The program is "assay" if
+// a shell finds this program on the PATH by that name, else its path: in this folder
+// "build/release/assay" if it lies below. A line for any folder changes to this folder first if it
+// names a detector in Python, which lies here. All lines to paste come from this function or the
+// next, except those in a certificate or a page, which begin with "assay" on every machine.
 std::string line_to_paste(const std::string& words, PastePlace place = PastePlace::any_folder);
 
-// The whole command as it was typed, with all of its inputs. For any folder it goes to this one
-// first, and leaves out the options that say what is written where.
+// Returns the whole command as it was typed, with all of its inputs. For any folder it changes to
+// this one first, and leaves out the options for output files.
 std::string this_command(PastePlace place);
 
-// The path of the same file that can be used from any folder; empty for none. The word of a
-// detector in Python stays as it is.
+// Returns the path of the same file that can be used from any folder; empty for an empty path. The
+// word of a detector in Python stays as it is.
 std::string absolute_path(const std::filesystem::path& path);
 
-// The commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed. Empty if
-// the program was built outside of a git repository.
+// Returns the commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed.
+// Empty if the program was built outside of a git repository.
 std::string commit_text();
 
-// "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
-// on.
+// Returns "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries on which its
+// answers rest.
 std::string version_text();
 
 }  // namespace assay::reports

@@ -1,6 +1,6 @@
-// The work of a verb: how it ends, with an exit code, and where it cannot go on with one line on
-// stderr that says why; the limits of time and memory that a user sets; lines that show how far
-// long work has come; and the files that it writes.
+// The work of a verb: its exit codes, and the one line on stderr if it must give up; the limits of
+// time and memory that a user sets; lines that show the progress of long work; and the files that
+// it writes.
 #pragma once
 
 #include <boost/outcome/try.hpp>
@@ -22,7 +22,7 @@ namespace assay::reports {
 enum ExitCode : int {
   exit_holds = 0,      // all claims hold
   exit_defect = 1,     // detector and oracle (or truth, or expected facts) differ
-  exit_usage = 2,      // usage or input error: one line on stderr, nothing else
+  exit_usage = 2,      // usage or input error: only one line on stderr
   exit_undecided = 3,  // a step ended at a limit
   exit_unsound = 4,    // the harness failed a check of itself
   exit_collision = 5,  // with --fail-on-collision: agreement, and a collision
@@ -36,40 +36,40 @@ namespace outcome = boost::outcome_v2;
 // Prints "assay: LINE" on stderr, with control characters replaced and cut at 1,000 bytes, and
 // returns exit_usage. Never throws, whatever stderr is.
 int refuse(const std::string& line) noexcept;
-// The same for the problem's line.
+// Refuses with the problem's line.
 int refuse(const Problem& problem) noexcept;
 
-// Whether all that was printed reached stdout; if not, says so on stderr.
+// Returns whether all output reached stdout; if not, says so on stderr.
 bool output_was_written() noexcept;
 
-// For work that keeps what it has and can go on later: from now on SIGINT and SIGTERM end the
-// program with `code`, once `line` is printed. REQUIRES that no thread has started yet; threads
-// started later leave the two signals to the program. Workers are not affected: a ctrl-C in a
-// terminal does not reach them, and they block nothing (properties/worker/child_process.h). A
-// signal that is ignored stays ignored.
+// Makes SIGINT and SIGTERM end the program with `code`, once `line` is printed; for work that
+// stores its results and can go on later. REQUIRES that no thread has started yet; threads started
+// later leave the two signals to the program. Workers are not affected: a ctrl-C in a terminal does
+// not reach them, and they block no signal (properties/worker/child_process.h). A signal that is
+// ignored stays ignored.
 void end_when_interrupted(const std::string& line, int code);
 
-// Work that reaches a limit ends as `undecided`. Time is processor time, so that what is decided
-// does not depend on what else the machine does.
+// Limits of work. Work that reaches a limit ends as `undecided`. Time is processor time, so that
+// the decision does not depend on the load of the machine.
 class Limits {
  public:
   // Limits the processor time from now on, of all threads of this process together (two working
   // threads use it up in half the time on the wall), and the resident memory of this process.
   Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes);
 
-  // Whether a limit is reached. Asks the clock and the system, in less than 1 us if only time is
-  // limited, and remembers the first limit reached.
+  // Returns whether a limit is reached. Asks the clock and the system, in less than 1 us if only
+  // time is limited, and remembers the first limit reached.
   bool exceeded();
-  // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
+  // Returns "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
   const std::string& limit_text() const { return limit_text_; }
-  // Whether what was reached is a limit of memory, the user's or the machine's.
+  // Returns whether the limit reached is one of memory, the user's or the machine's.
   bool is_out_of_memory() const { return is_out_of_memory_; }
   // Notes that an allocation failed.
   void memory_failed();
 
   detector::StopFunction stop_function();
 
-  // What this process does while there is one of these takes none of the time.
+  // While a Pause exists, the time limit does not run.
   class Pause {
    public:
     explicit Pause(Limits& limits);
@@ -90,7 +90,7 @@ class Limits {
   bool is_out_of_memory_ = false;
 };
 
-// On the wall clock.
+// Returns the seconds on the wall clock.
 inline double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -101,7 +101,7 @@ struct TimedAnswer {
   double milliseconds = 0;  // wall clock
 };
 
-// Returns what `ask` answers, or an empty answer if memory fails.
+// Returns the answer of `ask`, or an empty answer if memory fails.
 template <class Ask>
 auto answer_in(Limits& limits, const Ask& ask) {
   const auto begin = std::chrono::steady_clock::now();
@@ -115,12 +115,12 @@ auto answer_in(Limits& limits, const Ask& ask) {
   return answer;
 }
 
-// Resident memory of this process, and the most that it ever was.
+// Return the resident memory of this process, and the most that it ever was.
 std::uint64_t resident_bytes();
 std::uint64_t peak_resident_bytes();
 
-// A line of text on `out`. On a terminal it is rewritten in place; elsewhere, such as in a log, a
-// line is added now and then, with `between_lines` between two.
+// Shows a line of text on `out`. On a terminal the line is rewritten in place; elsewhere, such as
+// in a log, a line is added now and then, at intervals of at least `between_lines`.
 class PlainProgress {
  public:
   explicit PlainProgress(std::string title, std::FILE* out = stdout,
@@ -129,9 +129,9 @@ class PlainProgress {
   PlainProgress(const PlainProgress&) = delete;
   PlainProgress& operator=(const PlainProgress&) = delete;
 
-  // Whether the last text was shown long enough ago for another: 0.2 s on a terminal.
+  // Returns whether the last text was shown long enough ago: 0.2 s on a terminal.
   bool is_due() const;
-  // Shows the text if one is due.
+  // Shows the text if is_due().
   void show(const std::string& text);
   // Removes the line from a terminal. It may be called again; the destructor calls it too.
   void finish();
@@ -145,7 +145,7 @@ class PlainProgress {
   std::chrono::steady_clock::time_point last_;
 };
 
-// On stderr, the phase of the work and the seconds that all of it has taken so far.
+// Shows on stderr the phase of the work and the seconds that all of it has taken so far.
 class Progress {
  public:
   explicit Progress(std::string title,
@@ -162,21 +162,21 @@ class Progress {
   std::chrono::steady_clock::time_point begin_;
 };
 
-// Files that a verb writes: whole, or not at all.
+// Writes the files of a verb: whole, or not at all.
 
-// Whether a file can be written at each of these paths (empty: no file is wanted). Fails for a
+// Checks that a file can be written at each of these paths (empty: no file is wanted). Fails for a
 // folder, a device, one of the inputs, a file that is named twice, and a place without permission.
 // Called before the work, so that no work is lost.
 Expected<void> may_write(const std::vector<std::string>& outputs,
                          const std::vector<std::string>& inputs = {});
 
-// Makes the folder if it is not there (empty: no folder is wanted), and looks whether these files
-// of it can be written. Called before the work in the same way.
+// Makes the folder if it does not exist (empty: no folder is wanted), and checks that these files
+// in it can be written. Called before the work, too.
 Expected<void> may_fill(const std::string& folder, const std::vector<std::string>& files = {});
 
 // Writes the whole file, or leaves the old one as it is.
 Expected<void> write_text_file(const std::string& path, const std::string& text);
-// Writes JSON in the same way, indented by one; bytes that are no UTF-8 are replaced.
+// Writes JSON like write_text_file, indented by one; bytes that are no UTF-8 are replaced.
 Expected<void> write_json_file(const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace assay::reports

@@ -1,8 +1,8 @@
 // The verbs of the command line.
 //
-// There is one file for each verb: NAME_command.cpp holds what is asked of it (its request), its
-// options and what it does, so that a new option is a change of one file. `certify` stands beside
-// `run`, whose shares are certified, and what `check` does of query files in check_queries.cpp.
+// There is one file for each verb: NAME_command.cpp holds its request, its options and its action,
+// so that a new option changes one file. `certify` stands beside `run`, because it certifies the
+// shares of `run`; the part of `check` for query files is in check_queries.cpp.
 #pragma once
 
 #include "properties/queries/query_methods.h"
@@ -24,16 +24,16 @@ VerbAction add_self_test(CLI::App& app);
 VerbAction add_shrink(CLI::App& app);
 VerbAction add_verify(CLI::App& app);
 
-// What `check` is asked of query files.
+// The question to `check` about query files.
 struct QueryQuestion {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one for each file
   const properties::QueryMethod* method = properties::method_of("oracle");
-  std::optional<double> separation;  // of the queries whose rows say none
+  std::optional<double> separation;  // of queries whose rows state none
   DetectorWords detector;
   std::string json_file;
 };
-// --truth and --method.
+// Adds --truth and --method.
 void add_query_options(CLI::App& verb, QueryQuestion& question);
 Expected<int> check_queries(const QueryQuestion& question);
 
