@@ -1,4 +1,4 @@
-// Wrong elementary tests: contacts that are not seen, times that are not right.
+// Wrong elementary tests: missed contacts and wrong times.
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,4 +1,5 @@
-// Wrong beliefs about what is clean at the start of a step: by view (L5), by layers (L9).
+// Wrong beliefs about which triangles are clean at the start of a step: by view (L5), by layers
+// (L9).
 #include <algorithm>
 
 #include "detector/geometry/winding.h"

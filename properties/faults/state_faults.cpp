@@ -1,4 +1,4 @@
-// Wrong beliefs about what a step leaves clean (L8), and wrong releases (L9).
+// Wrong beliefs about which triangles a step leaves clean (L8), and wrong releases (L9).
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 // Wrong view tests.
 //
-// From a point: here f = (p0 - q).N is a cubic in t, and every short cut looks at less than all of
-// it (L2).
+// From a point: f = (p0 - q).N is a cubic in t, and every short cut here ignores a part of it (L2).
 
 #include "detector/exact/bernstein.h"
 #include "detector/geometry/winding.h"

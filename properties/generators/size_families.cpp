@@ -1,9 +1,10 @@
 // The families of one size each. Shapes take turns by the index of the case, so that a few cases
 // show all of them.
 //
-// A shape fills an empty draft with about `triangles` triangles, at least 100, and says where the
-// vertices are at the end of its one motion. Lengths of edges are of the order of 1, but where a
-// shape says otherwise. Each starts without contact, so that every contract with a start takes it.
+// A shape fills an empty draft with about `triangles` triangles, at least 100, and states the
+// places of the vertices at the end of its one motion. Lengths of edges are of the order of 1,
+// unless a shape says otherwise. Each starts without contact, so that every contract with a start
+// takes it.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

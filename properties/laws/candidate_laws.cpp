@@ -1,5 +1,6 @@
-// L3, L6 and L7: what K holds of the contacts of a step, what it may leave out, and what the
-// closure adds; and the claims of the detector. L13 and L14: what normal cones may leave out.
+// L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which the
+// closure adds; and the claims of the detector. L13 and L14: which pairs normal cones may leave
+// out.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// What else a detector is asked: what comes within a distance (L16), how far a step may be gone
-// (L17), and a step that is stopped.
+// Laws about further questions to a detector: which pairs come within a distance (L16), how far a
+// step may go (L17), and stopped steps.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// L8, L9 and L15: what is clean from step to step and at a new start. L11: what ghosts touch.
+// L8, L9 and L15: which triangles are clean from step to step and at a new start. L11: which
+// triangles ghosts touch.
 #include <fmt/format.h>
 
 #include <algorithm>

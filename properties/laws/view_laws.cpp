@@ -1,5 +1,5 @@
-// L1, L2, L4 and L5: the view function at a time, its signs over a step, and what follows when all
-// triangles have one sign.
+// L1, L2, L4 and L5: the view function at a time, its signs over a step, and the consequences if
+// all triangles have one sign.
 //
 // L1: the view function of a triangle is the clamp form, and it takes its extremes at the corners.
 

@@ -1,4 +1,4 @@
-// Moves of a mesh: its triangles, and how they hang together.
+// Moves of a mesh: of its triangles, and of their connections.
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -1,4 +1,4 @@
-// Moves of the steps of a case: where its frames are, and in which order they are taken.
+// Moves of the steps of a case: of the places of its frames, and of their order.
 #include <algorithm>
 #include <cmath>
 #include <utility>

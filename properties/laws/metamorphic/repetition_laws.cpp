@@ -1,4 +1,4 @@
-// The same step, asked for in another way.
+// Laws about the same step, asked for in another way.
 #include <fmt/format.h>
 
 #include <algorithm>

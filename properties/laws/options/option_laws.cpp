@@ -1,5 +1,5 @@
-// The claims of the detector, in a configuration that is drawn so that every two values of options,
-// question, state, mesh and size meet.
+// The claims of the detector, in configurations drawn so that all pairs of values of options,
+// question, state, mesh and size occur.
 #include <fmt/format.h>
 
 #include <algorithm>
