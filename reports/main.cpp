@@ -1,4 +1,4 @@
-// The command line. It finds the verb, and turns what goes wrong into one line and an exit code.
+// The command line. It finds the verb, and turns each problem into one line and an exit code.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>

@@ -175,9 +175,9 @@ struct Keeping {
   double shrink_seconds = 20;  // for each step on which the plug-in fails again
 };
 
-// Checks one mesh (check_run.h) and keeps failing steps. If the question names a plug-in of the
-// same code as the detector of the log, the plug-in is asked about each step alone, and the steps
-// on which it fails are shrunk.
+// Checks one mesh (check_run.h) and keeps failing steps. If the question names a plug-in, it is
+// asked about each failing step alone, and the steps on which it fails are shrunk. For a log, the
+// plug-in should be of the recorded code.
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);
 

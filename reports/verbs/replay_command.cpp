@@ -1,5 +1,5 @@
-// `assay replay` runs one case again, by its id or from its file, and tells what is known of a
-// pair in it.
+// `assay replay` runs one case again, by its id or from its file, and tells the facts about a pair
+// in it.
 #include <fmt/format.h>
 
 #include <algorithm>

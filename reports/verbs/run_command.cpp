@@ -1,6 +1,6 @@
-// `assay run` runs a campaign, or a share of one, and tells what it comes to. `assay certify` runs
-// the corpus, the campaign, the planted faults, the self-test and the measures of speed. Then it
-// writes the certificate.
+// `assay run` runs a campaign, or a share of one, and prints its result. `assay certify` runs the
+// corpus, the campaign, the planted faults, the self-test and the measures of speed. Then it writes
+// the certificate.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Suite `peers` compares those detectors of others that are there with the built-in one, and
-// `--detector` one plug-in.
+// Suite `peers` compares the available detectors of others with the built-in one; `--detector`
+// compares one plug-in.
 #include <fmt/format.h>
 
 #include <algorithm>

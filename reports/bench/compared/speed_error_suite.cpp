@@ -1,4 +1,4 @@
-// Suite `speed-error` measures what each arithmetic and culling costs, and what it gets wrong.
+// Suite `speed-error` measures the cost and the errors of each arithmetic and culling.
 #include <fmt/format.h>
 
 #include <algorithm>
