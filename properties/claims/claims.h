@@ -21,7 +21,7 @@
 namespace assay::properties {
 
 // Claims are judged by a StepDiff: how the detector and the oracle differ in a step, which pairs
-// the candidates of a broad phase lack, and what a limiter allows too much or too little.
+// the candidates of a broad phase lack, and whether a limiter allows too much or too little.
 
 enum class Claim : std::uint8_t;  // below
 
@@ -175,7 +175,7 @@ enum class Claim : std::uint8_t {
   // Of a limiter (L17), in steps that start without a contact.
   commit_free,  // the step to the positions that it allows has no contact
   path_free,    // the share that it allows is below t*
-  progress,     // that share is at least Contract::progress of the possible one (judge_limit)
+  progress,     // that share is Contract::progress times the possible one or more (judge_limit)
   whole,        // it allows a step without a contact to its very end
   // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. For a
   // detector that claims this, the other claims on times are read in the same strict way. Only the

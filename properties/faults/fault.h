@@ -39,7 +39,7 @@ struct Fault : PlantedStage {
   // which the reducer is measured; 0: none is known. The apexes of stated ghosts are counted. The
   // curated case of the fault may by now be smaller.
   int smallest_vertices = 0;
-  std::string_view about{};  // what is wrong, in a line
+  std::string_view about{};  // the mistake, in a line
   // Options of the detector in which the fault is planted. If a row of the registry states none:
   // view points, all pairs.
   detector::Options options{detector::Culling::view_point};

@@ -1,5 +1,5 @@
 // Compares one step of a detector with the oracle: the diff says how their answers differ, which
-// pairs the candidates of a broad phase lack, and what a limiter allows too much or too little.
+// pairs the candidates of a broad phase lack, and whether a limiter allows too much or too little.
 #pragma once
 
 #include <optional>

@@ -38,7 +38,7 @@ struct DetectorUnderTest {
   // Returns the claims on this case, which may be a query (query_case.h).
   Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
   // Returns the detector in this configuration alone. The contract of the built-in one depends on
-  // the configuration, because its options say what is asked.
+  // the configuration, because its options state the question.
   DetectorUnderTest in(const Configuration& configuration) const;
   // Returns the detector as it is asked in a stratum of this family.
   DetectorUnderTest in_stratum(std::string_view family) const;

@@ -127,7 +127,7 @@ void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Returns why step s has no answer; empty if no reason is known.
 std::string error_of(const CaseRun& run, std::size_t s);
 
-// Note that step s was refused as beyond the capacity, and return whether it was.
+// Record, and return, whether step s was refused as beyond the capacity.
 void note_capacity(CaseRun& run, std::size_t s);
 bool is_over_capacity(const CaseRun& run, std::size_t s);
 

@@ -81,7 +81,7 @@ class ChildProcess {
 };
 
 struct CopyRun {
-  std::string output;  // all text that the work told, even if it crashed later
+  std::string output;  // all text told by the work, even if it crashed later
   ChildEnd end;        // exited with code 0, if the work returned
 };
 

@@ -132,8 +132,8 @@ double quantile(std::vector<double> samples, double share);
 // are good to about 1 % of the interval's probability. O(2,000 n).
 Estimate bootstrap_median(std::vector<double> samples);
 
-// The same for the ratios a[i] / b[i] of measurements taken next to each other. REQUIRES equal
-// sizes.
+// Returns the median of the ratios a[i] / b[i] of measurements taken next to each other, with a
+// bootstrap interval. REQUIRES equal sizes.
 Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b);
 
 }  // namespace assay::reports

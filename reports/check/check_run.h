@@ -177,7 +177,7 @@ struct Keeping {
 
 // Checks one mesh (check_run.h) and keeps failing steps. If the question names a plug-in, it is
 // asked about each failing step alone, and the steps on which it fails are shrunk. For a log, the
-// plug-in should be of the recorded code.
+// plug-in should have the code of the recorded detector.
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);
 

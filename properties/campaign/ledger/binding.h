@@ -24,7 +24,7 @@ nlohmann::json json_of(const Contract& contract);
 // `own_cases` (SHA-256) if the run has own cases.
 std::string binding_of(const CampaignRequest& request);
 
-// The same, as types.
+// The members of a binding, as types.
 struct BoundDetector {
   struct Configuration {
     std::string name;

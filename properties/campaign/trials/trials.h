@@ -74,8 +74,8 @@ bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, st
 // Returns the configurations with start clean in place of start verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
-// Counts what a campaign counts of a case besides its outcome, for the built-in detector and for a
-// plug-in: extremes, tags, set pairs of contacts, and laws.
+// Counts the traits of a case, besides its outcome, for the built-in detector and for a plug-in:
+// extremes, tags, set pairs of contacts, and laws.
 
 // Measures the extremes of the cases on which a detector is tried. Nothing is known beyond them.
 

@@ -313,11 +313,11 @@ bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t compo
 TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone. At a new start that is dirty_at_a_new_start. Otherwise a triangle is dirty if it was in
-// doubt after the step before (dirty by this account, touched by a ghost, or in contact with its
-// own component), and is not now untouched and in the common layer. That layer is the one of the
-// triangles that are not in doubt; in a component without such triangles, it is the layer of most
-// untouched triangles.
+// alone. At a new start these are the triangles of dirty_at_a_new_start. Otherwise a triangle is
+// dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or in
+// contact with its own component), and is not now untouched and in the common layer. That layer is
+// the one of the triangles that are not in doubt; in a component without such triangles, it is the
+// layer of most untouched triangles.
 //
 // A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
 // caller vouched for the start; else those that were in doubt after the step before. REQUIRES
