@@ -360,9 +360,9 @@ std::string plan_text(const CampaignPlan& plan) {
 
 namespace {
 
-// Whether options of a run and the detector's parts make the plan of the named one: options limit a
-// case; a plug-in is not asked what the built-in detector is, and no relations where it takes none;
-// its query is judged beside the steps, or alone. Their times may differ: a campaign that was
+// Returns whether a run's options and its detector's parts turn the named plan `other` into this
+// one. Options limit a case; a plug-in is not asked question families, nor relations if it takes
+// none; its query is judged beside the steps, or alone. Times may differ: a campaign that was
 // stopped by --time keeps its name.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& other) {
   plan.seconds = 0;

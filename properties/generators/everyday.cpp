@@ -234,8 +234,8 @@ Draft ground(Random& random, bool is_closed) {
   return d;
 }
 
-// Something to fall, of about `size` triangles. What is lowest of it is at height 0, one vertex of
-// it at the origin: a vertex, an edge or a side; `lowest` names it.
+// Returns a falling piece of about `size` triangles. Its lowest part, a vertex, an edge or a side,
+// is at height 0, with one vertex at the origin; `lowest` names the vertices of this part.
 Draft faller(Random& random, bool is_closed, int size, std::vector<std::int32_t>& lowest) {
   Draft d;
   if (!is_closed && random.below(5) < 2) {

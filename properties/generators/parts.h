@@ -149,8 +149,8 @@ double units_beyond(double c, int units, double towards);
 // their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws how many units of the last place beyond a feature a motion ends: 0 in two of three draws,
-// else 1 to 16, or now and then 1 to 4 short of it.
+// Draws by how many units of the last place a motion ends beyond a feature: 0 in two of three
+// draws, else 1 to 16, or now and then 1 to 4 short of it.
 int units_at_a_feature(Random& random);
 
 // The numbers of one program, drawn once for a case.
@@ -222,12 +222,12 @@ detector::CountedPairs relation_without(LeftOut left_out, Random& random, const 
 
 // Bodies that are added to a case, far from its own.
 
-// Two triangles without a common vertex that come within a distance d, clearly or only just, or
-// only just do not. a0 a1 a2 rests, and b0 b1 b2 moves rigidly over a step. Their nearest features
-// lie in a known direction, so their distance is known without rounding. It is d, the double before
-// or after d, a share of 2^-20 less, or half of d; at the end of the step, at its start,
-// throughout, or only in the middle. The features are a vertex and a face, edge or vertex, or two
-// edges, crossing or parallel.
+// Two triangles without a common vertex that come well within a distance d, just within it, or just
+// not within it. a0 a1 a2 rests, and b0 b1 b2 moves rigidly over a step. Their nearest features lie
+// in a known direction, so their distance is known without rounding. It is d, the double before or
+// after d, a share of 2^-20 less, or half of d; at the end of the step, at its start, throughout,
+// or only in the middle. The features are a vertex and a face, edge or vertex, or two edges,
+// crossing or parallel.
 struct Approach {
   std::array<detector::MovingPoint, 3> a, b;
 };

@@ -49,8 +49,8 @@ struct DetectorUnderTest {
 // go, and which pairs come within 2^-6.
 DetectorUnderTest built_in_detector();
 
-// The part of a plug-in that is judged. `by_library`: all parts of the library, its steps or
-// candidates and its query.
+// The part of a plug-in that is judged. `by_library`: all parts that the library has: its steps (or
+// its candidates), and its query.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
 struct Subject {

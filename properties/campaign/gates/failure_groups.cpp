@@ -146,7 +146,7 @@ std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, 
   return contacts;
 }
 
-// What failures of this kind do.
+// Returns the deed of failures of this kind.
 std::string deed_of(const FailureRecord& failure) {
   const auto claim = from_name<Claim>(failure.claim);
   if (failure.flaky) return name_of(Deed::differs);
@@ -171,9 +171,9 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
   return std::nullopt;
 }
 
-// The traits of the contact that a failure lost: those of the oracle's contact of that pair that is
-// as the signature says; of a large mesh, where the oracle takes long, what the signature says.
-// What a signature leaves out is then not known: that of the built-in detector tells no cause.
+// Returns the traits of the contact that a failure lost: those of the oracle's contact of the pair
+// that fits the signature. For a large mesh, on which the oracle takes long, only the traits in the
+// signature are known; a signature of the built-in detector has no cause.
 Words traits_of(const FailureRecord& failure, const Contract& contract) {
   constexpr Eigen::Index most_triangles = 1000;
   Words words = words_in(failure.contact);
@@ -195,7 +195,7 @@ constexpr std::size_t most_traits = 64;
 
 bool holds(Traits all, Traits some) { return (all & some) == some; }
 
-// A kind of failure that loses a contact: what all of its contacts have in common.
+// A kind of failure that loses a contact, with the traits that all of its contacts share.
 struct LossKind {
   std::string signature;
   Traits traits = ~Traits{0};
@@ -204,8 +204,8 @@ struct LossKind {
 
 using LossKinds = std::vector<LossKind>;
 
-// Tells kinds that lose a contact apart by what sets their contacts apart from those that were
-// found.
+// Sorts the kinds that lose a contact by the traits that set their contacts apart from contacts
+// that were found.
 class Sorter {
  public:
   Sorter(LossKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> contacts)

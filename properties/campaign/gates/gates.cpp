@@ -12,8 +12,8 @@
 
 namespace assay::properties {
 
-// What each gate looks at (gates.h says when it holds) comes first, then who asks for it and what
-// it all comes to.
+// First the checks of each gate (gates.h says when it holds), then the requests of verbs, and the
+// verdict.
 
 namespace {
 

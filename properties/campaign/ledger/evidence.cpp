@@ -11,8 +11,8 @@ namespace assay::properties {
 
 namespace {
 
-// Throws StoreProblem if the row is not what to_row makes of what it says: then its key or its
-// progress are of something else.
+// Throws StoreProblem if the row differs from to_row of its fields: its key or its progress then
+// belong to other fields.
 template <class T>
 T fact_of(const Row& row) {
   T x;
@@ -22,7 +22,7 @@ T fact_of(const Row& row) {
   return x;
 }
 
-// What the row says becomes one of the list, or the only one, if the row is of its kind.
+// Adds the evidence in the row to the list, or sets the only one, if the row is of its kind.
 template <class Place>
 bool takes(Place& place, const Row& row) {
   using T = typename Place::value_type;
@@ -116,7 +116,7 @@ void append_new(std::vector<T>& list, const std::vector<T>& more) {
   }
 }
 
-// What all runs of one campaign have to say alike.
+// Merges evidence that must be the same in all runs of one campaign.
 template <class T>
 void join(std::optional<T>& only, const std::optional<T>& other) {
   if (only && other && to_row(*only) != to_row(*other))
@@ -124,7 +124,7 @@ void join(std::optional<T>& only, const std::optional<T>& other) {
   if (!only) only = other;
 }
 
-// Of one key both say something: `meet` makes the first of it.
+// Merges two lists. If both have an item of one key, `meet` merges the second item into the first.
 template <class T, class Meet>
 void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
   for (const auto& one : more) {

@@ -133,7 +133,7 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// Whether the contract has a contact tested, as far as the features tell that meet first.
+// Tells whether the contract lets a contact be tested, as far as the features that meet first show.
 class TestedContacts {
  public:
   TestedContacts(const Contract& contract, const corpus::Case& c)
@@ -159,7 +159,7 @@ class TestedContacts {
   std::optional<oracle::PairRelation> relation_;
 };
 
-// What the oracle would say of the step if the built-in detector, which answered so, is right.
+// Returns the oracle's judgement of the step if the built-in detector's result is right.
 oracle::StepJudgement truth_by(const detector::StepResult& result,
                                const TestedContacts& is_tested) {
   oracle::StepJudgement judgement;
@@ -252,8 +252,8 @@ class Repetitions {
     return run.limits[0]->positions;
   }
 
-  // `special` says what is special about the input, and is the cause of what fails on it; empty:
-  // the cause is that of each failure by itself.
+  // Judges an input. `special` names its special property, which becomes the cause of its failures;
+  // empty: each failure has a cause of its own.
   void judge_input(const corpus::Case& c, JudgedSteps steps, const char* special) {
     special_ = special;
     JudgedSource row{.source = Source::repeated,
@@ -291,8 +291,8 @@ class Repetitions {
     return run;
   }
 
-  // Whether some step has no answer because of the capacity: such a run says nothing of two runs.
-  // Whether the contract allows that is judged in the trials.
+  // Returns whether some step has no answer because of the capacity: such a run cannot be compared
+  // with another. Whether the contract allows the refusal is judged in the trials.
   static bool is_refused(const CaseRun& run) {
     for (std::size_t s = 0; s < run.steps.size(); ++s) {
       if (is_over_capacity(run, s)) return true;

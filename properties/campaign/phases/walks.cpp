@@ -34,7 +34,7 @@ void add_body(Draft& draft, Random& random, const Point& middle) {
     draft.faces.push_back({v + f[0], v + f[1], v + f[2]});
 }
 
-// What of a mesh moves: the rows from `first` on, by bodies of four corners.
+// The moving part of a mesh: the rows from `first` on, in bodies of four corners.
 struct Scene {
   corpus::Case c;
   Eigen::Index first_moving = corners_of_a_plate;

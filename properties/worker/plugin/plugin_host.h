@@ -69,7 +69,7 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api);
 // Returns the plug-in's description. Refuses one that makes no sense; the problem does not name the
 // library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
-// Returns the description of a detector with these parts. Refuses it likewise.
+// Returns the description of a detector with these parts. Refuses one that makes no sense.
 Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts);
 
 // Returns the result of a step. Its pairs are a < b, ascending, each once with its least time ([0,
