@@ -104,8 +104,8 @@ int print_help(const CLI::App& app) {
   return reports::exit_holds;
 }
 
-// One line that says what is wrong with the words of a verb. What was not expected goes first:
-// where an option is misspelt, that is why another one is missing.
+// Returns one line that says what is wrong with the words of a verb. Unexpected words are named
+// first: if an option is misspelt, that is why another one is missing.
 std::string complaint_of(const CLI::ParseError& wrong, const Words& unexpected,
                          const CLI::App& verb) {
   if (!unexpected.empty()) {
@@ -139,7 +139,7 @@ int run(const Words& words) {
   app.footer(reports::exit_codes_text());
   std::vector<reports::VerbAction> actions;
   for (const auto add_verb : verbs) actions.push_back(add_verb(app));
-  // These two are words in the list of verbs, and nothing is parsed of them.
+  // These two only stand in the list of verbs; they are not parsed as verbs.
   for (const auto& [word, about] :
        {std::pair("help", "This list; `assay help VERB` says what a verb does"),
         {"version", "This version, and those of the libraries that its answers rest on"}})
@@ -170,9 +170,9 @@ int run(const Words& words) {
 // The program may end at once, because a store is whole at any moment.
 constexpr const char* no_memory = "not enough memory for this input";
 
-// Some destructors allocate, such as those of nlohmann-json. Where they find no memory while the
-// exception that says so is on its way, the program would be ended by std::terminate. So there is
-// some memory for them alone.
+// Some destructors allocate, such as those of nlohmann-json. If they found no memory while
+// std::bad_alloc is on its way, std::terminate would end the program. So some memory is reserved
+// for them.
 std::atomic<void*> memory_for_destructors = nullptr;
 void find_memory() {
   void* const memory =

@@ -104,7 +104,7 @@ Json to_json(const BenchReport& report, const std::string& version) {
   }
   Json json = json_object("schema", "assay-bench/2", "version", version, "suite", report.suite,
                           "rows", rows);
-  // Every field is there in every suite.
+  // Every suite has every field.
   for (const std::string name :
        {"subjects", "families", "heat", "detector", "absent_peers", "unsafe_answers"}) {
     const auto figures = report.figures.find(name);

@@ -32,7 +32,7 @@ double mean_edge_length(const Triangles& triangles, const Positions& x) {
   return sum / (3 * static_cast<double>(triangles.rows()));
 }
 
-// The first step with a contact, and what the detector says of it; one beyond the last if there is
+// Returns the first step with a contact, and the detector's result; one beyond the last if there is
 // none.
 std::pair<std::size_t, StepResult> first_collision(const corpus::Sequence& sequence,
                                                    const Options& options,
@@ -99,7 +99,7 @@ constexpr PublicFiles public_files[] = {
 
 std::vector<BenchCase> real_sequences(const BenchSettings& settings,
                                       std::vector<std::string>& missing) {
-  // The first file that is not there is named.
+  // The first missing file is named.
   const auto is_there = [&](const std::filesystem::path& file) {
     std::error_code ignored;
     const bool exists = std::filesystem::exists(file, ignored);
@@ -167,8 +167,8 @@ CaseFamily generated_family(const properties::Family& family, const BenchSetting
 }
 
 // Takes four strengths from the weakest to the strongest, and a case of each kind. Crowds of more
-// than some hundred triangles, in which each meets each, are left out, because one such step takes
-// seconds.
+// than some hundred triangles, in which all triangles meet each other, are left out, because one
+// such step takes seconds.
 CaseFamily hard_family(const corpus::HardFamily& family, const BenchSettings& settings) {
   return {std::string(family.name), "hard", settings.rounds(5), [&family, settings] {
             constexpr Eigen::Index most_triangles = 600;

@@ -92,7 +92,7 @@ properties::CaseRun run_here(const corpus::Case& c, const SweptSubject& subject,
   return run;
 }
 
-// Of each round what `ms` takes of its times.
+// Returns for each round the time that `ms` takes from its times.
 template <class Ms>
 std::vector<double> each(const SweptRuns& runs, const Ms& ms) {
   std::vector<double> list;

@@ -20,8 +20,7 @@ namespace assay::reports {
 
 namespace {
 
-// Reads the public sequences. Refuses a folder in which none of them is there, or in which one
-// cannot be used.
+// Reads the public sequences. Refuses a folder that holds none of them, or one that cannot be used.
 Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) try {
   std::vector<std::string> missing;
   std::vector<corpus::Case> cases;
@@ -127,7 +126,7 @@ class CampaignTerminal : public properties::CampaignObserver {
   const Expected<void>& status() const { return status_; }
 
  private:
-  // What is long in a campaign of which much is undecided is mostly the wait for those cases.
+  // If much of a campaign is undecided, most of its time is the wait for those cases.
   std::string advice(const properties::TrialProgress& state) const {
     constexpr std::uint64_t share = 50;  // one in so many
     constexpr double short_limit = 1;

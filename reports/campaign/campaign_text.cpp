@@ -22,7 +22,7 @@ using properties::JudgedSource;
 using properties::RunFindings;
 using properties::Source;
 
-// A row for each family and configuration. If all configurations agree, they share one row.
+// Returns a row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
   constexpr const char* row = "{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n";
   // A plug-in's one configuration has its name, which may be long.
@@ -51,7 +51,8 @@ std::string strata_text(const RunFindings& findings) {
   return out;
 }
 
-// The trials that were killed from outside and ran again, and those that came near their limit.
+// Returns the trials that were killed from outside and ran again, and those that came near their
+// limit.
 std::string disturbance_text(const RunFindings& findings) {
   const auto& tally = findings.tally;
   std::string out;
@@ -69,8 +70,8 @@ std::string disturbance_text(const RunFindings& findings) {
   return out + (tally.near_limit.size() > most ? ", ...\n" : "\n");
 }
 
-// Nobody knows how close a plug-in came. Answers that differ in two forms of a case are allowed by
-// its claims.
+// Returns the table of laws. For a plug-in closeness is unknown; its claims allow some answers that
+// differ in two forms of a case.
 std::string laws_text(const RunFindings& findings) {
   const auto premises = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
   const bool built_in = findings.run.detector.built_in;
@@ -132,7 +133,7 @@ std::string faults_text(const RunFindings& findings, const Json& power) {
   return out + count + "\n";
 }
 
-// What the search found; empty if none was asked for.
+// Returns the results of the search; empty if none was asked for.
 std::string search_text(const RunFindings& findings) {
   const auto sum = findings.evidence.sum_of(Source::search);
   if (sum.planned == 0) return "";
@@ -153,7 +154,7 @@ std::string worlds_text(const RunFindings& findings) {
   return out;
 }
 
-// What was judged of the detector and what not, beside what its measures tell.
+// Returns what was judged of the detector and what was not, besides its measures.
 std::string judged_lines(const Json& p) {
   std::string out;
   const auto sizes = sizes_text(p["judged_up_to"]);

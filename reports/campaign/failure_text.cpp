@@ -59,7 +59,7 @@ std::string trial_text(const properties::RunFindings& findings,
 
 using properties::FailureRecord;
 
-// Writes the mesh of a failure and its smallest one, as far as they are there.
+// Writes the mesh of a failure and its smallest one, as far as they are stored.
 Expected<void> write_meshes(const FailureRecord& failure, const std::filesystem::path& out) {
   for (const bool smallest : {false, true}) {
     const auto& text = smallest ? failure.smallest : failure.mesh;
@@ -75,7 +75,7 @@ Expected<void> write_meshes(const FailureRecord& failure, const std::filesystem:
   return outcome::success();
 }
 
-// Draws the smallest of its meshes that is there.
+// Draws the smallest stored mesh of a failure.
 Expected<void> write_picture(SceneMaker& scenes, const FailureRecord& failure,
                              const std::filesystem::path& out) {
   const bool is_shrunk = !failure.smallest.empty();
@@ -87,7 +87,8 @@ Expected<void> write_picture(SceneMaker& scenes, const FailureRecord& failure,
 
 constexpr std::size_t kinds_shown = 10;
 
-// The shrunk ones first, and the least odd of these. The first of each signature stands for it.
+// Returns the failures, shrunk ones first, and the least odd first among these. The first failure
+// of a signature stands for it.
 std::vector<FailureRecord> in_order(std::vector<FailureRecord> failures) {
   std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
     return properties::LeastOddFirst()(a.signature(), b.signature());
@@ -107,13 +108,13 @@ std::size_t triangles_of(const FailureRecord& failure) {
   return c ? static_cast<std::size_t>(c.value().triangles.rows()) : 0;
 }
 
-// The size as it was met, and the smallest where that is another one: a query has none.
+// Returns the size as met, and the smallest size if it differs, as it does not for a query.
 std::string sizes_text(const FailureRecord& failure) {
   const auto first_size = size_of_mesh(failure.mesh), smallest = smallest_size(failure);
   return first_size == smallest ? first_size : first_size + " -> " + smallest;
 }
 
-// A kind of failure: one of its failures, in full.
+// Returns the text of one kind of failure: one of its failures, in full.
 std::string paragraph(const FailureRecord& failure, std::uint64_t trials,
                       const std::filesystem::path& out, const DetectorWords& detector) {
   const bool is_shrunk = !failure.smallest.empty();
@@ -159,7 +160,7 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
   for (const auto* kind : kinds) triangles[kind] = triangles_of(*kind);
   const auto smaller = [&](const auto* a, const auto* b) { return triangles[a] < triangles[b]; };
   std::stable_sort(kinds.begin(), kinds.end(), smaller);
-  // The smallest of each claim comes first, so that no broken claim is among the rest.
+  // The smallest failure of each claim comes first, so that no broken claim is left out.
   std::set<std::string> claims = {first.rule()};
   std::set<const FailureRecord*> first_of_a_claim;
   for (const auto* kind : kinds) {

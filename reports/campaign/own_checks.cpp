@@ -28,7 +28,7 @@ using properties::JudgedSource;
 using properties::Outcome;
 using properties::Source;
 
-// The cases of these files, or the first problem if one cannot be read.
+// Returns the cases of these files, or the first problem if one cannot be read.
 corpus::Expected<std::vector<corpus::Case>> read_cases(
     const std::vector<std::filesystem::path>& files) {
   std::vector<corpus::Case> cases;
@@ -71,8 +71,8 @@ JudgedSource check_facts(const std::vector<corpus::Case>& cases, Culling culling
   return row;
 }
 
-// The limits for the corpus. Its scenes are larger than the cases of a campaign, so their limit is
-// six times that of a case, but at most a minute.
+// Returns the limits for the corpus. Its scenes are larger than the cases of a campaign, so their
+// limit is six times that of a case, but at most a minute.
 properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
   constexpr double times = 6, most_seconds = 60;
   auto limits = request.worker_limits();
@@ -86,7 +86,7 @@ constexpr int most_hung_cases = 3;
 
 constexpr const char* row_format = "{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n";
 
-// Judges one input after another, and prints what each comes to.
+// Judges one input after another, and prints the result of each.
 class CorpusCheck {
  public:
   CorpusCheck(const properties::CampaignRequest& request, JudgedCorpus& result)
@@ -106,8 +106,8 @@ class CorpusCheck {
     add(std::move(rows));
   }
 
-  // Adds the rows of an input. If all configurations came to the same, and to nothing that has to
-  // be told, they share one line.
+  // Adds the rows of an input. If all configurations have the same result, with nothing to report,
+  // they share one line.
   void add(std::vector<JudgedSource> rows) {
     result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     const auto counts = [](const JudgedSource& row) {
@@ -239,7 +239,7 @@ using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
-// The time of the last step by the first options over that by the second, measured in turn.
+// Returns the time of the last step by the first options over that by the second, measured in turn.
 SpeedFigure figure_of(std::string_view name, const corpus::Sequence& steps, const Options& options,
                       const Options& beside) {
   const auto bench_case = timed_case(std::string(name), steps, detector::Start::clean);

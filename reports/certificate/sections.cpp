@@ -76,7 +76,7 @@ Json histogram(const std::map<int, std::uint64_t>& counts) {
   });
 }
 
-// What the row of a piece of evidence says of it, under the keys of
+// Returns the fields of a row of evidence, under the keys of
 // properties/campaign/ledger/evidence.cpp; but not its name.
 template <class T>
 Json facts_of(const T& evidence) {
@@ -85,7 +85,8 @@ Json facts_of(const T& evidence) {
   return facts;
 }
 
-// What the row of a source shows of each of its inputs; null if there is none.
+// Returns the members that the row of a source shows of each of its inputs; null if there is no
+// input.
 Json inputs_json(const RunFindings& findings, Source source) {
   Json inputs;
   for (const auto& row : findings.evidence.rows_of(source)) {
@@ -134,7 +135,7 @@ Json size_json(const std::string& text) {
   return json;
 }
 
-// What the cases were: sizes, contacts by view sets, tags.
+// Returns a description of the cases: sizes, contacts by view sets, tags.
 Json cases_json(const RunFindings& findings) {
   const auto& [strata, counts] = std::tie(findings.tally.strata, findings.tally.counts);
   const auto distribution = [](const auto& of) -> Json {
@@ -165,7 +166,7 @@ Json gates_json(const properties::Judgement& judgement) {
   });
 }
 
-// How many bounds hold together, the risk of each, and what they speak of.
+// Returns how many bounds hold together, the risk of each, and their subject.
 Json confidence_json(const RunFindings& findings) {
   return {{"family", properties::family_confidence},
           {"bounds", number_of_bounds(findings.run)},
@@ -261,7 +262,7 @@ Json self_test_json(const RunFindings& findings) {
           {"families", std::move(families)}};
 }
 
-// How many cases the search asked, and what it found; null if the campaign has none.
+// Returns how many cases the search asked, and its results; null if the campaign has no search.
 Json search_json(const RunFindings& findings) {
   const auto cases = findings.shares_of(findings.run.plan.search);
   if (cases == 0) return nullptr;
@@ -275,7 +276,7 @@ Json search_json(const RunFindings& findings) {
           {"causes", sum.causes}};
 }
 
-// What differs from one run to the next: times, and trials that somebody disturbed.
+// Returns the facts that differ from one run to the next: times, and disturbed trials.
 Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
   const bool is_issued = issued && !issued->at.empty();
@@ -324,7 +325,7 @@ Json failures_json(const RunFindings& findings) {
   return list;
 }
 
-// Those signatures by groups (properties/campaign/gates/gates.h).
+// Returns the signatures by groups (properties/campaign/gates/gates.h).
 Json failure_groups_json(const RunFindings& findings) {
   const auto kinds = findings.kinds().size();
   return each(properties::failure_groups(findings), [&](const auto& group) -> Json {
@@ -334,7 +335,7 @@ Json failure_groups_json(const RunFindings& findings) {
   });
 }
 
-// The isolation that held for everything, in every run.
+// Returns the isolation that held in every run.
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
   const auto& rows = findings.evidence.isolation;

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// Whether the stores are bound to the plan. The times of the plan do not count for that.
+// Returns whether the stores are bound to the plan. The times of the plan do not count.
 bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& plan) {
   auto json = plan;
   json.seconds = json.shrink_share = json.tetrahedron_seconds = 0;
@@ -53,7 +53,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), by);
 }
 
-// By the copy of each store in `out`, the store.
+// Maps the copy of each store in `out` to the store.
 using Copies = std::map<std::filesystem::path, std::filesystem::path>;
 
 // Refuses, before anything is written, runs that cannot be judged together.

@@ -19,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Writes a text as words of a paragraph or of a cell of a table. What a plug-in says becomes
-// neither HTML nor a link, a picture or code.
+// Writes a text as words of a paragraph or of a cell of a table. No text of a plug-in becomes HTML,
+// a link, a picture or code.
 std::string cell(const std::string& text) {
   static const std::map<char, std::string_view> replacements = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'\\', "\\\\"}, {'|', "\\|"},
@@ -95,7 +95,7 @@ std::string failures_text(const Json& p) {
   return out;
 }
 
-// The limits of a case, if they are not the usual ones.
+// Returns the limits of a case, if they are not the usual ones.
 std::string case_limits_text(const Json& plan) {
   const properties::CampaignPlan usual;
   std::string text;
@@ -178,8 +178,8 @@ bool gate_fails(const Json& p, std::string_view name) {
   });
 }
 
-// A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound
-// if the bounds are not met.
+// Returns a test for each stratum. It fails for the reason for which a gate fails: by its defects
+// if the claims do not hold, and by its bound if the bounds are not met.
 Tests strata_tests(const Json& p) {
   Tests tests;
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");

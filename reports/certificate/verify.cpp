@@ -26,8 +26,8 @@ using Lines = std::vector<std::string>;
 // An empty object or list is a leaf, as a number is.
 bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
-// Reports each leaf that only one side has, or that differs. A side that has nothing at this place
-// is null. Equal parts are passed over as a whole, so that no place is named in vain.
+// Reports each leaf that only one side has, or that differs. A side without a value at this place
+// is null. Equal parts are passed over as a whole, without naming their places.
 void compare_fields(const Json* theirs, const Json* ours, const Json::json_pointer& place,
                     Lines& lines) {
   const bool has_both = theirs != nullptr && ours != nullptr;
@@ -69,7 +69,7 @@ void compare_file(const std::filesystem::path& file, const std::string& sha256, 
   }
 }
 
-// The schema that the certificate names, if it is that of another version.
+// Returns the schema that the certificate names, if it is that of another version.
 std::optional<std::string> other_schema(const Json& statement) {
   const auto predicate = statement.find("predicate");
   if (predicate == statement.end() || !predicate->is_object()) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<std::string> other_schema(const Json& statement) {
   return is_version ? std::optional(text) : std::nullopt;
 }
 
-// The statement. Fails if it is seen already that it does not verify.
+// Reads the statement. Fails if the certificate already shows that it does not verify.
 Expected<Json> read_certificate(const std::filesystem::path& certificate) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(certificate, ignored))
@@ -164,7 +164,7 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   return library;
 }
 
-// Says what in this build keeps it from making the trials again. Empty if nothing does.
+// Returns why this build cannot make the trials again. Empty if it can.
 std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours) {
   if (certified.digests.generator != ours.digests.generator)
     return "the generator of this assay makes other cases than that of the certificate";

@@ -177,7 +177,7 @@ class CheckRun {
             is_at_rest_};
   }
 
-  // How large each body is; null if there are none.
+  // Returns the size of each body; null if there are none.
   nlohmann::ordered_json bodies_json() const {
     const auto* counted_pairs = steps_.counted();
     if (!counted_pairs || counted_pairs->body.empty()) return nullptr;
@@ -206,7 +206,7 @@ class CheckRun {
     return steps_.has(s);
   }
 
-  // Somebody may have noted a million.
+  // A log may have a million notes.
   void tell_note(std::size_t s, const std::string& note) {
     constexpr std::size_t most_told = 100;
     if (++notes_told_ <= most_told)
@@ -214,8 +214,8 @@ class CheckRun {
     if (notes_told_ == most_told) say("further notes are not shown\n");
   }
 
-  // What the report says of a step that is not judged, or null if it says nothing. Nothing if it is
-  // to be judged.
+  // Returns the report's entry for a step that is not judged, or null if it has none. Nothing if
+  // the step is to be judged.
   std::optional<nlohmann::ordered_json> leave_out(std::size_t s) {
     const auto why = answers_.left_out();
     if (!why) return std::nullopt;
@@ -315,7 +315,7 @@ class CheckRun {
     return json;
   }
 
-  // What is in contact in this step: it is named, reported and marked.
+  // Names, reports and marks the contacts of this step.
   void note_contacts(const corpus::SourceStep& step,
                      const std::vector<detector::PairContact>& pairs, Answer answer, bool is_shown,
                      nlohmann::ordered_json& json) {
@@ -338,7 +338,7 @@ class CheckRun {
     return !question_.no_oracle && (!steps_.counted() || steps_.counted()->count_all());
   }
 
-  // By vertex: the component of a mesh without bodies, where else its body stands.
+  // Returns by vertex its component, in place of its body, for a mesh without bodies.
   std::vector<std::int32_t> component_by_vertex() const {
     std::vector<std::int32_t> component(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
@@ -348,8 +348,8 @@ class CheckRun {
     return component;
   }
 
-  // Which bodies are inside of others in the first step that is judged, or which components of a
-  // mesh at rest: surfaces alone can meet.
+  // Tells which bodies, or components of a mesh at rest, are inside of others in the first judged
+  // step, because only surfaces can meet.
   void tell_nested(const corpus::SourceStep& step,
                    const std::vector<detector::PairContact>& pairs) {
     if (bodies_.empty() && !is_at_rest_) return;
@@ -375,7 +375,7 @@ class CheckRun {
       say(fmt::format("  ... {} more inside of others\n", nested_->size() - most_told));
   }
 
-  // Keeps the mesh at the first contact of all, or else where it ends.
+  // Keeps the mesh at the first contact of all, or else at its end.
   void mark(const corpus::SourceStep& step, const StepContacts& contacts) {
     if (std::any_of(is_marked_.begin(), is_marked_.end(), [](auto of) { return of != 0; })) return;
     is_marked_.assign(static_cast<std::size_t>(steps_.triangles().rows()), 0);
@@ -407,8 +407,8 @@ class CheckRun {
     return error.empty() ? "" : fmt::format("  {}\n", error);
   }
 
-  // Null if nobody asked for the report, because it takes more memory than what it tells. If a
-  // step ended at the limit of memory, the pairs that it found until then are left out for the
+  // Returns null if nobody asked for the report, because JSON takes more memory than the results.
+  // If a step ended at the limit of memory, the pairs that it found until then are left out for the
   // same reason.
   nlohmann::ordered_json json_of(detector::StepResult& result, const JudgedByOracle* oracle) const {
     if (!question_.wants_report) return nullptr;
@@ -443,7 +443,7 @@ class CheckRun {
   }
 
   void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
-    // Nobody knows the stages of a plug-in.
+    // The stages of a plug-in are unknown.
     if (diff.missing.empty() || answers_.is_plugin()) return;
     const auto& missing_pair = diff.missing.front();
     const std::string stage =
@@ -453,14 +453,14 @@ class CheckRun {
                     missing_pair.pair.b, bodies_.text(missing_pair.pair), stage));
   }
 
-  // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
+  // Returns whether the facts of the case are checked. They are facts for the built-in detector; a
   // plug-in is judged by the oracle alone.
   bool has_facts() const {
     return !answers_.is_recorded() && steps_.case_file() && !question_.no_oracle &&
            question_.detector.library.empty();
   }
 
-  // A case states what is true of it, so an answer that differs is a defect.
+  // Checks the facts of the case. They are true, so an answer that differs is a defect.
   void check_facts() {
     const auto check = properties::check_case(*steps_.case_file(), question_.built_in.culling,
                                               question_.jobs, question_.built_in.arithmetic);

@@ -25,7 +25,7 @@ namespace {
 
 using detector::TrianglePair;
 
-// A step that fails as many others do shows nothing new.
+// The most steps kept of one signature: a further one shows nothing new.
 constexpr int most_of_a_kind = 10;
 
 constexpr const char* page_form = R"(<!DOCTYPE html>
@@ -59,8 +59,8 @@ void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
   each([](std::uint8_t& triangle, std::uint8_t& vertex) { triangle |= vertex; });
 }
 
-// The two triangles with so many rings of neighbours, if these show the same of the pair as the
-// whole mesh does; else nothing.
+// Returns the two triangles with this many rings of neighbours, if their contact is that of the
+// whole mesh; else nothing.
 std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TrianglePair pair,
                                             const properties::Contract& contract, int rings) {
   std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(whole.triangles.rows()), 0);
@@ -72,7 +72,7 @@ std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TriangleP
     return static_cast<std::int32_t>(
         std::count(is_marked.begin(), is_marked.begin() + t, std::uint8_t{1}));
   };
-  // Which contact counts, and when it is, may depend on more of the mesh than this.
+  // Which contact counts, and its time, may depend on more of the mesh than this part.
   const auto contact_of = [&](const corpus::Case& c,
                               TrianglePair at) -> std::optional<std::string> {
     const auto judgements = properties::judge_case(c, contract);
@@ -98,13 +98,13 @@ class KeptFailures {
         again_(std::move(again)),
         plugin_(std::move(plugin)) {}
 
-  // Keeps the step, unless many that fail in the same way are kept already. Returns what is to be
-  // printed.
+  // Keeps the step, unless many that fail in the same way are kept already. Returns the text to
+  // print.
   std::string keep(const StepFailure& event);
 
-  // Writes FOLDER/page.html: the verdict, what each claim came to, and the steps that are kept,
-  // with their pictures. It is one file that asks for nothing. The report lists the steps, and the
-  // outcome gets the first problem of all files.
+  // Writes FOLDER/page.html: the verdict, the result of each claim, and the kept steps with their
+  // pictures. It is one file that loads no other. The report lists the steps, and the outcome gets
+  // the first problem of all files.
   void end(CheckAnswer& answer) const;
 
  private:
@@ -115,16 +115,15 @@ class KeptFailures {
     std::string again;
     std::string picture = {};             // SVG; empty: too large
     std::optional<bool> reproduced = {};  // by the plug-in; nothing: it was not asked
-    std::string reply = {};               // what came of asking it, in words
+    std::string reply = {};               // the plug-in's result, in words
     std::string replay = {};              // the line that replays the smallest case; or empty
   };
 
-  // Returns what is to be printed. Fails if a file cannot be written.
+  // Returns the text to print. Fails if a file cannot be written.
   Expected<std::string> write_step(const StepFailure& event, const properties::Failure& failure,
                                    const std::string& again);
   Expected<void> write_page(const CheckOutcome& outcome) const;
-  // Asks the plug-in about the case, in a process that was asked nothing before, and shrinks what
-  // it fails on.
+  // Asks the plug-in about the case, in a new process, and shrinks the case if it fails.
   Expected<void> ask_plugin(const corpus::Case& c, KeptStep& entry) const;
 
   const std::filesystem::path folder_;
@@ -272,7 +271,7 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) 
   auto smallest = properties::shrink_case(c, detector, configuration, worker,
                                           {keeping_.shrink_seconds, most_calls})
                       .smallest;
-  // A process that was asked much may fail where a new one does not.
+  // A process with many earlier cases may fail where a new one does not.
   if (!fails(smallest)) smallest = c;
   const auto file = folder_ / entry.folder / "smallest.json";
   smallest.id = "smallest";
@@ -299,7 +298,7 @@ Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& i
     BOOST_OUTCOME_TRY(subject, choose_detector(words));
     plugin = std::move(subject);
   }
-  // A step of a log is judged alone; what failed elsewhere may need all of the input.
+  // A step of a log is judged alone; other failures may need all of the input.
   const auto again = [log = input.recorded ? input.file : "", &question](std::uint64_t number) {
     if (log.empty()) return question.again;
     return line_to_paste("replay " + shell_word(fmt::format("{}#{}", absolute_path(log), number)));

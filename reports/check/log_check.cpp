@@ -19,13 +19,13 @@ namespace {
 using properties::Claim;
 using properties::Contract;
 
-// The detector that the log is of, and what of its claims a log cannot show, each with the reason.
+// The recorded detector, and those of its claims that a log cannot show, each with the reason.
 struct RecordedDetector {
   properties::Subject subject;
   std::vector<properties::NotJudged> not_judged;
 };
 
-// The steps of a log, each as the contract takes it.
+// The steps of a log, each as fitted to the contract.
 class RecordedSteps : public corpus::StepSource {
  public:
   RecordedSteps(corpus::StepLog log, const properties::PluginDescription& detector,
@@ -128,14 +128,15 @@ class RecordedSteps : public corpus::StepSource {
     return corpus::problem_in({}, "a log is judged as it is read");
   }
 
-  // Of the step that was read last.
+  // Returns the step that was read last.
   const corpus::LogStep& now() const { return now_; }
   bool is_chosen() const { return is_chosen_; }
   const std::string& why_left_out() const { return why_left_out_; }
   bool is_beyond_contract() const { return is_beyond_contract_; }
 
  private:
-  // Spreads the numbers evenly, and goes by them alone, so that every run chooses the same steps.
+  // Returns whether a step is chosen. Chosen numbers are spread evenly, and depend on nothing else,
+  // so that every run chooses the same steps.
   bool chooses(std::uint64_t number) const {
     if (selection_.step) return number == *selection_.step;
     if (number + 1 < selection_.from) return false;

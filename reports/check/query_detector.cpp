@@ -17,11 +17,11 @@ using properties::Outcome;
 
 namespace {
 
-// The number is chosen so that a library that crashes at each of a million queries is known in a
-// minute.
+// The number is chosen so that a library that crashes at each of a million queries is found out in
+// a minute.
 constexpr std::uint64_t most_crashes = 100;
 
-// Signatures that are told.
+// The most signatures that are shown.
 constexpr std::size_t most_shown = 20;
 
 const properties::Configuration asked_query{"query", {}, {}, true};

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What the oracle found in a step.
+// The oracle's results for a step.
 struct StepDistance {
   oracle::StepJudgement near;
   oracle::LeastDistance least;
@@ -38,7 +38,7 @@ struct StepDistance {
   }
 };
 
-// How a step is told of: by its number, or as a mesh at rest, which has no times.
+// The name of a step in texts: its number, or "at rest" for a mesh without times.
 struct StepNaming {
   std::size_t number;
   bool is_at_rest;
@@ -88,14 +88,14 @@ Json json_of(const StepDistance& step, const properties::BodyNames& bodies) {
           {"first_time", step.near.complete && step.is_near() ? to_json(step.near.first) : Json()},
           {"near_at_start", step.near_at_start()},
           {"pairs", std::move(pairs)},
-          // Null where nothing counts, or where it is not known.
+          // Null if no pair counts, or if the distance is not known.
           {"least_distance", has_place ? Json(step.least.distance) : Json()},
           {"least_at", has_place ? to_json(*step.least.where, bodies) : Json()},
           {"feature_candidates", step.near.feature_candidates},
           {"time_ms", step.milliseconds}};
 }
 
-// Both questions of a step. If memory fails, the step is undecided.
+// Asks both questions about a step. If memory fails, the step is undecided.
 StepDistance ask(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                  double separation, const oracle::DistanceOptions& options, Limits& limits) {
   auto near = answer_in(limits, [&] {

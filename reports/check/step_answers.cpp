@@ -142,7 +142,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& 
   detector::Options options;
   const auto* c = input.steps->case_file();
   if (c) options = properties::options_of(*c);
-  // Views are for many steps. One alone that nothing moves in costs them several times as much.
+  // Views pay over many steps. A single step at rest would cost several times as much with them.
   if (input.steps->is_at_rest() && !(c && c->options.contains("culling")))
     options.culling = detector::Culling::bvh;
   options.culling = choice.culling.value_or(options.culling);
@@ -232,7 +232,7 @@ class Table : public GivenAnswers {
 
   std::string title() const override { return "answers of " + detector_text(subject_.detector); }
 
-  // Asked of each step in turn.
+  // Called for each step in turn.
   std::optional<std::string> left_out() override {
     if (rows_.contains(next_++)) return std::nullopt;
     ++steps_left_out_;
@@ -255,7 +255,7 @@ class Table : public GivenAnswers {
   std::size_t next_ = 0;
 };
 
-// Reads a row "3,collision,0.25". Says what is wrong with it; empty if nothing is.
+// Reads a row "3,collision,0.25". Returns what is wrong with the row; empty if it is right.
 std::string read_row(std::string_view line, std::size_t steps, std::size_t& step,
                      corpus::LoggedAnswer& answer) {
   const auto first = line.find(','), second = line.find(',', first + 1);

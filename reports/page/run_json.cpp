@@ -80,7 +80,7 @@ Json views_json(const CaseScene& scene, const detector::StepResult& result) {
           {"primitives", std::move(primitives)}};
 }
 
-// One for each pair that is in contact or reported, ascending.
+// Returns an entry for each pair that is in contact or reported, ascending.
 Json differences_json(const CaseScene& scene, const SceneStep& step) {
   std::set<detector::TrianglePair> pairs;
   const auto add = [&](const std::vector<detector::PairContact>& contacts) {
@@ -156,7 +156,7 @@ Json other_json(const properties::RunFindings& run, const properties::FailureRec
           {"replay", "assay " + replay_words("", file, detector_of(run))}};
 }
 
-// Why the mesh of a failure is not shown; empty if it was.
+// Shows the mesh of a failure. Returns why it could not be shown; empty if it was.
 std::string show(Json& json, SceneMaker& scenes, const properties::FailureRecord& failure) {
   const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
                                        "stored failure");
@@ -174,7 +174,7 @@ std::string show(Json& json, SceneMaker& scenes, const properties::FailureRecord
   return "";
 }
 
-// What each law that was met says, in the words of this build.
+// Returns the statement of each law that was met, in the words of this build.
 Json law_statements(const Json& laws) {
   Json statements = Json::object();
   if (laws.is_null()) return statements;
@@ -185,8 +185,8 @@ Json law_statements(const Json& laws) {
   return statements;
 }
 
-// A run stores no version, but it does store which program it was. If that is this one, its version
-// is known.
+// Returns the versions of a run. A run stores the digest of its program, but no version; so the
+// version is known only if the program is this one.
 Json versions_of_run(const properties::RunFindings& findings) {
   static const auto own = corpus::sha256_of_file("/proc/self/exe");
   if (!own || findings.run.digests.program != own.value()) return nullptr;

@@ -75,8 +75,8 @@ class Picture {
     return out;
   }
   const std::vector<double>& times() const { return times_; }
-  // "distance 0.0098, d 0.01", of the exact contact or else of the detector's; empty if nobody asks
-  // for a distance.
+  // Returns "distance 0.0098, d 0.01", of the exact contact or else of the detector's; empty if the
+  // contract asks for no distance.
   std::string distance_text() const {
     const auto* contact = exact_ ? exact_ : answer_;
     const auto range = scene_.asked_distance();
@@ -185,8 +185,8 @@ class Picture {
         "stroke-linejoin=\"round\"/>\n",
         points(i), colour(i));
   }
-  // That of the view set; where a detector shows none, those of V+ and V- tell the two triangles of
-  // the pair from each other and from the rest.
+  // Returns the colour of the view set. If the detector shows no sets, the colours of V+ and V- set
+  // the two triangles of the pair apart from each other and from the rest.
   const char* colour(std::size_t i) const {
     auto set = ViewSet::none;
     if (step_.has_views()) {
@@ -206,7 +206,7 @@ class Picture {
         "paint-order=\"stroke\">{}</text>\n",
         points(i), centre[0], centre[1] + 4, i);
   }
-  // From where the vertices that move were when the step began.
+  // Returns the ways of the moving vertices from the start of the step.
   std::string ways() const {
     std::string out;
     for (Eigen::Index v = 0; v < vertices_; ++v) {

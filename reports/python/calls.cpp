@@ -22,7 +22,7 @@ template <class Scalar>
 bool is_viewable(const py::array& array) {
   constexpr py::ssize_t size = sizeof(Scalar), columns = 3;
   if (!holds<Scalar>(array) || array.ndim() != 2 || array.shape(1) != columns) return false;
-  if (array.shape(0) == 0) return true;  // whatever strides it states
+  if (array.shape(0) == 0) return true;  // its strides do not matter
   if (array.strides(1) != size) return false;
   return array.shape(0) <= 1 ||
          (array.strides(0) >= columns * size && array.strides(0) % size == 0);

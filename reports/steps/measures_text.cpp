@@ -39,7 +39,7 @@ std::string off_sentence(const char* word, const properties::TimesOff& off) {
 
 constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>34} {:>34} {:>14} {:>26}";
 
-// The members of a contract that say of which pairs the detector need not tell, in words.
+// Returns the members of a contract that leave pairs out, in words.
 std::vector<std::string> pairs_left_out(const properties::Contract& contract) {
   properties::Contract of_pairs;
   of_pairs.adjacency = contract.adjacency;

@@ -125,7 +125,7 @@ std::string sets_text(const detector::StepResult& result) {
                      result.view_negative, result.view_zero, result.violated, result.dirty);
 }
 
-// Of a mesh at rest, which is asked once, only how long it took.
+// Returns only the time for a mesh at rest, which is asked once.
 std::string stages_text(const detector::StepResult& result, std::optional<double> create_ms,
                         bool is_at_rest) {
   if (is_at_rest)

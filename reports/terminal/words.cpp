@@ -30,7 +30,7 @@ std::string this_program(PastePlace place) {
   namespace fs = std::filesystem;
   std::error_code error;
   const auto own = fs::read_symlink("/proc/self/exe", error);
-  // Python calls what stands in a library of its own.
+  // Python calls this code from a library of its own.
   if (error || own.filename() != "assay") return "assay";
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");

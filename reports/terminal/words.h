@@ -34,8 +34,8 @@ std::string shell_word(const std::string& word);
 enum class PastePlace : std::uint8_t { this_folder, any_folder };
 
 // Returns a line that runs this program, to be pasted into a shell: the program, then `words`,
-// which must be shell_words, and for any folder must have absolute_paths. The program is "assay" if
-// a shell finds this program on the PATH by that name, else its path: in this folder
+// which must be shell_words, and for any folder must have absolute_paths. The program is written
+// "assay" if a shell finds it by that name on the PATH, else as its path, which in this folder is
 // "build/release/assay" if it lies below. A line for any folder changes to this folder first if it
 // names a detector in Python, which lies here. All lines to paste come from this function or the
 // next, except those in a certificate or a page, which begin with "assay" on every machine.

@@ -49,8 +49,9 @@ constexpr KindWords kinds[] = {{frames, "frames", "FRAME..."},
                                {a_log, "a log", "LOG"},
                                {queries, "queries", "QUERIES.csv"}};
 
-// Of which kinds these options are, which others they do not go with there, and one without which
-// they would mean nothing. An option that means another thing elsewhere stands in a row for each.
+// The kinds of input that these options are for, the options with which they do not go there, and
+// one without which they would mean nothing. An option with a different meaning for other kinds has
+// a row for each meaning.
 struct OptionRow {
   std::string options;
   unsigned kinds;
@@ -146,8 +147,8 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
   };
   for (const auto& file : files)
     kinds.push_back(log_name(file).step ? InputKind::log : corpus::kind_of_file(file));
-  // A log that is absent, or cut before its first bytes tell anything, keeps no other from being
-  // judged. Alone it is refused as what cannot be read.
+  // A log that is missing, or cut within its first bytes, does not stop the others from being
+  // judged. Alone it is refused as unreadable.
   const bool are_logs = std::ranges::find(kinds, InputKind::log) != kinds.end();
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto start = corpus::read_start(log_name(files[i]).file, 1);

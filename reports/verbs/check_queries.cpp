@@ -232,7 +232,7 @@ class QueryScore {
 
 using QuerySet = std::vector<corpus::LabelledQuery>;
 
-// `detector`: what the plug-in's answers came to, or null.
+// Writes the report. `detector`: the results of the plug-in's answers, or null.
 Expected<void> write_report(const std::string& file, const QueryScore& score,
                             const nlohmann::ordered_json& detector) {
   if (file.empty()) return outcome::success();
@@ -259,7 +259,7 @@ Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, cons
     const auto& run = one->runs[0];
     const auto answer = run.steps[0].answer;
     if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
-    // A label is no truth of another question than its own.
+    // A label is true only for its own question.
     const double separation = detector.separation();
     const bool is_rounded = one->c.frames != properties::case_of_query(set[i].query, "").frames;
     const bool is_asked = !is_rounded && set[i].separation.value_or(0) == separation;

@@ -77,7 +77,7 @@ std::optional<std::string> choose_configurations(const corpus::Case& c,
   return std::nullopt;
 }
 
-// Prints what counts under the contract, and names what it leaves out.
+// Prints the contacts that count under the contract, and names those that it leaves out.
 void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& judgements,
                  const properties::Contract& contract) {
   const auto script = corpus::steps_of(c);
@@ -107,7 +107,7 @@ std::string sets_text(const detector::StepResult& result) {
                      result.dirty);
 }
 
-// What one configuration came to, without its name.
+// Returns the result of one configuration, without its name.
 std::string run_text(const properties::CaseRun& run, const properties::Verdict& verdict,
                      bool is_query) {
   std::string text = fmt::format("{}{}\n", properties::name_of(verdict.outcome),
@@ -138,7 +138,7 @@ std::string run_text(const properties::CaseRun& run, const properties::Verdict& 
   return text;
 }
 
-// A text, and the configurations that came to it.
+// A text, and the configurations with this result.
 struct RunText {
   std::vector<std::string> configurations;
   std::string text;
@@ -155,8 +155,8 @@ bool print_broken_laws(const properties::CaseResults& results,
   return !tally.failures.empty();
 }
 
-// The first step in which something that counts meets, as a strip beside the exported files. No
-// strip of a mesh that is too large for a picture.
+// Writes the first step with a contact that counts as a strip beside the exported files. Writes
+// none for a mesh that is too large for a picture.
 Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
                            const std::vector<oracle::StepJudgement>& judgements,
                            const properties::Contract& contract) {
@@ -172,9 +172,9 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
                          strip_svg(scene, properties::printable(c.about)));
 }
 
-// A remark on an id whose campaign is none of the built-in ones, but has nearly such a name. A case
-// is made of the text of its id, so a name that is misspelt makes another case; but a campaign of a
-// file may be called so.
+// Returns a remark on an id whose campaign has nearly the name of a built-in one. A case is made
+// from the text of its id, so a misspelt name makes another case; but a campaign from a file may
+// have that name.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
   const auto hint = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);

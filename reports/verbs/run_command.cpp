@@ -38,7 +38,7 @@ class Certification {
         store_(std::move(store)),
         begin_(Clock::now()) {}
 
-  // Returns the exit code of the verdict, or of what kept it from being reached.
+  // Returns the exit code of the verdict, or of the problem that prevented one.
   Expected<int> run() {
     BOOST_OUTCOME_TRY(write_text_file(properties::campaign_file(out_).string(), campaign_text()));
     BOOST_OUTCOME_TRY(store_subject());

@@ -43,7 +43,7 @@ bool same_steps(const corpus::Case& a, const corpus::Case& b) {
          (counted_pairs && other ? *counted_pairs == *other : counted_pairs == other);
 }
 
-// Whether one judgement of the oracle serves both contracts.
+// Returns whether one judgement of the oracle serves both contracts.
 bool asks_alike(const properties::Contract& a, const properties::Contract& b) {
   const auto judged_slack = [](const auto& c) { return c.judges_alarms() ? c.margin : 0; };
   return a.features == b.features && a.counts == b.counts && a.rings == b.rings &&
@@ -118,7 +118,7 @@ void Comparison::run_group(const CaseFamily& family, const BenchCase& entry, con
   for (const std::size_t i : places) {
     const auto& subject = subjects_[i];
     auto options = subject.options;
-    // A gap in the sequence makes a new start, and nobody says that it is clean.
+    // A gap in the sequence makes a new start, which nobody vouches for.
     options.start =
         group.left_out == 0 && subject.is_vouched_for ? entry.start : detector::Start::verified;
     options.culling = entry.culling.value_or(options.culling);
@@ -216,8 +216,8 @@ Match::Verdict Comparison::judge(const Match& match, const SweptRuns& runs,
 
 namespace {
 
-// Marks the subjects in this process that no other one beats in speed and error at once, of those
-// that are asked for the same pairs.
+// Marks the subjects in this process that no other one with the same kind of pairs beats in both
+// speed and error.
 void mark_pareto_line(std::vector<SubjectRow>& rows, ShareOfSteps SubjectRow::*error) {
   const auto takes_part = [](const SubjectRow& row) {
     return row.subject->is_here && row.over && row.subject->options.culling != Culling::none;
@@ -317,8 +317,8 @@ BenchSubject built_in_in_worker(const detector::Options& options) {
 
 namespace {
 
-// The detectors for which corpus/peers has adapters, and why each may not be there: nothing where
-// it is always built.
+// The detectors for which corpus/peers has adapters, and why each may be absent: nothing if it is
+// always built.
 using KnownPeer = std::pair<std::string, std::string>;
 std::vector<KnownPeer> known_peers() {
   std::vector<KnownPeer> peers = {

@@ -12,8 +12,8 @@ namespace {
 
 using detector::FeatureKind, detector::PairContact;
 
-// The time that lies this many eighths of the way from a double to the next, if 62 bits can hold
-// it.
+// Returns the time that lies this many eighths of the way from a double to the next, if 62 bits can
+// hold it.
 std::optional<oracle::RationalTime> between(double lo, double hi, int eighths) {
   constexpr int bits = 62;
   const double from = std::ldexp(lo, bits), way = std::ldexp(hi - lo, bits - 3);
@@ -23,10 +23,10 @@ std::optional<oracle::RationalTime> between(double lo, double hi, int eighths) {
       std::int64_t{1} << bits};
 }
 
-// The fraction with the least denominator between two neighbouring doubles of (0, 1). If the exact
-// time is a fraction of small whole numbers, such as 1/3, this is it. It is computed by continued
-// fractions in long doubles. If these do not suffice, the result is some other fraction, which
-// then witnesses nothing.
+// Returns the fraction with the least denominator between two neighbouring doubles of (0, 1). If
+// the exact time is a fraction of small whole numbers, such as 1/3, the result is that time. It is
+// computed by continued fractions in long doubles. If these do not suffice, the result is some
+// other fraction, which then witnesses nothing.
 oracle::RationalTime simplest_between(double lo, double hi) {
   constexpr std::int64_t largest = std::int64_t{1} << 30;
   std::int64_t p0 = 0, q0 = 1, p1 = 1, q1 = 0;
@@ -49,8 +49,8 @@ struct StepWitness {
   const detector::TrianglesView triangles;
   bool takes_triangles;
 
-  // Whether the features of the contact, or its triangles, meet at some time before `answer_time`,
-  // or at all if it is empty.
+  // Returns whether the features of the contact, or its triangles, meet at some time before
+  // `answer_time`, or at any time if that is empty.
   bool meets_before(const PairContact& contact, std::optional<double> answer_time) const {
     const double end = answer_time.value_or(1), first = contact.time.hi;
     const double until = answer_time ? std::nextafter(end, 0.) : 1;
@@ -86,8 +86,8 @@ struct StepWitness {
                                 feature.kind == FeatureKind::vertex_face ? 1 : 2};
   }
 
-  // Asks whether the triangles meet at this time, if triangles are taken, or else whether the
-  // features do. A feature is given as a triangle too, which may be a point or a segment.
+  // Returns whether the triangles, if triangles are taken, or else the features meet at this time.
+  // A feature is given as a triangle too, which may be a point or a segment.
   bool meet_at(const PairContact& contact, const oracle::StaticTime& time) const {
     if (takes_triangles && oracle::triangles_meet(motion, triangles, contact.pair, time))
       return true;

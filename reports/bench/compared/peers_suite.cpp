@@ -31,8 +31,8 @@ void keep_smallest_sequences(std::vector<CaseFamily>& families, BenchReport& rep
   }
 }
 
-// Bytes for each triangle of a mesh of 20,480 triangles, for preprocessing and one step: how far
-// the resident memory of a new process rises above that with a mesh of 20 triangles. Nothing if a
+// Returns the bytes for each triangle of a mesh of 20,480 triangles, for preprocessing and one
+// step: the resident memory of a new process above that with a mesh of 20 triangles. Nothing if a
 // run does not complete.
 std::optional<double> bytes_a_triangle(const BenchSubject& subject) {
   auto worker = subject.make_worker(60);
@@ -51,8 +51,8 @@ std::optional<double> bytes_a_triangle(const BenchSubject& subject) {
   return (peaks[1] - peaks[0]) / triangles;
 }
 
-// The plug-in beside the built-in detector, which answers what the plug-in claims. A plug-in that
-// takes any start has to look at it, and then so does the built-in detector.
+// Returns the plug-in and the built-in detector, which is asked for what the plug-in claims. A
+// plug-in that takes any start has to verify it, and then so does the built-in detector.
 std::vector<BenchSubject> beside_built_in(const properties::Subject& plugin) {
   const auto& contract = plugin.detector.contract;
   const auto& claims = plugin.detector.claims;
@@ -74,7 +74,7 @@ std::vector<BenchSubject> beside_built_in(const properties::Subject& plugin) {
   return subjects;
 }
 
-// A line for each sequence: the times of both, their ratio with its interval, the same for
+// Returns a line for each sequence: the times of both, their ratio with its interval, the same for
 // preprocessing, and errors.
 std::string sequences_text(const std::vector<FamilyRow>& rows, const BenchSubject& plugin) {
   const auto text = [](std::uint64_t count) { return std::to_string(count); };

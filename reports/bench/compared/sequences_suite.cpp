@@ -27,13 +27,13 @@ constexpr const char* scenes_timed[] = {"breathing-sphere",
                                         "crossing-fans",
                                         "winding-spiral"};
 
-// The contacts of the two smaller ones grow with the square of the triangles. With as many
-// triangles as the others have, each of their steps takes seconds.
+// Returns the size of a scene. Two scenes are smaller, because their contacts grow with the square
+// of the triangles: at the size of the others each of their steps would take seconds.
 int full_size(const std::string& scene) {
   return scene == "inverted-sleeve" ? 1'000 : scene == "winding-spiral" ? 2'000 : 10'000;
 }
 
-// The single cullings, auto, then those of all cores.
+// Returns the single cullings, auto, then those of all cores.
 std::vector<BenchSubject> subjects_of(std::uint32_t cores) {
   std::vector<BenchSubject> subjects;
   const auto add = [&](Culling culling, std::uint32_t threads) {
@@ -48,8 +48,8 @@ std::vector<BenchSubject> subjects_of(std::uint32_t cores) {
 }
 constexpr std::size_t singles = 4, automatic = 4, bvh_of_all = 5, automatic_of_all = 6;
 
-// All runs must agree in answers, pairs and times of contact, and runs with one culling in
-// everything that result_hash() covers, whatever their threads.
+// Finds wrong answers: all runs must agree in answers, pairs and times of contact, and runs with
+// one culling in everything that result_hash() covers, whatever their threads.
 void find_differences(const Match& match, BenchReport& report) {
   std::map<std::pair<std::size_t, Culling>, std::uint64_t> hashes;
   for (std::size_t i = 0; i < match.runs.size(); ++i) {
@@ -74,7 +74,7 @@ void find_differences(const Match& match, BenchReport& report) {
   }
 }
 
-// The ratio over the rounds that both took part in.
+// Returns the ratio over the rounds in which both took part.
 Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t rounds = std::min(a.size(), b.size());
   return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));

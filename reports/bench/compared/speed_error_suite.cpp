@@ -11,7 +11,7 @@ namespace {
 
 using detector::Arithmetic, detector::Culling, detector::Pairs;
 
-// "26 families (14 scene, 8 generated, 4 real), 971 steps": what the table below it is about.
+// Returns the title of a table: "26 families (14 scene, 8 generated, 4 real), 971 steps".
 std::string families_text(std::span<const FamilyRow> rows, const std::string& reference) {
   std::vector<std::string> list;
   std::uint64_t count = 0, steps = 0;
@@ -27,7 +27,7 @@ std::string families_text(std::span<const FamilyRow> rows, const std::string& re
   return fmt::format("{} families ({}), {} steps", count, fmt::join(list, ", "), steps);
 }
 
-// Adds what each arithmetic gets wrong, over all cullings and kinds of pairs.
+// Adds the errors of each arithmetic, over all cullings and kinds of pairs.
 void add_errors(std::span<const SubjectRow> rows, BenchReport& report) {
   for (const auto arithmetic : all_values<Arithmetic>) {
     properties::StepErrors all;

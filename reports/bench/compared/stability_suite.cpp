@@ -19,19 +19,19 @@ namespace {
 
 using detector::Arithmetic, detector::ViewSign, properties::Outcome;
 
-// What came of one subject: in a case, in a family at one strength, which is a cell of the heat
-// map, or in a whole family.
+// The results of one subject: in a case, in a family at one strength (a cell of the heat map), or
+// in a whole family.
 struct Cell {
-  // All arithmetics are asked for what exact arithmetic claims. A case is a step.
+  // All arithmetics are judged by the claims of exact arithmetic. A case counts as a step.
   properties::StepErrors errors = {};
   // The answer and the set of pairs are the oracle's, and if the case gives the view primitive, no
-  // triangle is V+ or V- that really is not. (The detector's own primitives may lie on the
-  // surface, which is not what the other families are about.)
+  // triangle is wrongly V+ or V-. (The detector's own primitives may lie on the surface, which only
+  // some families test.)
   std::uint64_t right = 0;
   // In addition, every time is the enclosure of exact arithmetic and every sign is the oracle's.
   std::uint64_t exactly_right = 0;
   std::uint64_t refuted = 0;      // a claim of the arithmetic is broken, or a sign is wrong
-  std::uint64_t wrong_signs = 0;  // a triangle is V+ or V- that really is not
+  std::uint64_t wrong_signs = 0;  // a triangle is wrongly V+ or V-
   detector::ContactRungCounts rungs = {};  // of elementary tests that axis order did not settle
   detector::ViewCounts views = {};
   std::string first_wrong = {}, first_refuted = {};  // ids of cases; empty: none
@@ -49,7 +49,7 @@ struct Cell {
   }
 };
 
-// What was found in a family.
+// The results in a family.
 struct FamilyCells {
   const corpus::HardFamily& family;
   const BenchSubject& subject;
@@ -62,20 +62,20 @@ struct FamilyCells {
     for (const auto& [strength, cell] : cells) sum += cell;
     return sum;
   }
-  // The least strength at which a case is not right; or the end.
+  // Returns the least strength at which a case is not right; or the end.
   auto breaks_at() const {
     return std::find_if(cells.begin(), cells.end(),
                         [](const auto& one) { return one.second.right < one.second.errors.steps; });
   }
 };
 
-// How many answers stay the same under a change, of those cases in which the change is exact.
+// How many answers stay the same under a change, among the cases in which the change is exact.
 struct Survival {
   std::uint64_t changes = 0, same = 0;
 };
 using Survivals = std::vector<std::vector<Survival>>;  // [change][subject]
 
-// The exact signs as seen from these primitives, one for each component.
+// Returns the exact signs as seen from these primitives, one primitive for each component.
 std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& primitives,
                                  const corpus::Case& c) {
   const auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
@@ -85,7 +85,8 @@ std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& pri
   return oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, of_triangle, 1);
 }
 
-// Whether the oracle finds what the case was built for: answer, first time, view signs.
+// Returns whether the oracle agrees with the construction of the case: answer, first time, view
+// signs.
 bool agrees_with_construction(const corpus::Case& c, const oracle::StepJudgement& judgement) {
   const auto& step = c.expected.steps.front();
   const auto view = corpus::view_of_step(c, 0);
@@ -160,7 +161,7 @@ std::string break_text(const FamilyCells& row) {
                                  : fmt::format("{}, right at {}", text, knob(std::prev(at)->first));
 }
 
-// How far first times are off, at most and at the median.
+// Returns how far first times are off, at most and at the median.
 std::string time_text(const char* side, const properties::TimesOff& off) {
   if (off.steps == 0) return "";
   return fmt::format(
@@ -247,8 +248,8 @@ void add_survival_rows(const std::vector<BenchSubject>& subjects, const Survival
   }
 }
 
-// All strengths, or some with --quick, the strongest and touching always. Those of larger meshes
-// are left out.
+// Returns whether a strength takes part: all do, or, with --quick, some, always the strongest and
+// touching. Strengths with larger meshes are left out.
 bool takes_strength(const corpus::HardFamily& family, int strength, const BenchSettings& settings) {
   constexpr int most_triangles = 5000, steps_when_quick = 4;
   const int step = settings.is_quick() ? std::max(1, family.strongest / steps_when_quick) : 1;
@@ -257,7 +258,7 @@ bool takes_strength(const corpus::HardFamily& family, int strength, const BenchS
          settings.triangles(most_triangles);
 }
 
-// All kinds of the family at one strength, in several rounds.
+// Returns all kinds of the family at one strength, in several rounds.
 CaseFamily cases_at(const corpus::HardFamily& family, int strength, bool is_quick) {
   const int rounds = family.touches(strength) ? (is_quick ? 2 : 10) : (is_quick ? 1 : 2);
   return {std::string(family.name), "hard", 0, [&family, strength, rounds] {

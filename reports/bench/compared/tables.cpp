@@ -12,18 +12,18 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// In how many steps; the median and the largest share of a step; the largest in ulps.
+// Returns the number of steps; the median and the largest share of a step; the largest in ulps.
 std::string time_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "0";
   return fmt::format("{}: {:.2g}, {:.2g} ({:.1g} ulp)", off.steps, off.quantile(0.5),
                      off.worst_share, off.worst_ulps);
 }
 
-// A column is shown of subjects in this process, of those in workers, or of both.
+// The subjects for which a column is shown: those in this process, those in workers, or both.
 enum class Of : unsigned char { both, here, workers };
 
-// A star stands on the Pareto line, and a count in brackets where the detector promised nothing
-// about it.
+// Returns the columns of a row. A star marks the Pareto line, and brackets a count about which the
+// detector promised nothing.
 std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading,
                                bool has_workers) {
   const auto& e = row.counts.errors;
