@@ -1,5 +1,4 @@
-// Draws random numbers by integers only, because the standard distributions differ between
-// libraries.
+// Draws random numbers by integers only, because standard distributions differ between libraries.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Turns values into words and back: the values of an enum, by a table in their order from 0;
-// counts; and whole numbers. Makes text from outside, such as a plug-in's name, safe to print
-// anywhere.
+// counts; and whole numbers. Makes outside text, such as a plug-in's name, safe to print.
 #pragma once
 
 #include <charconv>

@@ -98,8 +98,7 @@ CampaignPlan without_queries(CampaignPlan plan);
 
 // Returns the campaign without its strata of cases with a relation, for a detector that takes none.
 CampaignPlan without_relations(CampaignPlan plan);
-// Returns the campaign without the strata of question families, which only the built-in detector is
-// asked.
+// Returns the campaign without its question families, which are for the built-in detector alone.
 CampaignPlan without_questions(CampaignPlan plan);
 
 // Returns the campaign with every family of queries in place of its strata. There are no laws and

@@ -81,8 +81,7 @@ inline RunDeadline deadline_in(RunDeadline begin, double seconds) {
   return begin +
          std::chrono::duration_cast<RunDeadline::duration>(std::chrono::duration<double>(seconds));
 }
-// Returns the time after `begin` by this share of the plan's seconds, or never if the plan has no
-// limit.
+// Returns the time after `begin` by this share of the plan's seconds, or never without a limit.
 inline RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
   return plan.seconds == 0 ? RunDeadline::max() : deadline_in(begin, share * plan.seconds);
 }
@@ -94,9 +93,8 @@ inline std::uint64_t planned_trial_count(const CampaignPlan& plan, std::uint64_t
   return count;
 }
 
-// Returns the index of the case that a run judges at a place of a stratum, from 0. Shares under
-// consecutive seeds judge different indices, because the shapes of some families take turns by the
-// index.
+// Returns the index of the case that a run judges at a place of a stratum, from 0. Consecutive
+// seeds give different indices, because the shapes of some families take turns by the index.
 constexpr std::uint64_t trial_index(std::uint64_t place, std::uint64_t seed, std::uint64_t shares) {
   return place * shares + seed % shares;
 }

@@ -1,6 +1,5 @@
 // Changes a case. One list of changes says what each does to the mesh, its steps and all places,
-// and which answers it keeps. The caller hands in the random numbers, so that the cases of a seed
-// stay the same.
+// and which answers it keeps. The caller gives the random numbers, so that a seed keeps its cases.
 //
 //   const auto form = changes::mirror.of(c);  // drawn by the id of the case
 //   const auto up = scaled(c, 7);             // by this power of two; nothing if a bit is lost
@@ -122,8 +121,7 @@ bool adds_exactly(double a, double b, double& sum);
 // Returns whether x * 2^exponent is a double that keeps all bits of x, and if so sets x to it.
 bool scales_exactly(double& x, int exponent);
 
-// Scales by 2^exponent, and translates by a vector; return nothing if a coordinate would be
-// rounded.
+// Scale by 2^exponent, and translate; return nothing if a coordinate would be rounded.
 std::optional<corpus::Case> scaled(corpus::Case c, int exponent);
 std::optional<corpus::Case> translated(corpus::Case c, const detector::Point& by);
 // Mirrors the case along an axis, and turns its triangles over.
@@ -136,8 +134,7 @@ void set_path(corpus::Case& c, const corpus::CaseStep& step, std::int32_t vertex
 void renumber_vertices(corpus::Case& c, const Numbers& new_number);
 // Gives triangle t the number new_number[t].
 void reorder_triangles(Form& form, const Numbers& new_number);
-// Do both, after each triangle got another first corner, which is drawn. The second draws the
-// numbers too.
+// Do both, after drawing another first corner for each triangle. The second draws numbers, too.
 Form renumbered(Random& random, const corpus::Case& c, const Numbers& vertices,
                 const Numbers& triangles);
 corpus::Case renumbered(Random& random, const corpus::Case& c);

@@ -197,8 +197,7 @@ enum class Probe : std::uint8_t {
   by_second_run,     // of the same case
 };
 
-// The misdeed that breaks a claim. One change of the detector may mend all failures with the same
-// deed.
+// The misdeed that breaks a claim. One change of the detector may mend all failures of one deed.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;

@@ -135,8 +135,7 @@ struct Contract {
 
   bool has_range() const { return largest > 0; }
   bool reports_pairs() const { return reports == PairReporting::pairs; }
-  // Returns whether false alarms of the detector are judged. The features of a query share no
-  // vertex.
+  // Returns whether false alarms are judged. The features of a query share no vertex.
   bool judges_alarms(bool of_queries = false) const {
     return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
   }

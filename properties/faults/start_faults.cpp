@@ -1,5 +1,4 @@
-// Wrong beliefs about which triangles are clean at the start of a step: by view (L5), by layers
-// (L9).
+// Wrong beliefs about triangles that are clean at the start of a step: by view (L5), layers (L9).
 #include <algorithm>
 
 #include "detector/geometry/winding.h"

@@ -33,8 +33,7 @@ struct Family {
   RandomCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // approximate size of every case; 0: few, as above
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
-  // these two numbers alone. It is a vertex-face query for even indices, an edge-edge query for odd
-  // ones.
+  // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
   int one_in = 1;  // one query for each `one_in` of "query-small-int": dear families get fewer
 };

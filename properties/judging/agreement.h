@@ -47,8 +47,7 @@ oracle::StepJudgement judge_under(const Contract& contract, const detector::Step
                                   const detector::TrianglesView& triangles,
                                   oracle::JudgeOptions options = {});
 
-// Returns the facts. REQUIRES a judgement by judge_under this contract. O(n) in the number of
-// pairs.
+// Returns the facts. REQUIRES a judgement by judge_under this contract. O(number of pairs).
 StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
                    const detector::TrianglesView& triangles);
 

@@ -52,8 +52,7 @@ struct Exam {
 };
 
 // A case is examined in three parts: it is run, it is run again, and both runs are judged. All of
-// them REQUIRE a contracted case. Judgements of the oracle that `results` already has are not asked
-// again.
+// them REQUIRE a contracted case. The oracle is not asked again for judgements that are there.
 void run_first(const Exam& exam, CaseResults& results);
 void run_again(const Exam& exam, CaseResults& results);
 void judge(const Exam& exam, CaseResults& results);
@@ -66,8 +65,7 @@ std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cas
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
 CaseRun run_alone(WorkerProcess& worker, const corpus::Case& c, const Configuration& configuration);
 
-// Returns the judgement of the oracle on every step of a case, for the pairs that count by its
-// relation.
+// Returns the oracle's judgement of every step of a case, for the pairs that count by its relation.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c);
 // Returns the judgements under the contract; for a query (query_case.h) only the query is judged.
 // REQUIRES a contracted case.

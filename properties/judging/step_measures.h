@@ -122,7 +122,7 @@ struct ShareInterval {
 };
 ShareInterval share_interval(double of, double in, double independent);
 
-// Returns the risk of each of `bounds` bounds such that all hold together with confidence 95 %
+// Returns the risk of each bound if `bounds` of them hold together with confidence 95 %
 // (Bonferroni).
 double risk_of_each(std::uint64_t bounds);
 
@@ -157,8 +157,7 @@ ASSAY_FIELDS(StepMeasures, errors, free_squared, contact_squared, without_time, 
              candidate_steps, candidates, least_candidates, starts_near, redrawn, steps_left_out,
              refused, left_out_misses, contact_trials, repeated_trials, relation_trials)
 
-// Returns the measures of the steps of one trial. REQUIRES as many results as diffs, in the same
-// order.
+// Returns the measures of one trial's steps. REQUIRES as many results as diffs, in the same order.
 StepMeasures measures_of(std::span<const StepDiff> diffs,
                          std::span<const detector::StepResult> results);
 

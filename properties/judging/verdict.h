@@ -77,9 +77,8 @@ struct Verdict {
   std::optional<Failure> failure;   // for a defect: the first step that shows one
 };
 
-// Returns the failure that the verdict on a run shows. In exact arithmetic every bit of the
-// built-in detector's times must be the oracle's; a plug-in is judged by its claims. REQUIRES a
-// defect.
+// Returns the failure that a verdict shows. In exact arithmetic every bit of the built-in
+// detector's times must be the oracle's; a plug-in is judged by its claims. REQUIRES a defect.
 Failure failure_of(const Verdict& verdict, const corpus::Case& c,
                    std::span<const oracle::StepJudgement> truth, const CaseRun& run,
                    const Configuration& configuration, const DetectorUnderTest& detector);

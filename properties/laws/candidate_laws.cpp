@@ -1,6 +1,5 @@
 // L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which the
-// closure adds; and the claims of the detector. L13 and L14: which pairs normal cones may leave
-// out.
+// closure adds; and the claims of the detector. L13 and L14: pairs that normal cones may leave out.
 
 #include <fmt/format.h>
 

@@ -64,8 +64,7 @@ using OnBetter = std::function<void(const corpus::Case&)>;
 // nothing if it chose none. The mesh can then shrink without moving the primitive.
 using MakeViewExplicit = std::function<std::optional<corpus::Case>(const corpus::Case&)>;
 
-// Reduces a failing case. The result keeps the case's id, texts and options; expected facts are
-// cleared.
+// Reduces a failing case, and keeps its id, texts and options; expected facts are cleared.
 Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
                  const OnBetter& on_better = {}, const MakeViewExplicit& make_view_explicit = {});
 
@@ -86,7 +85,7 @@ struct MeshSize {
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
 };
 
-// Returns a number's cost for a reader. A whole number from -9 to 9 costs its magnitude; a longer
+// Returns how hard a number is to read. A whole number from -9 to 9 costs its magnitude; a longer
 // one costs 10 for each digit. Any other number costs 100, and 10 more for each character of the
 // shortest decimal that reads back to the same double. Examples: 7 costs 7, 250 costs 30, 0.5 costs
 // 130.
@@ -95,8 +94,7 @@ std::uint64_t number_cost(double value);
 // Measures a case. O(size of the case).
 MeshSize size_of(const corpus::Case& c);
 
-// Returns "162 triangles, 83 vertices, 8 steps"; for a query (query_case.h) "one vertex-face
-// query".
+// Returns "162 triangles, 83 vertices, 8 steps"; for a query "one vertex-face query".
 std::string size_text(const corpus::Case& c);
 
 // Returns "162 triangles, 83 vertices, 8 steps -> 4 triangles, 4 vertices, 1 step"; only one of the
@@ -114,7 +112,7 @@ using NumberGroup = std::vector<double*>;
 // those of the apexes. The groups are valid as long as the shape of `c` is not changed.
 std::vector<NumberGroup> number_groups(corpus::Case& c);
 
-// Returns values of lower number_cost, the simplest first: small integers, then `value` with fewer
+// Returns values of lower number_cost, simplest first: small integers, then `value` with fewer
 // digits.
 std::vector<double> simpler_values(double value);
 

@@ -151,8 +151,7 @@ using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike;
 
 // Returns every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are
 // 1, 10, 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
-// listed apart). They are found by edge flips, which connect them all (Wagner 1936), and are made
-// once.
+// listed apart). They are found, once, by edge flips, which connect them all (Wagner 1936).
 const std::vector<SphereMesh>& sphere_meshes(int vertices);
 
 SphereMesh mirrored(SphereMesh mesh);

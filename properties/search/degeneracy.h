@@ -76,8 +76,7 @@ std::optional<detector::FourPoints> moved_onto(const detector::FourPoints& query
                                                std::span<const DegeneracyAt> goals,
                                                unsigned moving = all_ends_move);
 
-// Return F at a time, and the first root of F in [0, 1] as computed in doubles; nothing if there is
-// none.
+// Return F at a time, and the first root of F in [0, 1] in doubles; nothing if there is none.
 double coplanarity_at(const detector::FourPoints& query, double time);
 std::optional<double> root_of(const detector::FourPoints& query);
 

@@ -115,16 +115,14 @@ struct SourceChoice {
   std::function<bool(const corpus::Case&)> leaves_out{};
 };
 
-// Returns the sources. Several threads may draw from them. A curated case is read when it is first
-// drawn.
+// Returns the sources, for several threads. A curated case is read when it is first drawn.
 std::vector<CaseSource> case_sources(const SourceChoice& choice);
 
 // Returns the four points of a query as a closed mesh. Its only features without a shared vertex
 // are a corner and the face opposite, or two opposite edges.
 corpus::Case tetrahedron(const detector::FourPoints& query, std::string id);
 
-// Returns the two features of a query as a mesh of two triangles, whose other corners lie away from
-// the features.
+// Returns the two features of a query as a mesh of two triangles with other corners far from them.
 corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id);
 
 }  // namespace assay::properties

@@ -75,8 +75,7 @@ struct CaseRun {
   std::vector<detector::StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
-  // Only from a limiter, if limits are asked for: its answer in each step; nothing if it failed to
-  // answer.
+  // Only from a limiter, if limits are asked for: its answer in each step, nothing if it failed.
   std::vector<std::optional<LimitAnswer>> limits = {};
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.

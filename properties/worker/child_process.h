@@ -113,8 +113,7 @@ struct ProcessTree {
   // Processor time in seconds of the processes that the root started, that these started, and so
   // on: of living ones, and of ended ones for which their parents have waited. The threads of the
   // root itself and of `apart` do not count. Each process counts up to 0.01 s too little, because
-  // /proc counts in ticks. The time of a process that ends is lost if its parent does not wait for
-  // it.
+  // /proc counts in ticks. The time of a process is lost if its parent does not wait for it.
   double descendant_seconds = 0;
   // Every thread of each process waits for something other than a processor, or was stopped by a
   // signal: a process may do both to itself. A process that a debugger holds is not asleep.
@@ -123,7 +122,7 @@ struct ProcessTree {
 
 // Measures the processes of `root`. A member of its process group counts as started by root even if
 // its own parent has ended; a process that left the group and lost its parents is not found. Reads
-// one file for each process of the machine: about 5 us each. REQUIRES that root leads its process
+// one file for each process of the machine: about 5 us each. REQUIRES a root that leads its process
 // group.
 ProcessTree look_at(pid_t root, pid_t apart = 0);
 

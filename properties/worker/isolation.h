@@ -114,8 +114,7 @@ Expected<ChildProcess> start_behind_bubblewrap(const std::filesystem::path& prog
                                                const std::filesystem::path& scratch,
                                                std::vector<PassedDescriptor> descriptors);
 
-// Returns how the program ended. bwrap reports a signal as a shell does, by an exit code of 128 and
-// more.
+// Returns how the program ended. bwrap reports signals as a shell does, by exit codes from 128 on.
 ChildEnd end_behind_bubblewrap(const ChildEnd& of_bwrap);
 
 }  // namespace assay::properties

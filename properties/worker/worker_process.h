@@ -56,12 +56,10 @@ class WorkerProcess {
 
   // Returns the plug-in's description; without a plug-in, that of the built-in detector, with all
   // claims. Fails where PluginHost::open fails, and if the worker cannot be started, is of another
-  // build, ends or hangs while it loads the plug-in, sends a malformed message, or cannot be
-  // isolated.
+  // build, ends or hangs while it loads the plug-in, sends no valid message, or cannot be isolated.
   Expected<PluginDescription> describe();
 
-  // Returns the isolation of the plug-in's process, known once describe() or run() has returned an
-  // answer.
+  // Returns the isolation of the plug-in's process, known once describe() or run() has an answer.
   Isolation isolation() const;
 
   // Returns one run for each configuration, in order. A crash or a hang is reported for the

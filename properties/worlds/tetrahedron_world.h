@@ -1,9 +1,8 @@
 // Proves small worlds of tetrahedra, motion by motion: compares the detector, and the laws of
-// closed meshes, with the oracle on every motion on a tiny grid, seen from every view-point of that
-// grid.
+// closed meshes, with the oracle on every motion on a tiny grid, from every view-point there.
 //
-// For each class of motions and view-points (TetrahedronMotions), with the faces outward and turned
-// round, checks that:
+// For each class of motions and view-points (TetrahedronMotions), in both orientations, checks
+// that:
 // - the detector with culling view-point from there, start verified and all pairs, has the oracle's
 //   pairs and times; if the start is clean, also with start clean and first pairs;
 // - L3: with a clean start the first contact is in K;

@@ -72,8 +72,7 @@ struct RunFindings {
   // Returns whether it can be judged if the laws were met often enough. It can for the built-in
   // detector, once all trials of a whole campaign took place.
   bool laws_are_judged() const;
-  // Returns whether the same command would add something, because the run was killed or its time
-  // ended.
+  // Returns whether the same command would add something: the run was killed or its time ended.
   bool has_more_to_do() const;
   // Return how many planted faults were tried, how many were found, and how many of these by random
   // cases. The others were found by their curated case alone.
@@ -102,12 +101,10 @@ std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector&
 // for all of its claims. Counting every claim nevertheless only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
 
-// Returns the risk that each bound may take, so that all of them hold together with
-// family_confidence.
+// Returns the risk of each bound, such that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
-// Returns the risk of a stratum's bound: risk_of_each, or 1 - family_confidence if the bound is
-// stated alone.
+// Returns the risk of a stratum's bound: risk_of_each, or 1 - family_confidence if it stands alone.
 double risk_in(const StratumPlan& stratum, const BoundRun& run);
 
 // Returns the bound on the share of cases in which one configuration does not hold.
@@ -120,8 +117,7 @@ double bound_of(const StratumTally::Outcomes& outcomes, const StratumPlan& strat
 // bound is asked of less than a whole campaign.
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
 
-// Returns whether all configurations have the same outcomes in a stratum, so that one row shows
-// them.
+// Returns whether all configurations have the same outcomes in a stratum, so that one row suffices.
 bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum);
 
 }  // namespace assay::properties

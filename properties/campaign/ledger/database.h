@@ -1,6 +1,5 @@
 // The few parts of SQLite that a store needs: a database, and one statement at a time; a lock that
-// gives one process a file or a folder to itself; the rows of a store; and its way to report a
-// problem.
+// gives one process a file or a folder to itself; the rows of a store; and its problems.
 #pragma once
 
 #include <cstdint>
@@ -108,8 +107,8 @@ class FileLock {
     file,    // the file is made if it is not there, and stays
     folder,  // the lock leaves nothing behind
   };
-  // Throws StoreProblem if the path cannot be opened, and, with the text `if_busy`, if another
-  // process holds the lock.
+  // Throws StoreProblem if the path cannot be opened, and, with the text `if_busy`, if it is
+  // locked.
   FileLock(const std::filesystem::path& path, On on, const std::string& if_busy);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

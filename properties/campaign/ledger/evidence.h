@@ -36,8 +36,7 @@ struct HarnessProblem {
   std::string what;
   std::uint64_t trials = 0;
   // A later row replaces an earlier one. If both have the same number of trials, the row with a
-  // problem counts as later, because a problem is over only when a further trial is stored without
-  // one.
+  // problem counts as later, because a problem ends only when a further trial is stored.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)

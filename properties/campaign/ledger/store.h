@@ -16,8 +16,7 @@
 
 namespace assay::properties {
 
-// The schema of a store, which is part of its binding (binding.h). A store of another schema is
-// refused.
+// The schema of a store, part of its binding (binding.h). A store of another schema is refused.
 inline constexpr const char* store_schema = "assay-store/9";
 
 // All failures that a store holds.
@@ -70,8 +69,8 @@ class Store {
   void set_smallest(const FailureRecord& failure);
   void set_note(const std::string& key, const std::string& value);
 
-  // Visits the rows of a kind in the order of their keys; trials of a family thus come in the order
-  // of their places.
+  // Visits the rows of a kind in the order of their keys; trials of a family come in order of
+  // place.
   void for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   bool has_trial(const std::string& id) const;
@@ -112,8 +111,7 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
 // folder cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::path& folder);
 
-// Fails if the folder holds a store other than `outputs`: all stores of a folder are judged
-// together.
+// Fails if the folder holds a store other than `outputs`, because its stores are judged together.
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
                                      const std::set<std::filesystem::path>& outputs);
 

@@ -175,8 +175,7 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
                   const AskedLimit& ask);
 
 // Runs a campaign from its canary to its worlds. Each phase stores its findings and tells an
-// observer. The findings of the campaign are read back from the store (findings.h) and judged
-// (gates.h).
+// observer. They are read back (findings.h) and judged (gates.h).
 
 // The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
 // in a thread with a worker process of its own (search.cpp).
@@ -197,8 +196,7 @@ void search_share(const CampaignRequest& request, const std::filesystem::path& c
 // Shrinks the cases on which a detector fails.
 
 // Returns a judge that runs a case in the worker and asks the oracle; the judge returns nothing if
-// the case holds. The arguments must outlive the judge. `jobs`: threads of the oracle for large
-// meshes.
+// the case holds. The arguments must outlive it. `jobs`: threads of the oracle for large meshes.
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs = 1);
 
@@ -260,8 +258,7 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
 // of its own limit, or two minutes if it has no limit.
 double shrinking_seconds(const CampaignPlan& plan);
 
-// Keeps the failures of curated cases and scenes, each with a small mesh that shows it, as for
-// failing trials.
+// Keeps the failures of curated cases and scenes, each with a small mesh, as for failing trials.
 
 // Takes the failures whose signature is not in the store yet, and stores the smallest mesh of each
 // such signature. Then it shrinks these meshes. That takes at most a minute for each, and for all
@@ -298,8 +295,7 @@ struct TrialsAgain {
 //
 // REQUIRES a request with the plan and the detector of the stores; each states its own seed and
 // share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
-// Costs O(trials stored) to draw them, then the time that these trials took when they were first
-// run.
+// Costs O(trials stored) to draw them, then the time that they took in the first run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed,
                                 const std::function<void(const TrialProgress&)>& progress);

@@ -63,8 +63,7 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 
 // Returns whether the oracle calls every triangle clean (L9, detector/LAWS.md) in every step of the
 // case that is a new start. For an unclosed mesh that depends on the apexes of the built-in
-// detector, so the detector is asked for them, in a copy of this process, where a crash does no
-// harm.
+// detector, so the detector is asked for them, in a copy of this process, which may crash.
 bool starts_clean(const corpus::Case& c);
 
 // Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
@@ -115,8 +114,7 @@ Judge judge_of_law(const Law& law, const Configuration& configuration);
 // `check` must be able to make again whatever it keeps from one call to the next.
 // case_of(i) is the id of the case of check i, for the text of a tally. Throws what `check` throws,
 // and std::runtime_error if copies are killed from outside again and again. A copy costs some ten
-// milliseconds, mostly for pages that both processes write, so many cases should be checked
-// together.
+// milliseconds, mostly for pages that both processes write, so check many cases together.
 std::vector<LawTally> check_in_copies(std::size_t count,
                                       const std::function<std::string(std::size_t)>& case_of,
                                       const std::function<LawTally(std::size_t)>& check);
@@ -129,8 +127,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
 // have a wider interval of time, or a false alarm.
 
 struct FormCheck {
-  // `premise` and `differs` count steps, and `broken` is 0 or 1; all are 0 if the form did not
-  // apply.
+  // `premise` and `differs` count steps, and `broken` is 0 or 1; all 0 if the form did not apply.
   LawCount count;
   std::optional<FailureRecord> failure;  // of the form, if it breaks the law
   std::uint64_t disturbances = 0;
@@ -181,8 +178,7 @@ TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline d
 // Returns the case of a failure as it is stored: with the options of its configuration.
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure);
-// Returns the failure as it is stored, under the id of the case. `flaky`: a second run does not
-// show it.
+// Returns the failure as stored, under the id of the case. `flaky`: a second run does not show it.
 FailureRecord stored_failure(Source source, const corpus::Case& c,
                              const Configuration& configuration, const DetectorUnderTest& detector,
                              const Failure& failure, bool flaky, const std::string& output);

@@ -199,8 +199,8 @@ class CaseFacts {
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
   // Returns whether the premise of L3 to L8 holds: outside Vv everything is clean at the start. If
   // the caller vouched for a new start (start clean), the oracle's layers decide whether that is
-  // true. In all other cases it counts as true, because L8 and L9 judge what the detector takes as
-  // clean.
+  // true. In all other cases it counts as true, because L8 and L9 judge the detector's clean
+  // triangles.
   bool is_trusted(std::size_t s);
 
   // The functions below ask the oracle, and take the primitives and apexes from the detector's

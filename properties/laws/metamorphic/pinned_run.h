@@ -2,8 +2,7 @@
 //
 // View primitives and apexes are means in doubles, summed in the order of the vertices. In a mesh
 // that is renumbered, mirrored or moved they would differ in the last bits. So a changed run takes
-// them from the original run, changed like the vertices, and the two runs can be compared in every
-// bit.
+// them from the original run, changed like the vertices, and every bit can be compared.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,4 @@
-// Draws the configurations in which the claims are tried: options, questions, states and sizes in
-// pairs.
+// Draws the configurations in which claims are tried: options, questions, states, sizes in pairs.
 #pragma once
 
 #include <cstdint>

@@ -32,8 +32,7 @@ class PluginHost {
   // Runs a case as run_case does. If a result breaks the header's rules (an index out of range, an
   // invalid interval), its step is an error, which `explanation` states. Coordinates are rounded as
   // the contract says. The caller must leave out the steps that the contract leaves out. If the
-  // case is a query (query_case.h), the plug-in's function for queries is asked, with unrounded
-  // coordinates.
+  // case is a query (query_case.h), the plug-in's query is asked, with unrounded coordinates.
   CaseRun run(const corpus::Case& c, bool is_timed = false) const;
 
  private:
