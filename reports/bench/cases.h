@@ -1,5 +1,4 @@
-// Collects the meshes that suites run: scenes of corpus/, the public data, and all families of
-// cases.
+// Collects the meshes that suites run: scenes of corpus/, public data, and all families of cases.
 #pragma once
 
 #include <algorithm>

@@ -116,8 +116,7 @@ Estimate scaled(Estimate estimate, double factor);
 // Returns the k of the rank interval for n samples, 1-based.
 std::size_t rank_of_lower_end(std::size_t n);
 
-// Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples
-// not empty.
+// Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples.
 double quantile(std::vector<double> samples, double share);
 
 // Computes percentile bootstrap intervals of medians (Efron and Tibshirani, "An Introduction to the

@@ -44,7 +44,7 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words);
 // Fails if a name, a file or a library is wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
-// Makes the folder of a run, and checks that these files in it, and its folder of failures, can be
+// Makes the folder of a run, and checks that these files, and its folder of failures, can be
 // written.
 Expected<void> may_keep_run(const std::filesystem::path& out,
                             const std::vector<std::string>& files);

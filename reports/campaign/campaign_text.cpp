@@ -51,8 +51,7 @@ std::string strata_text(const RunFindings& findings) {
   return out;
 }
 
-// Returns the trials that were killed from outside and ran again, and those that came near their
-// limit.
+// Returns the trials that were killed from outside and ran again, and those near their limit.
 std::string disturbance_text(const RunFindings& findings) {
   const auto& tally = findings.tally;
   std::string out;

@@ -106,8 +106,8 @@ class CorpusCheck {
     add(std::move(rows));
   }
 
-  // Adds the rows of an input. If all configurations have the same result, with nothing to report,
-  // they share one line.
+  // Adds the rows of an input. Configurations with the same result, and nothing to report, share
+  // one line.
   void add(std::vector<JudgedSource> rows) {
     result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     const auto counts = [](const JudgedSource& row) {

@@ -85,8 +85,7 @@ Json facts_of(const T& evidence) {
   return facts;
 }
 
-// Returns the members that the row of a source shows of each of its inputs; null if there is no
-// input.
+// Returns the members that the row of a source shows of each of its inputs; null without inputs.
 Json inputs_json(const RunFindings& findings, Source source) {
   Json inputs;
   for (const auto& row : findings.evidence.rows_of(source)) {

@@ -32,7 +32,7 @@ nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const std::string& campaign_digest);
 
 // Makes the statement from the findings and the campaign.json in their folder alone, so that equal
-// files give equal bytes. Fails if campaign.json is missing, is no plan, or is not the plan of the
+// files give equal bytes. Fails if campaign.json is missing, no plan, or not the plan of the
 // stores.
 properties::Expected<nlohmann::ordered_json> make_statement(
     const properties::RunFindings& findings);

@@ -63,8 +63,7 @@ struct CheckOutcome {
   // that the contract leaves out.
   void judge_claims(const properties::DetectorUnderTest& plugin, std::size_t steps_left_out);
 
-  // Returns the results in the order of claims, those of unjudged claims last. REQUIRES
-  // judge_claims.
+  // Returns the results in the order of claims, unjudged ones last. REQUIRES judge_claims.
   std::vector<ClaimResult> claim_results() const;
   // Returns the last lines of the output of `check`, each with its end of line.
   std::string summary() const;
@@ -142,8 +141,8 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const CheckListener& listener);
 
 // Runs `check --separation D` or `--offset` on one mesh: whether triangles that share no vertex
-// come within D of each other, which, when first, and how near any two of them come. Only the
-// oracle is asked.
+// come within D of each other, which, when first, and how near any two come. Only the oracle is
+// asked.
 
 // Finite lengths of 0 or more, in the mesh's units.
 struct AskedDistance {

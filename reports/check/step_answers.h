@@ -65,16 +65,14 @@ class StepAnswers {
   bool judged_by_claims() const {
     return is_plugin() || !under_test().claims.has(properties::Claim::times_unique);
   }
-  // Returns whether the steps have answers. A library that gives only candidates or limits has
-  // none.
+  // Returns whether the steps have answers. A library of candidates or limits alone has none.
   bool has_answers() const { return subject_.description.parts.steps; }
   // Returns how many steps of the input the contract leaves out.
   std::size_t steps_left_out() const { return steps_left_out_; }
   // Returns the milliseconds of preprocessing; nothing for a plug-in, which does it in a process of
   // its own.
   std::optional<double> create_ms() const { return create_ms_; }
-  // Returns the run: for a plug-in over all steps, for others over the step that was asked for
-  // last.
+  // Returns the run: for a plug-in over all steps, for others over the step asked for last.
   const properties::CaseRun& run() const { return run_; }
   // Returns the place of step s in run().
   std::size_t place_of(std::size_t s) const { return s - first_of_run_; }

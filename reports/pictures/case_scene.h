@@ -83,8 +83,8 @@ struct CaseScene {
 double middle(const detector::TimeEnclosure& time);
 
 // Makes the scene. `worker` runs the detector; null: the detector is not available. Returns nothing
-// if the contract cannot represent a coordinate. The case is judged exactly, which is dear: meant
-// for shrunk cases.
+// if the contract cannot represent a coordinate. Judges exactly, which is dear: meant for shrunk
+// cases.
 std::optional<CaseScene> make_scene(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,
                                     const properties::Configuration& configuration,

@@ -4,8 +4,7 @@
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
-// arrays too. assay/arrays.py converts any other array once, or refuses it with its dtype and
-// shape.
+// arrays too. assay/arrays.py converts other arrays once, or refuses them with dtype and shape.
 #pragma once
 
 #include <pybind11/numpy.h>

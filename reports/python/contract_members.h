@@ -18,8 +18,7 @@ inline pybind11::tuple claim_words() {
   return words;
 }
 
-// Returns the words of each member in the order of their numbers; none for a member that is a
-// number.
+// Returns the words of each member in the order of their numbers; none for a number.
 inline pybind11::dict words_of_members() {
   pybind11::dict members;
   assay_description description = {};
@@ -35,8 +34,7 @@ inline pybind11::dict words_of_members() {
   return members;
 }
 
-// Sets the members of the description. `described` of assay/hosting.py has turned their words into
-// numbers.
+// Sets the members of the description. `described` of assay/hosting.py made numbers of words.
 inline void set_contract(assay_description& description, const pybind11::dict& numbers) {
   properties::Contract contract;
   visit_members(description, contract, [&]<class T>(const char* name, T& member, const auto&) {

@@ -26,8 +26,7 @@ std::string time_text(const detector::TimeEnclosure& time);
 // Returns "1 pair", "12 pairs".
 std::string pairs_text(std::size_t count);
 
-// Returns "at rest; ", "1 step; ", "12 steps; ". Empty if the title of the input says that it is at
-// rest.
+// Returns "at rest; ", "1 step; ", "12 steps; ". Empty if the title already says "at rest".
 std::string steps_text(std::size_t count, bool is_at_rest, const std::string& title);
 
 // Returns "in contact", or with a separation above 0 "within 0.1".

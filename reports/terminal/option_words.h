@@ -54,12 +54,10 @@ std::string exit_codes_text();
 // blanks; the first continues a line of which `indent` columns are written already.
 std::string wrapped(const std::string& text, std::size_t indent);
 
-// Returns one line that says which words are allowed in place of this one, and which may have been
-// meant.
+// Returns one line that says which words are allowed, and which may have been meant.
 std::string wrong_word(const std::string& word, const std::string& choices);
 
-// Returns a check that accepts the words that `parse` accepts: a fixed set, or words of a certain
-// form.
+// Returns a check that accepts the words that `parse` accepts: a fixed set, or words of some form.
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
   return [words, parse](const std::string& word) {

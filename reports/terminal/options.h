@@ -93,8 +93,7 @@ CLI::Option* add_detector(
     CLI::App& verb, DetectorWords& detector,
     const std::string& about =
         "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-// Add the same options without --threads; and --threads alone, for a verb that takes all cores if
-// it is 0.
+// Add the same options without --threads; and --threads alone, where 0 means all cores.
 CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about);
 void add_threads(CLI::App& verb, std::uint64_t& threads);
 

@@ -53,8 +53,7 @@ std::string absolute_path(const std::filesystem::path& path);
 // Empty if the program was built outside of a git repository.
 std::string commit_text();
 
-// Returns "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries on which its
-// answers rest.
+// Returns "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program, and libraries behind its answers.
 std::string version_text();
 
 }  // namespace assay::reports

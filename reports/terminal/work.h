@@ -1,6 +1,5 @@
 // The work of a verb: its exit codes, and the one line on stderr if it must give up; the limits of
-// time and memory that a user sets; lines that show the progress of long work; and the files that
-// it writes.
+// time and memory that a user sets; lines that show the progress of long work; and its files.
 #pragma once
 
 #include <boost/outcome/try.hpp>

@@ -1,5 +1,4 @@
-// `assay replay` runs one case again, by its id or from its file, and tells the facts about a pair
-// in it.
+// `assay replay` runs one case again, by its id or from its file, and tells about a pair in it.
 #include <fmt/format.h>
 
 #include <algorithm>

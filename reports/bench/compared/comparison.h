@@ -87,8 +87,7 @@ struct BenchReport {
   // The fields that the suite adds to the JSON, by name: lists of objects, except `detector`.
   std::map<std::string, nlohmann::ordered_json, std::less<>> figures = {};
   // The suite's own CSV: the names of its columns, and its lines, each with the number of columns
-  // that it fills; the other columns of a line are empty. No lines: the CSV has the samples of the
-  // rows.
+  // that it fills; the other columns of a line are empty. No lines: the CSV has the rows' samples.
   std::vector<std::string> columns = {};
   std::vector<std::pair<std::size_t, std::string>> samples = {};
 
@@ -167,8 +166,8 @@ struct BenchSubject : properties::Subject {
   properties::WorkerProcess make_worker(double seconds) const;
 };
 
-// Returns an assembly that a user may choose by options, in this process. "exact view-auto all" is
-// a name.
+// Returns an assembly that a user may choose by options, named "exact view-auto all", in this
+// process.
 BenchSubject variant_of(detector::Arithmetic arithmetic, detector::Culling culling,
                         detector::Pairs pairs);
 // Returns every arithmetic with every culling, for all pairs and for first pairs; exact, bvh, all
@@ -188,8 +187,7 @@ struct Peers {
 };
 // Returns the built-in detector in three arithmetics, and the peers in the folder: each library
 // NAME.so, by name. A library is absent if it cannot be loaded, has no steps, or answers about a
-// distance in place of contact. A known peer without a library is absent too; `why` says what it
-// needs.
+// distance in place of contact. A known peer without a library is absent too; `why` says its needs.
 Peers find_peers(const std::string& folder);
 
 // The counts of answers that the oracle judged.

@@ -12,8 +12,7 @@ namespace {
 
 using detector::FeatureKind, detector::PairContact;
 
-// Returns the time that lies this many eighths of the way from a double to the next, if 62 bits can
-// hold it.
+// Returns the time this many eighths of the way from a double to the next, if 62 bits can hold it.
 std::optional<oracle::RationalTime> between(double lo, double hi, int eighths) {
   constexpr int bits = 62;
   const double from = std::ldexp(lo, bits), way = std::ldexp(hi - lo, bits - 3);

@@ -1,5 +1,5 @@
-// Suite `peers` compares the available detectors of others with the built-in one; `--detector`
-// compares one plug-in.
+// Suite `peers`, and `--detector` for one plug-in, compare detectors of others with the built-in
+// one.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -85,8 +85,7 @@ std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& pri
   return oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, of_triangle, 1);
 }
 
-// Returns whether the oracle agrees with the construction of the case: answer, first time, view
-// signs.
+// Returns whether the oracle agrees with the case's construction: answer, first time, view signs.
 bool agrees_with_construction(const corpus::Case& c, const oracle::StepJudgement& judgement) {
   const auto& step = c.expected.steps.front();
   const auto view = corpus::view_of_step(c, 0);
