@@ -35,8 +35,8 @@ double extent_of(const corpus::Case& c);
 
 // Returns the case with only the steps at these places, ascending, and the frames that they use. If
 // the contract has a distance at rest, the first frame stays too, because the mesh is at rest
-// there. Expected facts are dropped, because they were about the whole case, except that the mesh
-// is refused. REQUIRES at least one place.
+// there. Expected facts are about the whole case, so all but a refusal of the mesh are dropped.
+// REQUIRES at least one place.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
                         const Contract& contract = {});
 

@@ -50,9 +50,9 @@ bool is_within_a_component(const corpus::Case& c, const Focus& focus);
 //
 // Two triangles of one component that are both seen from behind are left out, and so are two that
 // are both seen from the front. If all first contacts are of such pairs, a detector finds them only
-// by its knowledge of the start and of ghosts (L3, L11); if that is nearly so, only by an exact
-// view test. Example: two layers of a roll, seen from its axis; the inner one goes through the
-// outer one.
+// by its knowledge of the start and of ghosts (L3, L11). If all are nearly such pairs, it needs an
+// exact view test. Example: two layers of a roll, seen from its axis; the inner one goes through
+// the outer one.
 //
 // The result is from 0 to 1: how far a pair's two triangles have one sign, at a few times, in
 // doubles, for the least alike pair of the first contacts. It is 1 if all pairs have one sign, and
@@ -100,9 +100,9 @@ std::span<const Move> mesh_moves();
 std::span<const Move> view_moves();
 
 // Lets a vertex go through a triangle along a ray of a view-point. Vertices move along rays or
-// rest, so no triangle changes its sign, and the triangle and those of the vertex have one sign. In
-// a clean closed mesh a triangle of the other sign is met before (L3). The view-point may become a
-// short line.
+// rest, so no triangle changes its sign. The triangle and those of the vertex have the same sign.
+// In a clean closed mesh a triangle of the other sign is met before (L3). The view-point may become
+// a short line.
 void pass_by_ray(Random& random, Candidate& child, const MoveContext& context);
 
 // Puts a copy of the mesh inside the mesh, or around it. The two are joined at a corner or two, so

@@ -43,8 +43,8 @@ struct TrialCase {
 // "quick:1:broken:3~1", "~2", ... are tried until it takes some, so that a stratum has as many
 // judged cases under every contract. For queries, and under a contract that leaves contacts out,
 // every fourth case must have a contact that counts, and is drawn again until it has one. A case is
-// drawn again at most most_redrawn times, each time deterministically, and for want of a contact at
-// most most_without_contact times; then the last case that the contract takes stays. The case is
+// drawn again, deterministically, at most most_redrawn times, of these at most most_without_contact
+// times because it has no contact. Then the last case that the contract takes stays. The case is
 // brought into the contract (below). Under a contract with a separation every second case is aimed
 // at the separation (parts.h), and a case is rejected if all of its steps start within it. Without
 // a contract the result for a mesh is the case of the id.
