@@ -112,7 +112,7 @@ std::string detector_text(const properties::DetectorUnderTest& detector);
 // may use: one line each, without a newline at the end.
 std::string plugin_text(const properties::Subject& plugin);
 
-// Returns " it printed:" and the lines that a plug-in printed in a case, each behind four blanks;
+// Returns "  it printed:" and the lines that a plug-in printed in a case, each behind four blanks;
 // empty if it printed nothing.
 std::string printed_text(const std::string& output);
 

@@ -56,7 +56,7 @@ inline constexpr Goal exact_over_double = at_most(1.3);
 
 // For whole sequences with culling auto, over the one culling that takes the least time for each
 // whole sequence: the ratios of the sums, of the median steps, and of any step of a millisecond or
-// more. Then a first step over that of bvh, because it has to look at the pairs of bvh; and one
+// more. Then a first step over that of bvh, whose pairs the first step has to look at; and one
 // thread over two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
