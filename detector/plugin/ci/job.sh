@@ -14,5 +14,5 @@ proof="proof/$(
   --power "$proof" --corpus "${CASES:-cases}" --out "$out"
 code=$?
 [ "$code" -eq 2 ] || { mkdir -p reports && cp "$out/junit.xml" "$out/summary.md" reports/; }
-[ "$code" -ne 3 ] || echo "undecided, and no defect: reports/summary.md says why"
+[ "$code" -ne 3 ] || echo "undecided, and no defect: see reports/summary.md, and assay list slow $out"
 exit "$code"
