@@ -121,8 +121,7 @@ class PythonDetector {
       option_case.options[name.cast<std::string>()] = word.cast<std::string>();
     }
     auto case_options = properties::read_options(option_case);
-    if (!case_options)
-      throw py::value_error(case_options.error().message + "; assay.OPTIONS has the words");
+    if (!case_options) throw py::value_error(case_options.error().message + ": see assay.OPTIONS");
     case_options.value().threads = threads;
     const TrianglesArgument mesh(triangles, "triangles");
     const PositionsArgument places(positions, "positions");
