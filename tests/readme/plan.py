@@ -99,7 +99,7 @@ SLOW = {
         "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
     ],
     "corpus/peers/README.md": [
-        "assay bench --suite peers --json build/peers.json",
+        "assay bench --suite peers --quick --case-seconds 1 --json build/peers.json",
         "python3 reports/pictures/benches.py build/peers.json reports/pictures/peers.svg",
     ],
     "reports/certificate/README.md": [
