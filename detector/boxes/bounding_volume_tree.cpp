@@ -177,12 +177,23 @@ struct BoundingVolumeTree::Builder {
   };
   // Of `count` spots, one or more.
   static Extent extent_of(const Spot* spots, std::size_t count) {
-    FloatLanes lo = std::bit_cast<FloatLanes>(spots[0]), hi = lo;
-    for (std::size_t i = 1; i < count; ++i) {
+    // Several take turns, because each waits for its own last result.
+    constexpr std::size_t turns = 4;
+    FloatLanes los[turns], his[turns];
+    std::fill_n(los, turns, std::bit_cast<FloatLanes>(spots[0]));
+    std::fill_n(his, turns, los[0]);
+    const auto take = [&](std::size_t i, std::size_t turn) {
       const auto spot = std::bit_cast<FloatLanes>(spots[i]);
-      lo = least(lo, spot);
-      hi = greatest(hi, spot);
+      los[turn] = least(los[turn], spot);
+      his[turn] = greatest(his[turn], spot);
+    };
+    std::size_t i = 1;
+    for (; i + turns <= count; i += turns) {
+      for (std::size_t turn = 0; turn < turns; ++turn) take(i + turn, turn);
     }
+    for (; i < count; ++i) take(i, 0);
+    const auto lo = least(least(los[0], los[1]), least(los[2], los[3])),
+               hi = greatest(greatest(his[0], his[1]), greatest(his[2], his[3]));
     const auto lowest = std::bit_cast<Spot>(lo), sides = std::bit_cast<Spot>(hi) - lowest;
     // Sums, because branches would be foretold wrongly as often as not.
     const std::size_t is_last = sides[2] > std::max(sides[0], sides[1]);
