@@ -116,6 +116,8 @@ def campaign_rows(build, name, seed, folder, whole, proof=None):
     left |= {"strata", "tried"} if name == "drawn" else set()
     for part in [p for p in PARTS if p not in left]:
         rows += rows_of([name, seed, part], said.get(part))
+    if name == "drawn":
+        rows = [re.sub(r"wider than (\S+) in \d+ of", r"wider than \1 in some of", r) for r in rows]
     return rows
 
 
