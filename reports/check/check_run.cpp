@@ -128,8 +128,8 @@ class CheckRun {
         question_.no_oracle ? "; no oracle: not judged" : "",
         question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
     for (const auto& remark : text_.remarks) say(remark + "\n");
-    if (!question_.announced_file.empty())
-      say(fmt::format("writes {}\n", question_.announced_file));
+    for (const auto& file : {question_.announced_file, question_.ply_file})
+      if (!file.empty()) say(fmt::format("writes {}\n", file));
   }
 
   // Vertices that belong to no triangle, if there are any.

@@ -283,9 +283,9 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
   if (work.has_stages) out += stages_text(result, work.create_ms, work.is_at_rest);
   if (oracle) {
     out +=
-        fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}{}",
+        fmt::format("{} {:.1f}\n  oracle: {}, {} of {} feature candidates{}{}",
                     work.has_stages ? ", oracle" : "  ms:   oracle", oracle->milliseconds,
-                    properties::name_of(oracle->truth.answer()), oracle->truth.pairs.size(),
+                    properties::name_of(oracle->truth.answer()), pairs_text(oracle->truth.pairs.size()),
                     oracle->judgement.feature_candidates,
                     oracle->judgement.complete ? "" : " (stopped)", left_out_text(oracle->truth));
   }
