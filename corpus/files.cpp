@@ -71,7 +71,7 @@ Problem corrupt(const std::filesystem::path& path, const char* how, std::size_t 
 
 Problem empty(const std::filesystem::path& path) { return problem_in(path, "the file is empty"); }
 
-// A file that is named like a gzip stream and is none.
+// The problem of a file that is named like a gzip stream but is none.
 Problem no_gzip(const std::filesystem::path& path) {
   return corrupt(path, "has no gzip signature", 0);
 }
@@ -161,8 +161,8 @@ Expected<std::string> read_start(const std::filesystem::path& path, std::size_t 
 namespace {
 
 // The file that is written and then becomes `path`: NAME.part, or NAME.1.part while another writer
-// has that, and so on. Its writer holds a lock on it that ends with the process, so the next
-// writer can take what a killed one left.
+// has NAME.part, and so on. Its writer holds a lock on it that ends with the process, so the next
+// writer can take the part that a killed one left.
 class PartFile {
  public:
   explicit PartFile(const std::filesystem::path& path) {
@@ -212,7 +212,7 @@ class PartFile {
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (file_ < 0) return fail(errno);
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) return fail(errno);
-    // Its writer may have renamed or removed it before it was locked here.
+    // The writer of the part may have renamed or removed it before it was locked here.
     struct stat opened, there;
     if (::fstat(file_, &opened) != 0) return fail(errno);
     if (::stat(name_.c_str(), &there) != 0 || opened.st_ino != there.st_ino ||

@@ -2,9 +2,9 @@
 //
 //   ASSAY_FIELDS(Canary, fault, found_after)
 //
-// names all members. One that is left out does not compile, and neither does a name that is no
-// member. A type with fewer fields than members, or more, has a function `fields(archive, x)` that
-// calls archive("name", x.name, "other", x.other).
+// names all members. A missing member does not compile, and neither does a name that is no member.
+// A type with fewer fields than members, or more, has a function `fields(archive, x)` that calls
+// archive("name", x.name, "other", x.other).
 //
 // Archives turn fields into messages (worker/messages.h) and into JSON objects, and back. A file
 // that needs JSON includes <nlohmann/json.hpp>, without which the worker is built.
@@ -90,7 +90,7 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
   template <class T>
   void field(const std::string& name, T& item) {
     if constexpr (reads) {
-      // at() throws if this is no object; contains() would take that for one without fields.
+      // at() throws if this is no object; contains() would take it for an empty object.
       if (zeros == Zeros::stay || !object_.is_object() || object_.contains(name))
         pass(object_.at(name), item);
     } else {

@@ -32,7 +32,7 @@ constexpr reports::VerbAction (*verbs[])(CLI::App&) = {
 
 using Words = std::vector<std::string>;
 
-// Help on a terminal of 80 columns: CLI11's own but for the usage, and for lines that are broken.
+// Help on a terminal of 80 columns: CLI11's own, except for the usage and for broken lines.
 class Formatter : public CLI::Formatter {
  public:
   Formatter() {

@@ -18,7 +18,8 @@ namespace {
 
 using detector::Point;
 
-// A rule: triangles name vertices below `vertices`. Unless `may_repeat`, none names one twice.
+// A rule: triangles name vertices below `vertices`. A triangle names a vertex twice only if
+// `may_repeat` is set.
 struct Corners {
   std::int64_t vertices;
   bool may_repeat;
@@ -54,7 +55,7 @@ void fields(Archive& archive, ExpectedStep& step, const Case& c) {
   archive.may("ghost_view_signs", step.ghost_view_signs, Items{static_cast<std::size_t>(ghosts)});
 }
 
-// The answer alone.
+// The answer alone, without the steps.
 struct AnswerOf {
   ExpectedFacts& facts;
 };
@@ -68,7 +69,7 @@ void fields(Archive& archive, ExpectedFacts& facts, const Case& c) {
   archive.must("steps", facts.steps, StepsOrNone{c}, c);
 }
 
-// Numbers of vertices that follow each other and are of one body, each with that body.
+// Returns the runs of consecutive vertices of one body: how many vertices, and the body.
 std::vector<std::array<std::int32_t, 2>> runs_of(const std::vector<std::int32_t>& body) {
   std::vector<std::array<std::int32_t, 2>> runs;
   for (const std::int32_t b : body) {
@@ -114,7 +115,7 @@ void fields(Archive& archive, Case& c) {
   archive.must("id", c.id);
   archive.must("about", c.about);
   archive.must("source", c.source);
-  // What triangles may be depends on fields behind them.
+  // Fields behind the triangles say which triangles are allowed.
   if constexpr (Archive::reads) {
     archive.must("frames", c.frames);
     archive.must("expected", AnswerOf{c.expected});

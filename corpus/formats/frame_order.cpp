@@ -101,9 +101,9 @@ std::string unevenness(const Names& names) {
                      odd == 1 ? "" : fmt::format(", and {} more places", odd - 1));
 }
 
-// Whether a shell may have listed them so: letter by letter, or, as in most languages but C, by
-// letters and digits alone, where sim_10.obj comes before sim_1.obj. Two files in that second order
-// are taken for the user's own.
+// Whether a shell may have listed the paths in this order: letter by letter, or, as in most
+// languages but C, by letters and digits alone, where sim_10.obj comes before sim_1.obj. Two files
+// in that second order are taken for the user's own.
 bool is_order_of_a_shell(const std::vector<std::string>& paths) {
   const auto letters_and_digits = [](std::string path) {
     std::erase_if(path, [](unsigned char c) { return !std::isalnum(c); });
@@ -115,7 +115,7 @@ bool is_order_of_a_shell(const std::vector<std::string>& paths) {
          (paths.size() > 2 && std::ranges::is_sorted(paths, {}, letters_and_digits));
 }
 
-// Puts files in order whose names differ in numbers alone.
+// Orders files whose names differ in numbers alone.
 void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
   const auto all_parsed = [&](Reading reading) {
     Names names;

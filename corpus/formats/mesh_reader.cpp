@@ -31,13 +31,13 @@ std::string mesh_extension(std::filesystem::path path) {
 
 enum class Format { ply, off, obj };
 
-// The format is told from this many bytes at the start, and the name.
+// This many bytes at the start, and the name, tell the format.
 constexpr std::size_t format_bytes = 4096;
 
 // Formats that are not read, by the ends of names.
 struct OtherFormat {
   std::string_view ends, name;
-  // What meshio writes of it without loss; empty if meshio does not read it.
+  // The format in which meshio writes it without loss; empty if meshio does not read it.
   std::string_view by_meshio = {};
 };
 constexpr OtherFormat other_formats[] = {{".stl", "an STL", ".ply"},
@@ -69,7 +69,7 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
     if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
     if (by_meshio.empty())
       return problem_in(path, fmt::format("{} file; {}export it as one of these", name, read));
-    // In a name that a shell or Python would read as something else, the user puts it in.
+    // If a shell or Python would misread the name, the user has to put it in.
     const bool is_plain = std::ranges::all_of(path.string(), [](unsigned char c) {
       return c >= 0x80 || std::isalnum(c) ||
              std::string_view("._-+/ ").find(c) != std::string_view::npos;

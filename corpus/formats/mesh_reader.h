@@ -45,7 +45,7 @@ struct Mesh {
 // does (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
-// Refuses a file by what can be known without reading all of it: the file is missing, may not be
+// Refuses a file for faults that show without reading all of it: the file is missing, may not be
 // read, is empty or has no known format. The problem is that of read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
@@ -62,7 +62,7 @@ std::string places_of_same_faces(const std::filesystem::path& file);
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
 // Returns whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n,
-// capital or not. A file whose name ends so may lack the word.
+// capital or not. A file named *.off may lack the word.
 bool looks_like_off(std::string_view text);
 // OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
 // a comment. Normals, colours and texture coordinates are passed over, faces of one or two corners
@@ -117,8 +117,7 @@ class MeshBuilder {
   std::size_t split_ = 0;  // polygons of more than three corners
   std::map<std::string, std::size_t> skipped_;
   std::vector<std::string> remarks_;
-  // The highest index so far and its place: finish() needs no more to name an index without a
-  // vertex.
+  // The highest index so far, and its place: with these, finish() names an index without a vertex.
   std::int64_t highest_ = -1;
   Place highest_place_ = {"line", 0};
 };

@@ -76,7 +76,7 @@ class OffReader {
     }
     BOOST_OUTCOME_TRY(vertices, integer(0, "the number of vertices"));
     BOOST_OUTCOME_TRY(faces, integer(1, "the number of faces"));
-    // Each vertex and face takes a line, so a count beyond the file's size is a lie. Nothing is
+    // Each vertex and face takes a line, so a count beyond the file's size is wrong. Nothing is
     // reserved for it.
     const auto most = static_cast<std::int64_t>(size_);
     if (vertices < 0 || faces < 0) return wrong("a negative count");

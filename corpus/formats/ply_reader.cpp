@@ -229,8 +229,8 @@ class PlyBody {
     return boost::outcome_v2::success();
   }
 
-  // Whether `count` items may still follow, of `least_size` bytes each in a binary body, of a word
-  // each in an ascii one. Asked before anything is sized by a number that the file claims.
+  // Whether `count` more items may follow, each of `least_size` bytes in a binary body, or of a
+  // word in an ascii one. Asked before anything is sized by a number that the file claims.
   bool has_room(std::uint64_t count, std::uint64_t least_size) const {
     // A word takes one character at least.
     const std::uint64_t size = is_ascii() ? 1 : least_size;

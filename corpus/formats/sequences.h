@@ -22,8 +22,8 @@ namespace assay::corpus {
 //
 // A shell lists names letter by letter; in some languages it ignores marks such as _. If the files
 // came in such an order, they are taken in the order of their numbers. Any other order is the
-// user's own and stays. Files whose names differ in more than numbers are not compared. 0.25 beside
-// 0.5 may be decimals or two numbers each: where this matters, the order stays too.
+// user's own and stays. Files whose names differ in more than numbers are not compared. In names,
+// 0.25 and 0.5 may be decimals, or two numbers each: if that matters, the order stays, too.
 
 struct FrameOrder {
   std::vector<std::filesystem::path> files;
@@ -61,7 +61,7 @@ class SequenceReader {
   // REQUIRES !at_end().
   Expected<detector::Positions> next();
 
-  // Refuses the frames that are left by what can be known without reading them (look_at_mesh).
+  // Refuses the remaining frames by look_at_mesh alone, without reading them.
   Expected<void> look_ahead() const;
 
   // Returns the triangles and the number of vertices of every frame. REQUIRES that a frame was
@@ -122,7 +122,8 @@ class BodiesReader {
 };
 
 // Finds vertices that stand at one place in every frame. If a format or an exporter doubles the
-// corners of neighbouring triangles (STL, seams of textures), these share no vertex, so they touch.
+// corners of neighbouring triangles (STL, seams of textures), the triangles share no vertex, so
+// they touch.
 class DoubledCorners {
  public:
   // `body`: the number of each vertex's body; vertices of two bodies are never counted together.
@@ -130,13 +131,13 @@ class DoubledCorners {
   DoubledCorners(const detector::Triangles& triangles, const std::vector<std::int32_t>& body);
 
   // Separates vertices that stand apart in this frame. Two places are equal if all coordinates are
-  // (0 = -0).
+  // equal (0 = -0).
   void add(const detector::Positions& x);
 
   // Returns a remark on the frames that were added; empty if no two vertices stand together.
   std::string remark(bool is_welded) const;
 
-  // Returns the triangles with each vertex replaced by the first one of its place.
+  // Returns the triangles with each vertex replaced by the first vertex at its place.
   detector::Triangles welded(detector::Triangles triangles) const;
 
  private:

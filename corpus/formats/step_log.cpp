@@ -53,8 +53,8 @@ std::optional<std::int64_t> integer(const Json& value) {
 
 std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
-// Returns a typed array of RFC 8746. `big` is its tag where the first byte of a number is its
-// highest; the tag is 4 more where it is the lowest. Nothing if the value is no such array.
+// Returns a typed array of RFC 8746. `big` is its tag if numbers begin with their highest byte; the
+// tag is 4 more if they begin with the lowest. Nothing if the value is no such array.
 template <class Number>
 std::optional<std::vector<Number>> typed_array(const Json& value, std::uint64_t big) {
   if (!value.is_binary()) return std::nullopt;
@@ -108,7 +108,7 @@ class Members {
     }
     return *this;
   }
-  // Each item is made of so many numbers in a row.
+  // Each item is made of `row` consecutive numbers.
   template <std::size_t row, class Item, class Make>
   Members& list(const char* key, std::vector<Item>& items, const Make& make) {
     if (!map_.contains(key)) return *this;
@@ -173,7 +173,7 @@ std::string read_counted(const Json& map, detector::CountedPairs& counted) {
 std::optional<Positions> exact_sum(const Positions& x, const Positions& way) {
   const Positions end = x + way;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    // What rounding took from the sum (Knuth), which is exact unless something overflows.
+    // The rounding error of the sum (Knuth), which is exact unless something overflows.
     const double a = x.data()[i], b = way.data()[i], sum = end.data()[i], part = sum - a;
     if (!std::isfinite(sum) || (a - (sum - part)) + (b - part) != 0) return std::nullopt;
   }
@@ -185,14 +185,14 @@ std::optional<Positions> places(const Json& value, Eigen::Index vertices) {
   return numbers ? positions_of(*numbers, vertices) : std::nullopt;
 }
 
-// Returns where a step ended: there the next one starts if it does not say where.
+// Returns where a step ended. The next step starts there if it states no start.
 std::optional<Positions> end_of(const Json& body, Eigen::Index vertices) {
   return places(value_of(body, body.contains("committed") ? "committed" : "x1"), vertices);
 }
 
 // Returns the number of keys in all maps of the bytes. Nothing unless they are one item of definite
-// lengths, nested so little that from_cbor, which calls itself for each level, stays in its
-// stack. A tag is one of bytes, as typed arrays have it, and no number is below those of 64 bits.
+// lengths, nested so little that the recursion of from_cbor stays in its stack. Tags must stand
+// before bytes, as in typed arrays, and negative numbers must fit into 64 bits.
 std::optional<std::uint64_t> keys_of(std::string_view bytes) {
   enum Major : unsigned { negative = 1, byte_text = 2, text = 3, array = 4, map = 5, tag = 6 };
   constexpr std::size_t deepest = 64;
@@ -215,7 +215,7 @@ std::optional<std::uint64_t> keys_of(std::string_view bytes) {
     for (std::size_t i = 1; i <= more; ++i)
       argument = argument << 8 | static_cast<std::uint8_t>(bytes[i]);
     bytes.remove_prefix(1 + more);
-    // What an item holds takes a byte at least.
+    // Each part of an item takes at least one byte.
     if (major >= byte_text && major <= map && argument > bytes.size()) return std::nullopt;
     if (major == negative && argument > most_negative) return std::nullopt;
     if (major == byte_text || major == text) bytes.remove_prefix(argument);
@@ -284,7 +284,7 @@ std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t 
   if (left < tail_bytes || length > left - tail_bytes) return std::nullopt;
   std::string tail, piece;
   if (!read(offset + length, tail_bytes, tail) || tail[0] != before_checksum) return std::nullopt;
-  // A length that is wrong may be any, so the body is summed before it is kept as a whole.
+  // A wrong length may be huge, so the checksum is computed before the body is kept as a whole.
   uLong sum = 0;
   for (std::uint64_t done = 0; done < length; done += piece.size()) {
     const auto count = std::min<std::uint64_t>(length - done, piece_bytes);
@@ -502,7 +502,7 @@ Expected<LogStep> StepLog::step(std::size_t i) {
     LoggedLimit& limit = step.limit.emplace();
     limit.share = number("share", -1);
     limit.positions = places(value_of(body, "positions"), head_.positions.rows());
-    // What are no positions are none that a limiter may give.
+    // Positions that cannot be read become positions that no limiter may give.
     if (body.contains("positions") && !limit.positions)
       limit.positions = Positions::Constant(head_.positions.rows(), 3, none);
   }

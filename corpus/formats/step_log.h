@@ -52,12 +52,12 @@ struct LogStep {
   detector::Positions x_t0, x_t1;
   std::optional<LoggedAnswer> answer;
   std::optional<LoggedLimit> limit;
-  // Why it is not known which step this is; empty if it is known. If it is not, positions mean
+  // Why it is unknown which step this is; empty if it is known. If it is unknown, positions mean
   // nothing.
   std::string why_unknown;
 };
 
-// The end of a file that is not read, because it begins with damage.
+// The unread end of a file, which begins with damage.
 struct LogDamage {
   std::uint64_t from = 0, to = 0;  // bytes of the file
   std::string what;                // the damage that begins there
@@ -84,7 +84,7 @@ class StepLog {
   // Returns the caller's notes, each by the number of the step that follows it.
   const std::multimap<std::uint64_t, std::string>& notes() const { return notes_; }
 
-  // Reads the records that were appended since.
+  // Reads the records that were appended since the last reading.
   Expected<void> go_on();
 
  private:

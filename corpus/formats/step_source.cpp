@@ -130,7 +130,7 @@ class StepsOfFiles : public StepSource {
   BodiesReader reader_;
   detector::Triangles triangles_;
   std::optional<detector::CountedPairs> counted_;
-  std::size_t step_ = 0;  // whose frames these are
+  std::size_t step_ = 0;  // the step from x_t0_ to x_t1_
   Positions x_t0_, x_t1_;
 };
 

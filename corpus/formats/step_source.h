@@ -35,14 +35,14 @@ class StepSource {
   virtual ~StepSource() = default;
 
   virtual std::size_t count() const = 0;
-  // Returns whether there is a step s. It comes after all steps that were asked for; an input that
-  // still grows may wait for it.
+  // Returns whether there is a step s, later than all steps that were asked for. An input that
+  // still grows may wait for the step.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
   // Returns the number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // Texts, one line each: the notes before the step that was asked for last, and, after all steps,
-  // the parts of the input that are lost, so that nothing is known of them, and other remarks.
+  // Texts, one line each: the notes before the last step that was asked for; and, after all steps,
+  // the lost parts of the input, of which nothing is known, and other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
@@ -68,8 +68,8 @@ class StepSource {
   // Returns the same case if it states options and facts; null if it is only triangles and frames.
   virtual const Case* case_file() const { return nullptr; }
 
-  // Reads all frames that are left, and returns the same steps of a case that is in memory as a
-  // whole. REQUIRES that no step was asked for, and that this object is not used any more.
+  // Reads the remaining frames, and returns the same steps as those of a case in memory. REQUIRES
+  // that no step was asked for, and that this object is not used any more.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 
@@ -104,8 +104,9 @@ struct BodyFiles {
 // the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
-// The purpose of a file. The bytes that it begins with tell, or its name if these do not tell or
-// cannot be read. If nothing tells, it is `frames`: the reader of frames then says what it found.
+// The purpose of a file. Its first bytes decide, or its name if they do not decide or cannot be
+// read. If the name does not decide either, the purpose is `frames`: the reader of frames then says
+// what it found.
 enum class InputKind { frames, case_file, log, queries, answers };
 InputKind kind_of_file(const std::filesystem::path& file);
 

@@ -98,7 +98,7 @@ bool is_huge(std::string_view word) {
   std::int64_t exponent = 0;
   for (++i; i < word.size(); ++i) {
     if (word[i] == '-') negative = true;
-    // It saturates, because more digits cannot change the outcome.
+    // The exponent saturates, because more digits cannot change the outcome.
     if (is_digit(word[i]) && exponent < 1'000'000'000'000) exponent = 10 * exponent + word[i] - '0';
   }
   return nonzero && place + (negative ? -exponent : exponent) > 0;

@@ -59,11 +59,11 @@ void add_tent(GridMesh& mesh, Variation& vary, const GridVertex& top, const Grid
   mesh.add_tetrahedron({floor(0), floor(1), floor(2), top});
 }
 
-// Even kinds: a tent moves up past the view-point at rest inside, until that is above, below or on
-// its floor. Odd kinds: the top comes down to above, below or on the floor, and the view-point is
-// half as high all the time. If the top gets on or below the floor, all four triangles are in
-// contact, and all their values are 0 at that time. That is t* = 1 if it stops on the floor, else
-// t* = 1 - 2 gap / 2^45, because the top starts at 2^45 - 2 gap.
+// Even kinds: a tent moves up past the view-point at rest inside, until the view-point is above,
+// below or on its floor. Odd kinds: the top comes down to above, below or on the floor, and the
+// view-point is half as high all the time. If the top gets on or below the floor, all four
+// triangles are in contact, and all their values are 0 at that time. That is t* = 1 if it stops on
+// the floor, else t* = 1 - 2 gap / 2^45, because the top starts at 2^45 - 2 gap.
 Case touches_zero(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;

@@ -2,11 +2,11 @@
 // the exact answer known by construction.
 //
 // The strength turns one knob, and a greater strength is harder. At strength s the knob stands at
-// 2^(exponent_at_0 + slope * s); what that measures depends on the family: a gap in units of the
-// grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a coordinate
-// of 2^52 units; coordinates are below 2^53. If things in a family can touch, one strength after
-// the strongest ends the scale: exact touching, a gap of 0. The parts that cases are made of come
-// first.
+// 2^(exponent_at_0 + slope * s); the meaning of this value depends on the family: a gap in units of
+// the grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a
+// coordinate of 2^52 units; coordinates are below 2^53. If things in a family can touch, one
+// strength after the strongest ends the scale: exact touching, a gap of 0. The parts that cases are
+// made of come first.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ namespace assay::corpus {
 
 // The free choices of a hard case: integers that depend on its family, strength and variant alone.
 // They are the same on every platform as long as no two draws are arguments or operands of one
-// expression, because these have no order (items of a braced list have one).
+// expression, because operands have no order (items of a braced list have one).
 //
 // SplitMix64, seeded by FNV-1a of the family's name.
 class Variation {

@@ -25,7 +25,7 @@ constexpr std::size_t rows_a_query = 8;
 
 enum class Kind { vertex_face, edge_edge };
 
-// An underscore does for a hyphen.
+// An underscore stands for a hyphen.
 std::string with_hyphens(std::string name) {
   std::ranges::replace(name, '_', '-');
   return name;
@@ -119,7 +119,7 @@ class CsvReader {
       row.x[k] = value;
     }
     if (count == numbers + 1 || (count == numbers + 2 && !columns[numbers].empty())) {
-      // Writers of arrays write it as they write the coordinates.
+      // Writers of arrays write the label as they write the coordinates.
       const auto label = parse_double(columns[numbers]);
       if (label != 0 && label != 1) return wrong("the label is neither 0 nor 1");
       row.label = label == 1;

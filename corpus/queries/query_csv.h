@@ -3,10 +3,10 @@
 // A row is x, y and z, each as numerator,denominator, which must equal a double, or as one decimal,
 // which becomes the double nearest to it. Columns are separated by commas, or, where a row has
 // none, by blanks. A further column is the query's truth (1: contact, 0: none). A column after that
-// is the query's separation, a decimal: the truth then says whether the features come within it,
-// and the column of the truth may be empty. Blank lines and comments (#) are passed over. Rows of
-// an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at
-// t0, the same at t1.
+// is the query's separation, a decimal: the truth then says whether the features come within the
+// separation, and its column may be empty. Blank lines and comments (#) are passed over. Rows of an
+// edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at t0,
+// the same at t1.
 #pragma once
 
 #include <filesystem>

@@ -41,7 +41,7 @@ Sequence deform_any(const SceneOptions& options, Field field, Shape shape) {
 
 Sequence breathing_sphere(const SceneOptions& options) {
   if (options.mesh) return deform_any(options, breathe, sphere_shape);
-  // It takes the sphere's centre itself, not that of the box around its vertices.
+  // Takes the sphere's own centre, not that of the box around its vertices.
   return deform(sphere_shape(options.size), Extent{}, breathe, options.frames);
 }
 

@@ -19,7 +19,7 @@ struct SceneInfo {
   std::string_view about;  // one line
   int default_size;        // triangles
   int default_frames;
-  bool closed;      // of its own shape: every edge is matched
+  bool closed;      // every edge of its own shape is matched
   bool takes_mesh;  // may be applied to a user's mesh
   // With at least this many frames, the statements about contacts hold; with fewer, steps cut
   // corners of the motion.

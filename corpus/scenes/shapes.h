@@ -106,7 +106,7 @@ class MeshMaker {
   std::vector<std::int32_t> corners_;
 };
 
-// Scenes that are a mesh for every s in [0,1], the scene's own time, or for every place of a tip.
+// Scenes that give a mesh for every time s of the scene, in [0,1], or for every place of a tip.
 //
 // Scenes of the first kind fill a collision detector with work: many layers, many bodies, a body
 // wound about itself, many thin strips. At s = 0 nothing touches. How far anything moves, and how

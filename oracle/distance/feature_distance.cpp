@@ -21,7 +21,7 @@ using detector::Point;
 using detector::TimeEnclosure;
 using detector::Want;
 
-// A sum that is not less than the exact one.
+// Returns a sum that is at least the exact one.
 double rounded_up(const Separation& d) {
   const double sum = d.first + d.second;
   if (d.first == 0 || d.second == 0) return sum;
@@ -29,7 +29,7 @@ double rounded_up(const Separation& d) {
 }
 
 // -1: all of S lies more than `distance` before all of S' along the axis; 1: after; 0: neither.
-// Where a difference that is rounded to nearest is greater than a double, so is the exact one.
+// If a difference, rounded to nearest, is greater than a double, so is the exact difference.
 int order_beyond(const FourPoints& q, Point detector::MovingPoint::*end, int axis,
                  double distance) {
   const auto at = [&](int i) { return (q.points[i].*end)[axis]; };
@@ -57,8 +57,8 @@ class Enclosed {
     squared_ = square(Enclosure(d.first) + Enclosure(d.second));
   }
 
-  // The greatest time e that was found with the features surely apart on [t,e] in this direction,
-  // from S' to S; -1 if they are not surely so at t. REQUIRES t = grid(t).
+  // Returns the greatest time e found such that the features are surely apart on [t,e] in this
+  // direction, from S' to S; -1 if they are not surely apart at t. REQUIRES t = grid(t).
   double apart_until(double t, const Point& n) const {
     std::array<Enclosure, 4> at_0, at_1;  // the points along n
     for (int j = 0; j < 3; ++j) {
@@ -68,7 +68,7 @@ class Enclosed {
     const Enclosure length =
         square(Enclosure(n[0])) + square(Enclosure(n[1])) + square(Enclosure(n[2]));
     const double wanted_squared = (length.hi * squared_).hi;
-    const double target = std::sqrt(wanted_squared);  // only where to go
+    const double target = std::sqrt(wanted_squared);  // a goal, no bound
     const auto surely_apart = [&](int i, int j, double at) {
       const Enclosure gap = (1 - at) * (at_0[i] - at_0[j]) + at * (at_1[i] - at_1[j]);
       return gap.lo > 0 && square(gap).lo > wanted_squared;
@@ -97,7 +97,7 @@ class Enclosed {
     const auto at = [&](int j, int k) { return (1 - t) * u0_[j - 1][k] + t * u1_[j - 1][k]; };
     const double first = places.first, second = places.second;
     if (first_group_ == 1 && (Enclosure(first) + Enclosure(second)).hi > 1 && second > 0) {
-      // Rounding alone may say so: then a place a little farther inside the face will do.
+      // Rounding alone may put the place outside: then a place a little farther inside will do.
       const double inside = std::max(0.0, second - 0x1p-50);
       if ((Enclosure(first) + Enclosure(inside)).hi > 1) return false;
       return surely_near(t, {first, inside, places.apart, places.squared});
@@ -130,7 +130,7 @@ Point scaled(const Point& n) {
   return {n[0] / greatest, n[1] / greatest, n[2] / greatest};
 }
 
-// Most pairs need one or two.
+// Most pairs need one or two stops of the walk.
 constexpr int most_stops = 24;
 
 // The findings of the rung "interval".
@@ -143,10 +143,10 @@ struct Approach {
 };
 
 // Walks along the step from time 0. At each time it takes the direction in which the features are
-// apart, as found in plain doubles, and asks for how long they stay apart in that direction. That
-// is linear in time, so two values decide, in interval arithmetic; the walk goes on from there. At
-// the first time it nears d as Newton's method does. Two places of the features that are surely
-// within d prove the rest.
+// apart, as found in plain doubles, and asks for how long they stay apart in that direction. Their
+// gap in it is linear in time, so two values decide, in interval arithmetic; the walk goes on from
+// there. Near the first time it converges as Newton's method does. Two places of the features that
+// are surely within d of each other prove a yes.
 Approach walk(const FourPoints& q, const Separation& d) {
   const Enclosed question(q, d);
   const double distance = d.first + d.second, squared = distance * distance;
@@ -167,7 +167,7 @@ Approach walk(const FourPoints& q, const Separation& d) {
       found.decision = Decision::no;
       return found;
     }
-    // Steps that shrink say that the first time is near: a look a little beyond it.
+    // Shrinking steps say that the first time is near, so look a little beyond it.
     constexpr double small = 0x1p-7, least = 0x1p-44;
     const double step = e - t;
     if (step < small) {
@@ -201,7 +201,7 @@ bool apart_by_axis(const FourPoints& q, const Separation& d) {
 // Coordinates or distances of 2^250 or more are left to the next rung. 0.3 to 0.6 us for most
 // pairs.
 Approach approach(const FourPoints& q, const Separation& d) {
-  // Differences stay below 2^251, and what is made of them, guesses too, below 2^1010: no overflow.
+  // Differences stay below 2^251, and all that is computed from them below 2^1010: no overflow.
   constexpr double largest = 0x1p250;
   if (!all_coordinates_below(q.points, largest)) return {};
   if (!(d.first < largest) || !(d.second < largest)) return {};
@@ -221,7 +221,7 @@ double guess_least_distance(const FourPoints& q) {
       best = i;
     }
   }
-  // Thirds of the two pieces about the best sample.
+  // A ternary search on the two pieces about the best sample.
   double lo = std::max(0, best - 1) / static_cast<double>(samples);
   double hi = std::min(samples, best + 1) / static_cast<double>(samples);
   constexpr int rounds = 60;
@@ -235,8 +235,8 @@ double guess_least_distance(const FourPoints& q) {
 }
 
 // The least time over the regions, given that the features are apart on [0,apart], and that no time
-// after `last` is asked for. The enclosure of the lesser of two times is the lesser one, so the
-// times themselves need not be compared.
+// after `last` is asked for. The lesser of two times has the lesser enclosure, so the times
+// themselves need not be compared.
 std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, double apart,
                                                    double last, Want want) {
   std::optional<TimeEnclosure> first;
@@ -248,7 +248,7 @@ std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, doubl
     if (!(begin < end)) continue;
     const auto zero = first_zero(region, begin, end);
     if (zero && (!first || *zero < *first)) first = zero;
-    // Without a time any region will do; with one, another may be near at 0.
+    // If no time is wanted, any region will do; otherwise another region may be near at 0.
     if (first && want == Want::yes_no) return first;
   }
   return first;
@@ -288,13 +288,13 @@ Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[
 Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// 0 over 0 is no share at all; any will do.
+// The share of 0 in 0 is not defined; any value will do.
 double share(double part, double whole) {
   return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0;
 }
 
-// The face's place nearest to the point. Which of its faces that lies on is read off the signs of
-// products (Ericson, Real-Time Collision Detection, 5.1.5).
+// The face's place nearest to the point. The signs of products tell whether it is at a vertex, on
+// an edge or inside (Ericson, Real-Time Collision Detection, 5.1.5).
 void nearest_on_face(const Point& p, const Point& a, const Point& b, const Point& c,
                      ClosestPlaces& places) {
   const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;

@@ -26,7 +26,7 @@ struct FirstNear {
   bool near = false;
   // The first time within d; set only when near is true and a time was wanted.
   detector::TimeEnclosure first;
-  // The rung that decided: axis, interval, or integers (Regions), which count as quadratic. If
+  // The rung that decided: axis, interval, or quadratic, which stands for integers (Regions). If
   // interval found the features near, the time is then computed in integers.
   Rung rung = Rung::axis;
 };
@@ -37,7 +37,7 @@ FirstNear first_time_within(const detector::FourPoints& q, const Separation& d,
 
 // Returns the least double d that the features come within during the step. So the least distance
 // is at most d and greater than the double before d; if d is 0, it is 0. Returns infinity if no
-// double is so large. 1 ms; 25 ms where it is next to 0 but not 0.
+// double is so large. 1 ms; 25 ms if the distance is next to 0 but not 0.
 double least_distance(const detector::FourPoints& q);
 
 // The nearest places of two features at one time, in plain doubles: a guess that nothing rests on.
@@ -53,9 +53,9 @@ struct ClosestPlaces {
 
 ClosestPlaces closest_places(const detector::FourPoints& q, double t);
 
-// Two features are near each other if they are so in one of several regions. There is a region for
-// each pair of closed faces of the two: point and point, point and edge, point and face, edge and
-// edge.
+// Two features are near each other if they are near in one of several regions. There is a region
+// for each pair of closed faces of the two: point and point, point and edge, point and face, edge
+// and edge.
 //
 // In each region the squared distance of the two faces' lines or planes is compared with d^2 by one
 // polynomial f of time, without a division. Conditions g >= 0 say that the feet of the

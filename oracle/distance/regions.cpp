@@ -45,7 +45,7 @@ Region Regions::point_face() const {
   const PolynomialVector ab = x_[2] - x_[1], ac = x_[3] - x_[1], ap = x_[0] - x_[1];
   const PolynomialVector normal = cross(ab, ac);
   const IntegerPolynomial area = square(normal), height = dot(ap, normal);
-  // The sides of the foot at ab and ca; the three add up to the area.
+  // The sides of ab and ca on which the foot lies; all three values add up to the area.
   const IntegerPolynomial at_ab = dot(normal, cross(ab, ap)), at_ca = dot(normal, cross(ap, ac));
   return {height * height - squared_ * area, {at_ab, at_ca, area - at_ab - at_ca}, area};
 }
@@ -72,11 +72,10 @@ Region Regions::operator[](int i) const {
   return i < 6 ? point_edge(i - 4, 2, 3) : point_edge(i - 4, 0, 1);
 }
 
-// Zeros are told apart by Descartes' rule on pieces of the step whose ends are doubles. A piece is
+// Zeros are isolated by Descartes' rule on pieces of the step whose ends are doubles. A piece is
 // halved by the number of doubles in it: so 62 halvings lead to any enclosure, whatever the
-// exponents. A zero that is alone is a number that can be asked for signs. Several zeros between
-// adjacent doubles are a cluster; it is looked at through a magnifying glass, in which these two
-// are 0 and 1.
+// exponents. At an isolated zero the signs of other polynomials can be found. Several zeros between
+// adjacent doubles are a cluster: there time is scaled so that the two doubles become 0 and 1.
 namespace {
 
 using detector::TimeEnclosure;
@@ -91,7 +90,8 @@ int sign_between(const IntegerPolynomial& p, double s, double e) {
   return static_cast<int>(positive && !negative) - static_cast<int>(negative && !positive);
 }
 
-// 1: the conditions hold at all times between s and e; -1: one fails at all; 0: neither is certain.
+// 1: the conditions hold at all times between s and e; -1: some condition fails at all of them; 0:
+// neither is certain.
 int conditions_between(const Region& region, double s, double e) {
   bool hold = true;
   for (const IntegerPolynomial& g : region.not_negative) {
@@ -109,10 +109,10 @@ bool conditions_hold_at(const Region& region, double t) {
 }
 
 // The sign of g at the only zero of f between lo and hi, which is simple and is no zero of g. It
-// magnifies the piece until it sees g with one sign.
+// shrinks the piece until g has one sign on it.
 int sign_at_zero_of_other(IntegerPolynomial f, IntegerPolynomial g, double lo, double hi) {
   for (;;) {
-    // x = 0 is the end that the zero is nearer to: exponents tell them apart.
+    // x = 0 is the end nearer to the zero, because doubles are densest at 0.
     const IntegerPolynomial piece = on_piece(f, lo, hi);
     const int at_lo = sign_at(piece, 0), at_middle = sign_at(piece, 0.5);
     if (at_lo * at_middle > 0) std::swap(lo, hi);
@@ -133,7 +133,7 @@ int sign_at_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, double 
   if (g.is_zero()) return 0;
   if (const int sign = sign_between(g, lo, hi)) return sign;
   const IntegerPolynomial common = common_divisor(f, g);
-  if (sign_at(common, lo) * sign_at(common, hi) < 0) return 0;  // it has that zero, too
+  if (sign_at(common, lo) * sign_at(common, hi) < 0) return 0;  // g has that zero, too
   return sign_at_zero_of_other(f, g, lo, hi);
 }
 
@@ -148,7 +148,8 @@ std::uint64_t bits(double t) { return std::bit_cast<std::uint64_t>(t + 0.0); }
 bool adjacent(double lo, double hi) { return bits(hi) - bits(lo) <= 1; }
 double of_bits(std::uint64_t b) { return std::bit_cast<double>(b); }
 
-// Where to divide a piece. From 0 on, exponents are taken eightfold, because few zeros are tiny.
+// Where to divide a piece. In a piece from 0 on, the exponent is multiplied by 8, because few zeros
+// are tiny.
 double middle(double lo, double hi) {
   const int exponent = std::ilogb(hi);
   constexpr int longest = 8, least = -1000;
@@ -157,14 +158,14 @@ double middle(double lo, double hi) {
 }
 
 struct Piece {
-  double lo, hi;       // without lo
+  double lo, hi;       // the piece is (lo, hi]
   bool hold = false;   // the conditions are known to hold on it
-  bool aimed = false;  // it comes of an aim
+  bool aimed = false;  // made by aim()
 };
 
-// Two zeros that are next to each other, or nearly are zeros, are told apart only by pieces as
-// small as what is between them. They lie about a zero of the derivative. Appends the piece in
-// parts, later ones first: a tiny one about that zero, and what is before and after it; or nothing.
+// Only pieces as small as the gap between two neighbouring zeros (or near zeros) separate these.
+// The two lie about a zero of the derivative. Appends the piece in parts, later ones first: a tiny
+// part about that zero, and the parts before and after it. Returns whether it did.
 bool aim(const IntegerPolynomial& f, const Piece& piece, std::vector<Piece>& left) {
   const IntegerPolynomial slope = derivative(f);
   const int at_lo = sign_at(slope, piece.lo);
@@ -180,13 +181,13 @@ bool aim(const IntegerPolynomial& f, const Piece& piece, std::vector<Piece>& lef
   return true;
 }
 
-// first_zero; `in_cluster(f, lo, hi)` says whether the conditions hold at one of the zeros, several
-// and all simple, of f between two adjacent doubles.
+// Does first_zero. `in_cluster(f, lo, hi)` says whether the conditions hold at a zero of f between
+// two adjacent doubles, where f has several zeros, all simple.
 template <class InCluster>
 std::optional<TimeEnclosure> scan(const Region& region, double s, double e,
                                   const InCluster& in_cluster) {
   IntegerPolynomial f = region.f;
-  bool simple = false;                 // all zeros of f are
+  bool simple = false;                 // all zeros of f are simple
   std::vector<Piece> left = {{s, e}};  // later pieces below earlier ones
   while (!left.empty()) {
     Piece piece = left.back();
@@ -246,7 +247,7 @@ bool some_zero_in_cluster(const Region& region, const IntegerPolynomial& f, doub
   std::vector<Region> left;
   const auto put_both_halves = [&left](const Region& whole, const IntegerPolynomial& of,
                                        double from, double to) {
-    // Zeros next to either end are told apart by their exponents: so each end is a 0 once.
+    // Each end becomes 0 once, because doubles are densest at 0 and separate the zeros next to it.
     left.push_back(half_seen_from(of, whole, from, to));
     left.push_back(half_seen_from(of, whole, to, from));
   };

@@ -128,22 +128,22 @@ class CountedFeatures {
     }
   }
 
-  // Relations take time, so they are asked about what is near, and not about every candidate. One
-  // of features tells of the two features, and one of triangles of each two that hold them, which
-  // is asked once for each pair, at the end (judgement_of).
+  // Relations take time, so they are asked only about features that are near. A relation of
+  // features judges the two features. A relation of triangles judges the triangles that hold them:
+  // once for each pair, at the end (judgement_of).
   bool counts(const Candidate& c) const { return passes(counted_, c); }
   bool is_tested(const Candidate& c) const {
     return asks(c.points.first_group == 1 ? AskedFeatures::vertex_face
                                           : AskedFeatures::edge_edge) &&
            passes(tested_, c);
   }
-  // What pierces at the start is of no kind of features: it is asked for where all kinds are.
+  // Piercing at the start belongs to no kind of features, so it counts only if all kinds do.
   bool is_piercing_tested(std::int32_t s, std::int32_t t) const {
     return asks_piercing() && tested_->counts_faces(s, t);
   }
 
-  // Visits the pairs of triangles that hold two features: but for a relation of triangles, they
-  // count.
+  // Visits the pairs of triangles that hold two features. They count, unless a relation of
+  // triangles leaves them out.
   template <class Visit>
   void for_each_holding(const Holders& of_first, const Holders& of_second,
                         const Visit& visit) const {
@@ -286,7 +286,8 @@ LeastDistance least_distance(const SteppedMesh& motion, const TrianglesView& tri
   features.for_each_pierced_at_start(
       workers, [&](std::int32_t, std::int32_t, const Feature&, int) { least = 0; });
   // Looks among pairs within a distance, and then within a greater one. Two vertices are never
-  // farther apart than twice the extent. What threads do in which order does not change the least.
+  // farther apart than twice the extent. The order in which threads work does not change the least
+  // distance.
   constexpr double first_share = 0x1p-16, growth = 16;
   const double most = std::min(2 * extent(motion), greatest);
   for (double within = most * first_share; least > within && !gate.stopped();

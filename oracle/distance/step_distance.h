@@ -3,9 +3,9 @@
 //
 // It is built as the exact pair set (mesh/step.h) is: boxes, grown by the distance, find candidate
 // pairs of features; feature_distance.h judges them as they are found; and features within d count
-// for all pairs of triangles that hold them. Two triangles are within d at t when two of their
-// closed faces that share no vertex are, or, at t=0 alone, an edge of one pierces the other. Later
-// than that no edge begins to pierce a face without a contact of two features.
+// for all pairs of triangles that hold them. Two triangles are within d at t if two of their closed
+// faces without a common vertex are within d at t, or if t is 0 and an edge of one pierces the
+// other. After t=0 an edge begins to pierce a face only by a contact of two features.
 #pragma once
 
 #include <limits>
@@ -31,8 +31,8 @@ struct DistanceOptions : JudgeOptions {
 };
 
 // Judges a step like judge_step, with `within d` in place of `in contact`: collision says that a
-// counted pair comes within d, and feature_candidates are the feature pairs whose boxes come within
-// d, of triangles that may count by their bodies and their vertices. REQUIRES indices in range,
+// counted pair comes within d, and feature_candidates counts the feature pairs whose boxes come
+// within d and whose bodies and vertices allow their triangles to count. REQUIRES indices in range,
 // finite positions, equal row counts. Triangles with the same three vertices, which are neighbours,
 // are within every d at t=0. 3 us a candidate in the mean.
 StepJudgement judge_distance(const detector::SteppedMesh& motion,

@@ -23,7 +23,7 @@ mpq_class times_power_of_two(mpq_class x, int exponent) {
 }
 
 // lo = hi = x if x is a double. Otherwise lo and hi are the two neighbours of the double to which
-// GMP truncates x (what is too small for a double becomes 0 or a smallest double), so they enclose
+// GMP truncates x (a number too small for a double becomes 0 or a smallest double), so they enclose
 // x.
 void enclose(const mpq_class& x, double& lo, double& hi) {
   lo = hi = x.get_d();

@@ -1,5 +1,5 @@
-// A mesh at one instant of a step, by exact numbers alone: the places of its vertices, which
-// triangles meet or cross, and whether features are nearer to each other than a given distance.
+// A mesh at one instant of a step, in exact numbers: the places of its vertices, which triangles
+// meet or cross, and whether features are nearer to each other than a given distance.
 #pragma once
 
 #include <algorithm>
@@ -101,7 +101,7 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                                                       double distance, const WantedPair& counts);
 
 // Returns whether two triangles at rest cross: no plane has one on each of its closed sides.
-// Triangles that meet and do not cross touch, even if they lie on each other in one plane. Exact,
+// Triangles that meet without crossing touch, even if they lie on each other in one plane. Exact,
 // 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);

@@ -83,7 +83,7 @@ std::optional<int> WindingField::at(const RationalPoint& point) const {
   for (int k = 0; k < 3; ++k) {
     scaled[k] = instant_.in_units(point[k]);
     ray.weight *= scaled[k].get_den();
-    // get_d truncates, so the place is at this double or beyond it, before the next one.
+    // get_d truncates, so the place lies from this double on and before the next one.
     const double d = point[k].get_d();
     ray.start.min[k] = std::nextafter(d, -std::numeric_limits<double>::infinity());
     ray.start.max[k] = up(d);
@@ -143,7 +143,7 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
     if (std::min({ab, bc, ca}) < 0 && std::max({ab, bc, ca}) > 0) continue;
     if (ab != 0 && ab == bc && bc == ca) {
       // The line crosses the inside, and d.N has the sign ab. The crossing is ahead when a.N has
-      // it too.
+      // that sign, too.
       if (sgn(determinant(a, b, c)) == ab) w += ab;
       continue;
     }

@@ -81,8 +81,8 @@ class FeatureIndex {
   mutable std::unique_ptr<BoxTree> faces_, edges_;
 };
 
-// Is called with the place of each of the two features in its list of the MeshFeatures; `worker` is
-// as in parallel_chunks.h.
+// Called with the index of each of the two features in its list of MeshFeatures; `worker` is as in
+// parallel_chunks.h.
 using VisitFeatures = std::function<void(std::size_t item, std::size_t other, int worker)>;
 
 struct Workers {

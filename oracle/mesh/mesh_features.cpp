@@ -104,8 +104,8 @@ std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles) {
   const std::vector<DirectedEdge> edges = unmatched_edges(triangles);
   std::vector<std::uint8_t> used(edges.size(), 0);
   // The edges that leave a vertex are one range of `edges`. The used ones are its front part,
-  // because the lowest is always taken. If i is the first place of the range, used_from[i] is their
-  // number.
+  // because the lowest is always taken. If i is the first place of the range, used_from[i] is the
+  // number of used edges.
   std::vector<std::size_t> used_from(edges.size() + 1, 0);
   auto first_from = [&](std::int32_t vertex) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{vertex, -1});

@@ -62,8 +62,8 @@ std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangl
 
 // Splits the unmatched edges into closed walks that use each once. A walk starts with the lowest
 // unused edge and goes on with the lowest unused edge that leaves its end. It goes on through
-// repeated vertices, and through its own start as long as an unused edge leaves that. Empty for a
-// cycle. n log n.
+// repeated vertices, and through its own start as long as an unused edge leaves the start. Empty
+// for a cycle. n log n.
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
 
 // Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop).

@@ -13,9 +13,9 @@
 
 namespace assay::oracle {
 
-// Answers for features and faces of one mesh, faces by their numbers. Both references must outlive
-// it. Several threads may ask at the same time. No answers are kept, so each costs 1 us, and in
-// addition 5 to 20 us for each two features whose places at rest are compared.
+// Answers for the features of one mesh, and for its faces by their numbers. Both references must
+// outlive the object. Several threads may ask at the same time. No answers are kept, so each costs
+// 1 us, and in addition 5 to 20 us for each two features whose places at rest are compared.
 class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).
@@ -41,7 +41,7 @@ class PairRelation {
 
   const detector::CountedPairs& counted_;
   const MeshFeatures& features_;
-  std::set<std::pair<std::int32_t, std::int32_t>> apart_;  // both ways
+  std::set<std::pair<std::int32_t, std::int32_t>> apart_;  // each pair in both orders
   std::set<std::pair<std::int32_t, std::int32_t>> faces_, vertex_faces_;
   std::set<std::pair<Edge, Edge>> edges_;
   std::vector<Vertices> neighbours_;  // by vertex

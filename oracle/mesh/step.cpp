@@ -146,7 +146,8 @@ class StepJudge {
     return !relation || !relation->is_of_features() || counts(*relation);
   }
 
-  // Such a contact is of no kind of features: it is asked for where all kinds are.
+  // A contact that shows only at the start belongs to no kind of features, so it counts only if all
+  // kinds do.
   void add_at_start(std::int32_t a, std::int32_t b, const Feature& feature,
                     FoundPairs& worker) const {
     const auto counts = [&](const PairRelation& in) { return in.counts_faces(a, b); };

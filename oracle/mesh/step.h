@@ -27,7 +27,8 @@ struct JudgeOptions {
   // Which pairs count; null: all do. The judgement speaks of counted pairs alone. REQUIRES a
   // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
   const detector::CountedPairs* counted = nullptr;
-  // Which of the counted pairs asked_pairs holds, beside `features`; null: all. REQUIRES the same.
+  // Which of the counted pairs the detector tests; null: all. Together with `features` it decides
+  // what asked_pairs holds. REQUIRES the same as `counted`.
   const detector::CountedPairs* tested = nullptr;
 };
 
@@ -44,10 +45,9 @@ struct StepJudgement {
   // Empty if JudgeOptions names neither.
   std::vector<detector::PairContact> asked_pairs;
   // Not set by judge_step. The pairs that a detector with a slack may report, ascending, each with
-  // the time from which it may. They answer the same question about distance with a greater
-  // distance.
+  // the earliest time that it may state. They are the pairs within a greater distance.
   std::optional<std::vector<detector::PairContact>> within_slack;
-  // Feature pairs (VF, EE) whose boxes meet, of bodies that meet.
+  // The number of feature pairs (VF, EE) whose boxes meet and whose bodies meet.
   std::uint64_t feature_candidates = 0;
   RungCounts rungs;
 };

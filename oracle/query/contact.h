@@ -3,9 +3,9 @@
 // Guarantee: the answer is that of exact arithmetic on the doubles given, for every finite input,
 // also for degenerate features, without motion, and for points that are coplanar or collinear
 // throughout. Touching counts, and so do t = 0 and t = 1. Coordinates must be finite.
-// Cost: 0.03 us if an axis separates the two; 1 to 2 us in interval arithmetic, and about 8 more
-// if a time is wanted; about 10 us in integers for degenerate and nearly degenerate queries (0.4 ms
-// when exponents spread over all doubles).
+// Cost: 0.03 us if an axis separates the two features; 1 to 2 us in interval arithmetic, and about
+// 8 more if a time is wanted; about 10 us in integers for degenerate and nearly degenerate queries
+// (0.4 ms when exponents spread over all doubles).
 // Thread safe, because threads share no number objects. Ends the process when the processor does
 // not round to nearest or flushes denormals.
 #pragma once
@@ -41,8 +41,8 @@ ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::W
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
 // Returns the first contact time, or nothing where there is no contact, by CGAL's algebraic kernel
-// and without the rungs: a second opinion of 0.1 to 0.4 ms (7 ms when exponents spread over all
-// doubles).
+// and without the rungs. This second opinion takes 0.1 to 0.4 ms (7 ms when exponents spread over
+// all doubles).
 std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
 // Returns whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2:

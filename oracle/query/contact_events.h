@@ -1,5 +1,5 @@
 // The common part of all exact rungs: the polynomials of a query, the times at which a contact can
-// begin, and whether one does.
+// begin, and whether a contact begins.
 //
 // Notation of this room: x_0..x_3 are the four moving points of a query, S is the first group of
 // them and S' the second (vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}), and u_j = x_j - x_0 for
@@ -61,8 +61,8 @@ struct ExactAnswer {
 // identically zero.
 // - These times are the zeros of F, if F is not identically zero.
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
-// - If all L are, t=0 and the zeros of the D of an axis whose D are not all identically zero. If
-//   there is no such axis, t=0 alone.
+// - If all L of all axes are identically zero, t=0 and the zeros of the D of an axis whose D are
+//   not all identically zero. If there is no such axis, t=0 alone.
 // Between these times nothing changes, and the set of contact times is closed, so the first of
 // them with a contact is the first time of all.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);

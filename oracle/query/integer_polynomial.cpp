@@ -252,11 +252,11 @@ std::optional<IntegerPolynomial> divided(const IntegerPolynomial& p,
 }  // namespace
 
 // By remainders modulo small primes (Brown). Modulo a prime that divides neither leading
-// coefficient the divisor has at least its degree, and with few exceptions just that. Scaled to
-// have the leading coefficient of p, which that of the divisor divides (Gauss), its coefficients
-// are put together by the Chinese remainder theorem, until one more prime changes nothing and it
-// divides both. Numbers stay as short as those of p: for long ones GMP would take much of a small
-// stack.
+// coefficient, the common divisor has at least its true degree, and with few exceptions exactly
+// that. Its leading coefficient divides that of p (Gauss), so it is scaled to the leading
+// coefficient of p. The Chinese remainder theorem joins its coefficients, until one more prime
+// changes nothing and it divides both. Numbers stay as short as those of p: for long ones GMP would
+// take much of a small stack.
 IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolynomial& q) {
   IntegerPolynomial found;
   Integer modulus = 1, next_prime = Integer(1) << 30;

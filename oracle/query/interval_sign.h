@@ -1,5 +1,5 @@
-// Certain signs of intervals, for any interval type with inf() and sup(), polynomials on pieces of
-// the step, and intervals that need no other rounding mode.
+// Certain signs of intervals (of any type with inf() and sup()); polynomials on pieces of the step;
+// and intervals that need no other rounding mode.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ int sure_sign(const Interval& x) {
   return x.sup() < 0 ? -1 : 0;
 }
 
-// Returns 1 or -1 when all coefficients surely have that sign, and so does the polynomial on its
-// piece; 0 when that is not certain.
+// Returns 1 or -1 when all coefficients, and so the polynomial on its piece, surely have that sign;
+// 0 when that is not certain.
 template <class Interval, std::size_t N>
 int sure_sign(const std::array<Interval, N>& coefficients) {
   const int sign = sure_sign(coefficients[0]);
@@ -120,9 +120,9 @@ Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Numbe
 //
 // A result r, rounded to nearest, differs from the exact one by at most 2^-53 |r|, and by half of
 // the least double where it is denormal. The result is widened by `slack(r)` = 2^-52 |r| plus the
-// least double. That is more than twice as much, so the loss when the widening itself is rounded,
-// at most half a unit in the last place of r or of its neighbour, is made up for. REQUIRES rounding
-// to nearest, denormals, and results below the greatest double.
+// least double. That is more than twice as much, which makes up for the rounding of the widening
+// itself: at most half a unit in the last place of r or of its neighbour. REQUIRES rounding to
+// nearest, denormals, and results below the greatest double.
 struct Enclosure {
   double lo = 0, hi = 0;
 

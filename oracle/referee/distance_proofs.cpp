@@ -54,13 +54,13 @@ Vector<double> unit_vector(Vector<double> v) {
 
 // Judges a pair of directions in double.
 //
-// Bound, u = 2^-53. The products n_s.c(s) and n_e.c(e) and the sum of two that is in the middle are
+// Bound, u = 2^-53. The products n_s.c(s) and n_e.c(e), and the middle sum of two products, are
 // wrong by at most 7.1 u S, S = sum over k of (|n_s[k]| + |n_e[k]|) size[k], and S itself is
 // computed with less than 8 roundings (existence.cpp, at `judge`); 8 u S is enough, and what is
-// spare, 0.9 u S, covers underflow, because the directions are unit vectors and so S > 2^-901.
-// A length |n| as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a
-// root. The product with d, the sum of two of these and the sum with the bound add 4 u, so
-// a length that is taken 16 u longer makes the comparison sure.
+// spare, 0.9 u S, covers underflow, because the directions are unit vectors and so S > 2^-901. A
+// length |n| as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a root.
+// The product with d, the sum of two of these and the sum with the bound add 4 u, so a length that
+// is taken 16 u longer makes the comparison sure.
 SeparationProof judged(const DoubleReach& reach, const Hull<double>& at_s, const Hull<double>& at_e,
                        const Vector<double>& n_s, const Vector<double>& n_e) {
   constexpr double u = 0x1p-53;
@@ -96,8 +96,8 @@ SeparationProof judged(const DoubleReach& reach, const Hull<double>& at_s, const
 // weights made positive and divided by their sum, is within 7 u size[k] of the weighted sum. The
 // sum is computed with 4 roundings of numbers of at most size[k], and the corners are wrong by 3.01
 // u size[k] + 2^-1072. That is below 16 u size[k] a coordinate; the length is wrong by at most the
-// sum of these, and by 2.6 u of itself, at most 2.7 u times the sum of the sizes. What underflow
-// does to squares is below 2^-500 of length.
+// sum of these, and by 2.6 u of itself, at most 2.7 u times the sum of the sizes. Underflow of
+// squares changes the length by less than 2^-500.
 detector::Decision near_in_double(const DoubleReach& reach, double t, double slack) {
   const Vector<double> p = nearest_to_origin(reach.hull.at(t)).point;
   const auto& size = reach.hull.size;
@@ -144,7 +144,8 @@ ExactNearest nearest_of_side(const Vector<mpz_class>& a, const Vector<mpz_class>
   return {minus(times(a, ee), times(edge, ae)), inner(a, a) * ee - ae * ae, ee};
 }
 
-// Where |P + u U + v V| is least over all u and v, if that is one place and in the hull.
+// Returns the place where |P + u U + v V| is least over all u and v, if it is unique and in the
+// hull.
 std::optional<ExactNearest> nearest_of_inside(const Hull<mpz_class>& hull) {
   const auto& p = hull.corner[0];
   const Vector<mpz_class> u = minus(hull.corner[1], p), v = minus(hull.corner[2], p);
@@ -161,8 +162,8 @@ std::optional<ExactNearest> nearest_of_inside(const Hull<mpz_class>& hull) {
                       inner(p, p) * determinant + pu * share_u + pv * share_v, determinant};
 }
 
-// The squared length is a convex function on the hull: it is least where it is least in the plane,
-// or else on a side.
+// The squared length is a convex function: it is least on the hull where it is least on the plane,
+// if that place is in the hull, or else on a side.
 ExactNearest nearest_of(const Hull<mpz_class>& hull) {
   if (auto inside = nearest_of_inside(hull)) return std::move(*inside);
   const auto& c = hull.corner;
@@ -183,14 +184,14 @@ ExactNearest nearest_of(const Hull<mpz_class>& hull) {
   return best;
 }
 
-// A direction, and a length that is not below its own.
+// A direction, and an upper bound of its length.
 struct Direction {
   Vector<mpz_class> n;
   mpz_class length;
 };
 
-// Brought to so many bits that what is cut off, and what the length is too long, is below the last
-// bits of the corners and d.
+// Returns the direction in so many bits that its error, and the excess of the length, are below the
+// last bits of the corners and d.
 Direction direction_to(const Hull<mpz_class>& hull, std::size_t bits) {
   Direction to{nearest_of(hull).direction, 0};
   std::size_t most = 0;
@@ -207,7 +208,7 @@ Direction direction_to(const Hull<mpz_class>& hull, std::size_t bits) {
   return to;
 }
 
-// The middle coefficients are those of directions of one length: n_s |n_e| and n_e |n_s|.
+// For the middle coefficients both directions get the same length: n_s |n_e| and n_e |n_s|.
 bool separates(const Hull<mpz_class>& at_s, const Hull<mpz_class>& at_e, const mpz_class& d,
                const Direction& from, const Direction& to) {
   const mpz_class first = d * from.length, last = d * to.length, both = 2 * first * to.length;

@@ -63,8 +63,8 @@ class DistanceReferee {
   static constexpr int most_depth = 60;
   static constexpr int most_depth_of_doubles = 52;  // the ends and the middle are doubles
 
-  // Looks at the pieces in order of time, so that the first time is never passed: a piece that no
-  // proof settles is halved, and what is behind a time within d is dropped.
+  // Looks at the pieces in order of time, so that the first time is never passed: a piece without a
+  // proof is halved, and pieces behind a time within d are dropped.
   void search() {
     (void)found_near({1, 1});
     std::vector<TimePiece> left = {{0, 0}};  // the earliest is last
@@ -77,7 +77,7 @@ class DistanceReferee {
         is_stuck_ = true;
         return;
       }
-      const bool is_first = by_ && !(piece.end() < *by_);  // of the pieces that hold such a time
+      const bool is_first = by_ && !(piece.end() < *by_);  // that holds a time within d
       if (!is_first && is_apart(piece)) {
         if (!is_stuck_) after_ = piece.end();
         continue;
@@ -95,8 +95,8 @@ class DistanceReferee {
     }
   }
 
-  // Whether a bracket from the begin of the piece on is short enough. The first time may be in a
-  // piece before the one that ends it.
+  // Whether the bracket of the first time that begins with the piece is short enough. The bracket
+  // may end in a later piece.
   bool is_close_to_near(const TimePiece& piece) const {
     if (!by_ || piece.depth < options_.bits) return false;
     const TimePiece last = {(piece.k >> (piece.depth - options_.bits)) + 1, options_.bits};

@@ -3,8 +3,7 @@
 //
 // Guarantee: yes and no are proved, by other means than zeros of polynomials in time: no region of
 // a feature has a polynomial of its own here. open means that neither proof was found, which is
-// usual when features touch the distance d at no dyadic time and go away again, and rare
-// otherwise.
+// usual when the least distance is exactly d, at a time that is not dyadic, and rare otherwise.
 //   no:  [0,1] is cut into pieces, and on each of them some direction keeps the two hulls further
 //        apart than d (apart, below);
 //   yes: the nearest points at a rational time are within d of each other (near, below), or
@@ -30,8 +29,8 @@ struct DistanceRefereeOptions {
   // 60. Shorter brackets find more wrong times, and where the distance only touches d they need
   // integers.
   int bits = 40;
-  // How many pieces of the step are looked at, at most; one that needs integers counts for 8 or
-  // more, by the length of its numbers.
+  // The most pieces of the step to look at; a piece that needs integers counts as 8 or more, by the
+  // length of its numbers.
   std::uint64_t max_cells = 2000;
 };
 
@@ -41,7 +40,7 @@ struct DistanceVerdict {
   // exception is a yes with `by` 0: its first time is 0. So a yes has its first time in (after,
   // by], or at 0. With an open verdict, features that come within d do so later than `after`.
   RationalTime after{0, 1}, by{1, 1};
-  std::uint64_t cells = 0;  // that were looked at
+  std::uint64_t cells = 0;  // the pieces of the step that were looked at
 };
 
 DistanceVerdict distance_referee(const detector::VertexFace& query, const detector::Separation& d,
@@ -60,7 +59,7 @@ DistanceVerdict distance_referee(const detector::EdgeEdge& query, const detector
 //        side is at most linear, because a norm is convex: its coefficients of the same degree are
 //        at most d |n_s|, d (|n_s| + |n_e|)/2 and d |n_e|. So three comparisons a corner are a
 //        proof. The directions may be anything; those towards the nearest points at s and e lose
-//        only a part that falls with the square of the piece.
+//        only a part that falls with the square of the piece's length.
 
 // The difference hull in doubles, with d in its unit: least <= d <= most.
 struct DoubleReach {

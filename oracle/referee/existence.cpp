@@ -25,8 +25,8 @@ bool triangle_contains_origin(const Vector<mpz_class>& a, const Vector<mpz_class
   return side_holds(a, b, ab) || side_holds(b, c, bc) || side_holds(c, a, ca);
 }
 
-// The corners that play P, P + U and P + V for a base. Those of a triangle may be turned, so that
-// near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
+// The corners that play P, P + U and P + V for a base. The corners of a triangle may be turned, so
+// that near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
 std::array<int, 3> roles(int base) { return {base, (base + 1) % 3, (base + 2) % 3}; }
 
 template <class Number>
@@ -186,7 +186,7 @@ bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double un
   const auto rows = map.adjugate(middle(guess.t), middle(guess.u), middle(guess.v));
   if (!rows) return false;
   const auto last = static_cast<std::int64_t>(std::ldexp(until, parameter_bits));
-  // Large boxes forgive a poor guess, small ones a strongly curved map.
+  // A large box allows a poor guess, a small one a strongly curved map.
   for (const int bits : {6, 12, 20, 27, 34, 42}) {
     const std::array<Range, 3> box = {range_about(guess.t, bits), range_about(guess.u, bits),
                                       range_about(guess.v, bits)};
@@ -199,8 +199,8 @@ bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double un
 
 namespace {
 
-// A hull at both ends of a piece, and twice the hull at its middle. `nearest` is the point of that
-// which is nearest to the origin, and `motion` how this point moves over the piece.
+// A hull at both ends of a piece, and twice the hull at its middle. `nearest` is the point of the
+// middle hull nearest to the origin, and `motion` how this point moves over the piece.
 template <class Number>
 struct Piece {
   Hull<Number> s, e, middle;
@@ -296,7 +296,7 @@ int all_positive(const Piece<double>& p, const Vector<double>& n_s, const Vector
 // with n_k adds u, the two sums of an inner product 2 u, the sum of two inner products u: below
 // 7.1 u in all, relative to
 //     S = sum over k of (|n_s[k]| + |n_e[k]|) size[k],
-// so 8 u S, itself computed with less than 8 roundings, is enough. What underflow adds is below
+// so 8 u S, itself computed with less than 8 roundings, is enough. Underflow adds less than
 // 2^-1065: after n is scaled so that its largest component is in [1/2,1], S >= 2^-901, and the
 // spare 0.9 u S >= 2^-955 covers it. Nothing overflows, as sizes and components are at most 1.
 int judge(const DoubleHull& hull, const Piece<double>& p, Vector<double> n_s, Vector<double> n_e) {

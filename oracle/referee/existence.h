@@ -104,8 +104,8 @@ NearestPoint nearest_to_origin(const Hull<double>& hull);
 // all of [s,e]: the hull lies strictly on one side of a plane through the origin at every time of
 // the piece. If n_s = n_e, the direction is constant, and the swept hull itself is separated.
 
-// near: no direction that was tried surely separates, but for one of them rounding errors leave it
-// open, or a difference overflows in double. Integers may yet prove it.
+// near: no tried direction surely separates, but rounding errors leave one of them open, or a
+// difference overflows in double. Integers may yet prove it.
 enum class SeparationProof : std::uint8_t { separated, near, not_found };
 
 // On [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-53. In double with error bounds; about

@@ -216,7 +216,8 @@ class Bracket {
     return combined(product(u_[a][l], u_[b][m]), -1, product(u_[a][m], u_[b][l]));
   }
 
-  // 0, about the extremes of F, 1: where F has several zeros, its sign changes between these.
+  // 0, places near the extremes of F, and 1: if F has several zeros, its sign changes between
+  // these.
   std::vector<Rational> monotone_ends() const {
     const Quadratic slope = {f_[1], 2 * f_[2], 3 * f_[3]};
     std::vector<Rational> ends = {0, 1};

@@ -20,8 +20,7 @@ namespace assay::oracle {
 
 struct RefereeOptions {
   // The step is halved this often at most, 0 to 61. 17 halvings confirm every no of random
-  // queries; neighbours of a touch need about as many halvings as the bits in which they differ
-  // from it.
+  // queries; a query that differs from a touching one in bit b needs about b halvings.
   int depth = 60;
   // At most this many pieces of the step are looked at.
   std::uint64_t max_boxes = 1000;

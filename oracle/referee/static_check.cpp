@@ -162,8 +162,8 @@ bool triangles_meet(const detector::SteppedMesh& motion, const detector::Triangl
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
 
   // Two faces without a common vertex: each common vertex of the triangles is in one of them at
-  // most. The largest such pairs are enough, which give every common vertex to one or the other,
-  // because they hold all smaller ones.
+  // most. It is enough to test the largest such pairs, in which every common vertex is in one of
+  // the two, because they hold all smaller pairs.
   for (unsigned choice = 0; choice < (1U << common.size()); ++choice) {
     Vertices to_a, to_b;
     for (unsigned i = 0; i < common.size(); ++i) {

@@ -173,7 +173,7 @@ using Json = corpus::Json;
 constexpr const char* schema = "assay-campaign/1";
 constexpr corpus::Below most_cases{1'000'000'000}, most_repeated_triangles{1'000'000};
 
-// What a number has to be, and how that is said.
+// A condition on a number, and its text.
 struct Rule {
   bool (*holds)(double);
   const char* expectation;

@@ -319,8 +319,8 @@ MaybeForm turn_inside_out(const Case& c, Random&) {
   return form;
 }
 
-// A step that is not committed cannot be halved, because its first half would have to be. REQUIRES
-// a case without a view primitive.
+// A step that is not committed cannot be halved, because its first half would have to be committed.
+// REQUIRES a case without a view primitive.
 MaybeForm halve_steps(const Case& c, Random&) {
   Form form = unchanged(c);
   form.same_times = false;
@@ -353,7 +353,7 @@ MaybeForm halve_steps(const Case& c, Random&) {
   return exact ? MaybeForm(form) : std::nullopt;
 }
 
-// What meets in a step meets in the step back too: the places at time t are those at 1 - t. A
+// What meets in a step meets in the reversed step, too: the places at time t are those at 1 - t. A
 // contact is closed faces that meet, so an edge that pierces a triangle at the start does too.
 MaybeForm play_back(const Case& c, Random&) {
   Form form = unchanged(c);

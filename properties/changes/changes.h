@@ -49,7 +49,7 @@ struct CaseChange {
 namespace changes {
 extern const CaseChange vertex_numbers;
 extern const CaseChange triangle_order;  // each triangle begins at another corner, too
-extern const CaseChange backwards;       // vertices and triangles, in a mesh with two or more holes
+extern const CaseChange backwards;       // order of vertices and triangles; two or more holes
 extern const CaseChange power_of_two;    // all lengths are scaled
 extern const CaseChange translation;
 extern const CaseChange mirror;  // turned over, so that outside stays outside
@@ -134,7 +134,8 @@ void set_path(corpus::Case& c, const corpus::CaseStep& step, std::int32_t vertex
 void renumber_vertices(corpus::Case& c, const Numbers& new_number);
 // Gives triangle t the number new_number[t].
 void reorder_triangles(Form& form, const Numbers& new_number);
-// Do both, after drawing another first corner for each triangle. The second draws numbers, too.
+// Do both, after drawing another first corner for each triangle. The second function also draws the
+// numbers.
 Form renumbered(Random& random, const corpus::Case& c, const Numbers& vertices,
                 const Numbers& triangles);
 corpus::Case renumbered(Random& random, const corpus::Case& c);

@@ -1,5 +1,5 @@
-// L18: a mesh some of whose edges are split, in all triangles that have them, has the contacts of
-// the mesh, as long as no triangle that is split loses its area.
+// L18: if some edges of a mesh are split, in all triangles that have them, its contacts stay, as
+// long as no triangle that is split loses its area.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ bool surely_keeps_area(const Corners& v, const detector::Positions& x_t0,
 }
 
 // a + w (b - a) for a dyadic w in (0,1), if that is a double. Nothing if a or b is so small that
-// fma could lose what is to be seen.
+// fma could lose the rounding error.
 std::optional<double> exactly_between(double a, double b, double w) {
   const double of_a = (1 - w) * a, of_b = w * b;
   double sum = 0;
@@ -89,16 +89,16 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
   return true;
 }
 
-// A contact is closed faces without a common vertex that meet. Let x be where two such faces of two
-// triangles meet. x lies in a part of each, on faces of these parts that have no other vertices
-// than the split points besides; a split point is common to two parts only if both triangles had
-// the edge, and lie on either side of it, which faces without a common vertex do not. Conversely,
-// let parts meet in faces without a common vertex. Their triangles meet there too. If these have a
-// vertex p in common, and the one part meets the other at a split point m of an edge (p,q), follow
-// the edge from m towards q: it leaves the other triangle, which is convex, at q or through a face
-// without p, and either is a contact of the two triangles at the same time. So contacts and their
-// times stay, up to which part it is. A triangle without area may meet itself in its parts, which
-// is why none is split.
+// A contact is closed faces without a common vertex that meet. Let two such faces of two triangles
+// meet at x. x lies in a part of each, on faces of these parts whose only further vertices are
+// split points; a split point is common to two parts only if both triangles had the edge, and lie
+// on either side of it, which faces without a common vertex do not. Conversely, let parts meet in
+// faces without a common vertex. Their triangles meet there too. If these have a vertex p in
+// common, and the one part meets the other at a split point m of an edge (p,q), follow the edge
+// from m towards q: it leaves the other triangle, which is convex, at q or through a face without
+// p, and either is a contact of the two triangles at the same time. So contacts and their times
+// stay, up to which part it is. A triangle without area may meet itself in its parts, which is why
+// none is split.
 std::optional<Form> split_some_edges(const corpus::Case& c, Random& random) {
   Form form = unchanged(c);
   const int count = random.between(1, 4);

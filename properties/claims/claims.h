@@ -83,11 +83,11 @@ struct StepDiff {
   std::vector<Claim> breaches;  // claims of the detector that this step refutes
   detector::Answer answer = detector::Answer::undecided;  // the detector's
   bool oracle_complete = false;                           // false: the oracle was stopped
-  bool nothing_in_contact = false;  // says a complete oracle, whatever is left out
+  bool nothing_in_contact = false;  // by a complete oracle; left-out contacts count
   bool starts_near = false;         // StepTruth::starts_near
   bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   bool unanswered_contact = false;  // a contact that counts, and no answer that can be judged
-  bool owes_answer = false;         // a valid step within the capacity has none
+  bool owes_answer = false;         // a valid step within the capacity has no answer
   // The detector or the oracle was stopped: only the part that both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
@@ -98,14 +98,14 @@ struct StepDiff {
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
   std::vector<detector::PairContact> missing;
-  bool is_without_excuse = false;               // first-pairs asks for one of them
+  bool is_without_excuse = false;               // first-pairs asks for a missing pair
   std::vector<detector::PairContact> excuses;   // missing pairs that no claim asks for
   std::vector<detector::PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
   std::vector<WrongTime> late, early;
 
-  // With a slack, the first pair that comes within it, if the detector's first time ends before the
-  // pair does.
+  // With a slack: the first pair that comes within it, if the interval of the detector's first time
+  // ends before that.
   std::optional<detector::PairContact> first_in_slack;
 
   // The earliest contact that counts, if any.
@@ -172,10 +172,10 @@ enum class Claim : std::uint8_t {
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
-  // Of a limiter (L17), in steps that start without a contact.
+  // Claims of a limiter (L17), in steps that start without a contact.
   commit_free,  // the step to the positions that it allows has no contact
   path_free,    // the share that it allows is below t*
-  progress,     // that share is Contract::progress times the possible one or more (judge_limit)
+  progress,     // the share is at least Contract::progress of the possible one (judge_limit)
   whole,        // it allows a step without a contact to its very end
   // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. For a
   // detector that claims this, the other claims on times are read in the same strict way. Only the

@@ -121,7 +121,7 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 
 detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates) {
   if (coordinates == Coordinates::float64) return x;
-  // Two steps, through memory: of two conversions in a row g++ 12 drops both where it vectorises.
+  // Two steps, through memory: g++ 12 drops two conversions in a row where it vectorises.
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = x.cast<float>();
   return rounded.cast<double>();
 }

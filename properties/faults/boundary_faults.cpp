@@ -241,7 +241,7 @@ struct PiercedGhostsIgnored : BoundaryHandler {
   }
 };
 
-// What is clean where a step starts says nothing of what the ghosts touch during the step.
+// Does not sweep at a new start, as if ghosts could not touch a triangle that is clean there.
 struct NewStartNotSwept : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {

@@ -141,8 +141,8 @@ bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
   return *least > bound || *greatest < -bound;
 }
 
-// Tests each feature pair once, but tells feature pairs apart by their places. If two seams lie in
-// one place, they are two features all the same.
+// Tests each feature pair once, but tells feature pairs apart by their places. Two seams in one
+// place are still two features.
 class TakenForDuplicate : public ContactDropped {
  public:
   bool drops(const FourPoints& query, const ContactResult&) const override {

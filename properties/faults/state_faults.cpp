@@ -19,8 +19,8 @@ using detector::StepState;
 
 using Pairs = std::vector<PairContact>;
 
-// What the step leaves behind is computed from a start at which too much is believed clean, or
-// from a step that is made to have seen too little.
+// Computes the state after the step from a start at which too many triangles count as clean, or
+// from a step whose findings are partly forgotten.
 template <void (*forget)(StepMarks&, Pairs&, bool& complete)>
 struct Forgotten : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
@@ -72,7 +72,7 @@ struct CarriedPastGhosts : ReleaseRule {
   bool knows_clean(const GivenStep&, const Pairs&, std::size_t) const override { return true; }
 };
 
-// A triangle that the step before did not find in contact is not tested against the ghosts either.
+// Tests against the ghosts only those triangles that the step before found in contact.
 struct OnlyMetAgainstGhosts : ReleaseRule {
   std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
@@ -93,8 +93,8 @@ struct KeptElsewhere : ReleaseRule {
   }
 };
 
-// Uses what an evaluation found, although it was not committed, in the next evaluation from the
-// same place: if that place was seen to be free, nothing there is taken for dirty.
+// Keeps the findings of an uncommitted evaluation for the next evaluation from the same place: if
+// that place was found free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
   void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,

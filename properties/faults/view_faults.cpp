@@ -211,8 +211,8 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
   return right_sign(triangle, midpoint(primitive));
 }
 
-// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
-// say nothing.
+// Asks for the winding number at the midpoint, from which the view is taken. The winding number at
+// an end would say nothing.
 struct FreeFromMidpoint : detector::ReleaseRule {
   bool is_free(const detector::GivenStep& step, const detector::StepMarks& marks,
                detector::StepCost&, std::size_t c) const override {

@@ -45,8 +45,8 @@ ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
 detector::ViewSign sign_of(const ViewPieces& pieces);
 
-// Return the sign of the triangle if it and the primitive are held still at t=0, 1/2 or 1 (exact if
-// the middle of two coordinates is a double), and a point held still in that way.
+// Hold things still at t=0, 1/2 or 1 (exact if the middle of two coordinates is a double): return
+// the sign of a triangle that is held still together with the primitive, or a still point.
 enum class Sample { start, middle, end };
 detector::ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                            const detector::ViewPrimitive& primitive);

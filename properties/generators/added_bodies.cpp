@@ -17,7 +17,7 @@ using detector::Point;
 using detector::Positions;
 
 // In a relation the vertices from `first` on are a body of their own, and at rest they are as at
-// the start. What was said of the case without them is dropped.
+// the start. Facts about the case without them are dropped.
 void tell_of_added(corpus::Case& c, std::int32_t first) {
   if (c.counted) {
     auto& [pairs, steps] = *c.counted;

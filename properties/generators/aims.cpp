@@ -204,7 +204,7 @@ Point on_face(Random& random, Draft& draft, const Points& x) {
   }
 }
 
-// A place on a face moves along a path in a step. This is the middle of the path, so the surface
+// Returns the middle of the path on which a place of a face moves in a step, so that the surface
 // passes through it.
 Point pierced(Random& random, Draft& draft) {
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1));

@@ -115,8 +115,8 @@ Draft joined(Draft a, const Draft& b);
 // Drops vertices that no face uses, and renumbers the others in their order.
 void drop_unused_vertices(Draft& draft);
 
-// Drops faces that repeat a vertex, and of the faces with the same three vertices all but the
-// first.
+// Drops faces that repeat a vertex, and all but the first of the faces with the same three
+// vertices.
 void drop_invalid_faces(Draft& draft);
 
 // Returns whether each edge (u,v) occurs as often as (v,u).

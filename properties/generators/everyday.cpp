@@ -28,7 +28,7 @@ double decimal(double units, int power) {
 }  // namespace
 
 double everyday_size(Random& random) {
-  // Neither even nor a multiple of 5, so that no power of ten makes a power of two of it.
+  // No multiple of 2 or 5, so that no power of ten turns it into a power of two.
   int digits = 2 * random.between(50, 498) + 1;
   if (digits % 5 == 0) digits += 2;
   return decimal(digits, random.between(-6, 3));
@@ -86,7 +86,7 @@ int units_at_a_feature(Random& random) {
 }
 
 EverydayNumbers::EverydayNumbers(Random& random) : size_(everyday_size(random)) {
-  // float32 half as often as each other: its differences are exact in doubles.
+  // float32 half as often as each of the others, because its differences are exact in doubles.
   rounding_ = static_cast<Rounding>(random.below(9) / 2);
   motion_ = static_cast<Motion>(random.below(3));
   constexpr double divisors[] = {3, 7, 11, 60}, time_steps[] = {1. / 24, 1. / 60, 0.01, 0.001};
@@ -98,7 +98,7 @@ EverydayNumbers::EverydayNumbers(Random& random) : size_(everyday_size(random)) 
   grain_ = 6;
   while (decimal(1, grain_) > size_) --grain_;
   grain_ -= random.between(2, 6);
-  // Where the way is longer than its end is from 0, x1 - x0 is rounded.
+  // If the way is longer than the distance of its end from 0, x1 - x0 is rounded.
   for (double& c : offset_) {
     const double part = random.signed_unit();
     c = random.one_in(8) ? 0 : std::ldexp(part, random.between(-9, 0));
@@ -215,8 +215,8 @@ void open_up(Random& random, Draft& d) {
   d.faces.erase(d.faces.begin() + random.between(1, static_cast<int>(d.faces.size()) - 1));
 }
 
-// A level top between -1 and 1, on a body, on what is left of one, or alone. Its first face is
-// there.
+// Makes a level top between -1 and 1, on a body, on a body without one face, or alone. The first
+// face is on the top.
 Draft ground(Random& random, bool is_closed) {
   const double depth = random.between(1, 8) / 4.0;
   const Points triangle = {{-1, -1, 0}, {1, -1, 0}, {random.signed_unit(), 1, 0}};
@@ -279,7 +279,7 @@ Draft faller(Random& random, bool is_closed, int size, std::vector<std::int32_t>
   return d;
 }
 
-// Where it lands on the top: inside, on the border, at a corner, or anywhere.
+// A place where the piece lands on the top: inside, on the border, at a corner, or anywhere.
 Point place_on_top(Random& random) {
   const double along = random.signed_unit();
   switch (random.below(6)) {
@@ -322,7 +322,7 @@ Draft falling_piece(Random& random, bool is_closed, int size) {
   for (const auto v : lowest) landing.vertices.push_back(v + offset);
   const Points apart = between(up, -1.0 * rise);
   d.frames = {apart, landed};
-  // What is flat slides well: all of it in one plane.
+  // A flat piece slides well, with all of it in one plane.
   const bool is_flat = landing.vertices.size() == d.rest().size() - at(offset);
   const int kind = is_flat && !random.one_in(4) ? 3 : random.below(14);
   if (is_flat && kind == 3) landing.units = 0;
@@ -336,7 +336,7 @@ Draft falling_piece(Random& random, bool is_closed, int size) {
     d.frames[1] = between(-beyond * up, beyond * rise);
     d.tag("lands:within");
   } else if (kind == 3) {
-    // It comes from the side at the height of the top.
+    // The piece comes from the side at the height of the top.
     const Point side = {random.one_in(2) ? 4.0 : -4.0, random.signed_unit(), 0};
     d.frames[0] = between(side, {0, 0, 0});
     d.landings.push_back(landing);

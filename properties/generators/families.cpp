@@ -297,8 +297,8 @@ class Responder {
   std::int32_t add_frame(std::size_t k, double s) {
     const Positions& x = case_.frames[static_cast<std::size_t>(now_)];
     Positions next = x + s * (original_.frames[k + 1] - original_.frames[k]);
-    // A step that starts where the given one does, and is not shortened, also has to end there
-    // exactly.
+    // If a step starts where the given step does, and is not shortened, it has to end exactly where
+    // that step ends.
     if (s == 1 && x == original_.frames[k]) next = original_.frames[k + 1];
     case_.frames.push_back(std::move(next));
     if (case_.view) {
@@ -308,8 +308,8 @@ class Responder {
     return static_cast<std::int32_t>(case_.frames.size()) - 1;
   }
 
-  // The view primitive of a step that is not shortened ends where the given one does, because it
-  // need not go with the mesh.
+  // If a step is not shortened, its view primitive ends where that of the given step ends, because
+  // a primitive need not go with the mesh.
   void add_place(const std::vector<Point>& points, std::vector<Point>& new_points, std::size_t k,
                  double s) {
     const Point from = new_points[static_cast<std::size_t>(now_)];
@@ -333,7 +333,8 @@ class Responder {
     // reverted.
     if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
-    // This is judged again, because rounded positions can touch although the exact ones do not.
+    // The shortened step is judged again, because rounded positions can touch although the exact
+    // ones do not.
     const bool free = is_free(frame(now_), frame(part), case_);
     case_.script.push_back({now_, part, free});
     if (free) now_ = part;

@@ -29,13 +29,13 @@ struct Family {
   std::string_view name;  // of the stratum
   std::string_view about;
   bool is_closed = false;   // every case is a cycle
-  bool degenerate = false;  // exact coincidences are frequent, so the oracle needs dear rungs
+  bool degenerate = false;  // exact coincidences are frequent, so the oracle needs slow rungs
   RandomCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // approximate size of every case; 0: few, as above
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
   // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one query for each `one_in` of "query-small-int": dear families get fewer
+  int one_in = 1;  // one query for each `one_in` of "query-small-int": slow families get fewer
 };
 
 // Returns the families of the strata in a fixed order.
@@ -51,7 +51,7 @@ std::span<const Family> question_families();
 bool is_question_family(std::string_view name);
 
 // Returns the families of large cases of one size each, "size-1e3" to "size-1e6". Each of their
-// strata states a bound, but no bound is wanted, because their cases are few and dear.
+// strata states a bound, but no bound is wanted, because their cases are few and slow.
 std::span<const Family> size_families();
 bool is_size_family(std::string_view name);
 

@@ -85,8 +85,8 @@ void mix_scales(Random& random, Draft& draft) {
 }
 
 void make_denormal(Random& random, Draft& draft) {
-  // Exact numbers with 1074 bits below the point, beside ordinary numbers, are what an oracle is
-  // slowest at. So only small meshes get them.
+  // An oracle is slowest at exact numbers with 1074 bits below the point, beside ordinary numbers.
+  // So only small meshes get them.
   constexpr std::size_t most_faces_among_others = 40;
   if (random.one_in(2) || draft.faces.size() > most_faces_among_others) {
     // A coarse grid on a large mesh makes thousands of degenerate contacts, so a large mesh gets a
@@ -179,7 +179,7 @@ double length_of_some_edge(Random& random, const corpus::Case& c) {
   return sum;
 }
 
-// Two features of the pair, unless those that are drawn share a vertex.
+// Leaves two features of the pair out, unless the drawn ones share a vertex.
 void leave_out_features(Random& random, const corpus::Case& c, const detector::TrianglePair& pair,
                         CountedPairs& pairs) {
   const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);

@@ -117,7 +117,8 @@ void place_ulp_neighbours(Random& random, Draft& draft);
 void move_far(Random& random, Draft& draft);
 
 // Scales by powers of two: one for all, one for each axis, or one for each vertex (from the origin,
-// so that triangles positive from there stay so). They lie within 2^+-60; one in 16 up to 2^+-400.
+// so that triangles positive from there stay so). The powers lie within 2^+-60; one in 16 up to
+// 2^+-400.
 void mix_scales(Random& random, Draft& draft);
 
 // Makes all coordinates integers times 2^-1074, or replaces a few coordinates by such numbers.

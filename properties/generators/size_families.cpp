@@ -24,7 +24,7 @@ using corpus::CubicGrid;
 using corpus::nearest_resolution;
 using corpus::sin_turn;
 
-// What they are made of, beside the sheets and grids of corpus/scenes/shapes.h.
+// The parts of the shapes, beside the sheets and grids of corpus/scenes/shapes.h.
 
 // A tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
 void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point& tilt) {
@@ -35,8 +35,8 @@ void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point
     draft.faces.push_back({v + f[0], v + f[1], v + f[2]});
 }
 
-// Many contacts, which fill buffers, or many boxes that meet. How many there are for each triangle
-// does not grow with the size, so that the oracle judges a case in seconds.
+// Many contacts, which fill buffers, or many boxes that meet. Their number for each triangle does
+// not grow with the size, so that the oracle judges a case in seconds.
 
 // Sheets that bulge through each other.
 void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
@@ -77,12 +77,12 @@ void crumpled_sheet(Random& random, int triangles, Draft& draft, Points& end) {
     const double wave = sin_turn(0.03 * x[1] + 0.1 * x[2]);
     end.push_back(Point{press * x[0] + wave, x[1], 0.9 * x[2]} + noise);
   }
-  // Moved to the middle of where it starts, so that no triangle sweeps far.
+  // The end is moved to where the sheet starts, so that no triangle sweeps far.
   const Point back = mean(draft.rest()) - mean(end);
   for (auto& x : end) x = x + back;
   const double width = gap * cells / (wall + 1);
   for (std::size_t v = 0; v < end.size(); ++v) {
-    // What would sweep over more than a few walls stays nearer.
+    // A vertex that would sweep over more than a few walls stays nearer.
     const Point way = end[v] - draft.rest()[v];
     const double most = std::min(3.0, 0.5 * width);
     if (std::abs(way[0]) > most) end[v] = draft.rest()[v] + (most / std::abs(way[0])) * way;
@@ -154,10 +154,10 @@ void soup_of_bodies(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// Stacks of triangles so thin that all of a stack lie in the same place: no tree can part them. A
-// stack is half of the mesh at 1,000 triangles; at larger sizes it is a smaller part of it.
+// Stacks of triangles so thin that all of a stack lie in the same place: no tree can separate them.
+// A stack is half of the mesh at 1,000 triangles; at larger sizes it is a smaller part of it.
 void stacks_in_one_place(Random& random, int triangles, Draft& draft, Points& end) {
-  // n triangles in stacks of g have n g / 2 pairs of which no box parts two. At n = 1,000 these are
+  // n triangles in stacks of g have n g / 2 pairs that no box separates. At n = 1,000 these are
   // 250,000, and they grow with the root of the size.
   const double n = triangles;
   const int stack = std::clamp(static_cast<int>(16'000 / std::sqrt(n)), 8, triangles / 2);
@@ -307,8 +307,8 @@ constexpr LargeShape large_shapes[] = {
     {"sphere", breathing_sphere},
 };
 
-// The index of the id, and the number of the attempt behind it ("quick:1:size-1e4:3~2"): a
-// contract that cannot have a shape is given the next one.
+// The index of the id plus the number of the attempt behind it ("quick:1:size-1e4:3~2"), so that a
+// contract that cannot have a shape gets the next shape.
 std::size_t turn_of(const std::string& id) {
   char* end = nullptr;
   const auto index = std::strtoull(id.c_str() + id.rfind(':') + 1, &end, 10);
@@ -316,8 +316,8 @@ std::size_t turn_of(const std::string& id) {
   return static_cast<std::size_t>(index + attempt);
 }
 
-// One linear map near the identity, so that nothing lies along the axes. It keeps contacts, but
-// for what rounding decides.
+// One linear map near the identity, so that nothing lies along the axes. It keeps contacts, except
+// where rounding decides.
 void map_all(Random& random, Draft& draft) {
   Point rows[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (auto& row : rows) {
@@ -336,7 +336,7 @@ RandomCase make_large(Random& random, std::string id) {
   Draft draft;
   draft.frames.resize(2);
   shape.make(random, triangles, draft, draft.frames[1]);
-  // A second step, which starts where the first one was let go, shows what is carried.
+  // A second step, which goes on in the same direction, shows what state is carried.
   if (triangles <= largest_with_two_steps) {
     Points beyond;
     for (std::size_t v = 0; v < draft.rest().size(); ++v)

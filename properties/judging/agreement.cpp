@@ -74,17 +74,17 @@ struct Comparison {
         times_{claims.has(Claim::times_unique), contract.time_tolerance},
         truth_(truth_of(judgement, contract, triangles)) {}
 
-  // What may be reported: whatever is there, or is so within the slack.
+  // Returns the pairs that may be reported: those in contact, or those within the slack.
   const std::vector<PairContact>& allowed_pairs() const {
     return judgement_.within_slack ? *judgement_.within_slack : judgement_.pairs;
   }
 
   bool detector_complete() const { return result_.answer != Answer::undecided; }
 
-  // Finds what the detector reports although it is not there, or not there yet. Contacts that the
-  // contract leaves out count as there.
+  // Finds pairs that the detector reports although they are not in contact, or not yet. Contacts
+  // that the contract leaves out count as contacts.
   void compare_with_all() {
-    // If the oracle was stopped, it has not refuted what it has not reached.
+    // If the oracle was stopped, it has not refuted the pairs that it has not reached.
     if (!judgement_.complete) return;
     auto theirs = allowed_pairs().begin();
     for (const auto& ours : result_.pairs) {
@@ -97,8 +97,8 @@ struct Comparison {
     }
   }
 
-  // Finds what counts and the detector does not report, or reports later. A run that was stopped
-  // is left out, because it may know only later contacts of a pair than its first.
+  // Finds contacts that count and that the detector does not report, or reports too late. A run
+  // that was stopped is left out, because it may know only later contacts of a pair than its first.
   void compare_with_what_counts() {
     if (!detector_complete()) return;
     auto ours = result_.pairs.begin();
@@ -136,7 +136,7 @@ struct Comparison {
     diff_.first = {result_.first, exact, time_off(result_.first, exact, times_.tolerance)};
   }
 
-  // Sorts out the missing pairs that are excused.
+  // Moves the excused ones out of the missing pairs.
   void excuse() {
     auto unexcused = diff_.missing;
     std::vector<PairContact> excuses;
@@ -163,8 +163,8 @@ struct Comparison {
     diff_.excuses = std::move(excuses);
   }
 
-  // With a slack a first time may be earlier than the exact one, but not than the first that comes
-  // within the slack.
+  // With a slack a first time may be earlier than the exact one, but not earlier than the first
+  // pair that comes within the slack.
   void compare_with_slack() {
     if (!judgement_.within_slack || !judgement_.complete || result_.answer != Answer::collision)
       return;
@@ -175,8 +175,8 @@ struct Comparison {
       diff_.first_in_slack = *first;
   }
 
-  // The diff, which has this outcome if it breaks no claim. With a slack to go by, alarms are
-  // judged as those of queries are.
+  // Returns the diff, with this outcome if it breaks no claim. If the pairs within the slack are
+  // known, alarms are judged as those of queries are.
   StepDiff weighed(Outcome outcome) {
     diff_.outcome = outcome;
     weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);
@@ -333,7 +333,8 @@ Answer StepTruth::answer() const {
 
 namespace {
 
-// Adds those of `others` whose pair is not there. Both lists ascend, and so does the result.
+// Adds to `pairs` the contacts of `others` whose pair it lacks. Both lists ascend, and so does the
+// result.
 void add_others(const std::vector<PairContact>& others, std::vector<PairContact>& pairs) {
   const auto by_pair = [](const PairContact& a, const PairContact& b) { return a.pair < b.pair; };
   std::vector<PairContact> all;
@@ -371,7 +372,7 @@ StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contr
   for (const auto& contact : contract.tests_part() ? judgement.asked_pairs : judgement.pairs) {
     if (!leaves_out(contract, triangles, contact.pair)) truth.pairs.push_back(contact);
   }
-  // A contact is left out if it is not among these, or is so only later.
+  // A contact is left out if it is not among the pairs that count, or counts only later.
   auto counted_pair = truth.pairs.begin();
   for (const auto& contact : judgement.pairs) {
     while (counted_pair != truth.pairs.end() && counted_pair->pair < contact.pair) ++counted_pair;

@@ -77,9 +77,9 @@ TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEn
 // contact at t* as edges) holds a reported pair.
 //
 // If the contract has a margin, first-time is not judged, and no-spurious is judged by the pairs
-// that come within separation + margin (StepJudgement::within_slack), or not at all without these.
-// A step that was answered by an error breaks `total`, or is Outcome::error if `total` is not
-// claimed. It is Outcome::error too if the built-in detector refuses the input by name
+// that come within separation + margin (StepJudgement::within_slack); without these pairs it is not
+// judged. A step that was answered by an error breaks `total`, or is Outcome::error if `total` is
+// not claimed. It is Outcome::error too if the built-in detector refuses the input by name
 // (StepResult::problem), because `total` speaks of valid input. `deterministic` is not judged here,
 // because it needs two runs: same_answers. O(n log n) in the number of pairs.
 //
@@ -125,11 +125,11 @@ struct LimitedStep {
 // x_t0 to that place. If the oracle was stopped, a step that would hold is undecided.
 //
 // Here t* is the first contact time of the whole step, or 1 if there is none. The share is too
-// short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding
-// cannot if that part of the step moves some vertex by 2^10 units in its last place or more, the
-// gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more, and
-// the oracle finds the way free to each of eight equally spaced places from that share to t*,
-// rounded. Else the share is only counted.
+// short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding is
+// not the reason if the step up to the share moves some vertex by 2^10 units in its last place or
+// more, the gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or
+// more, and the oracle finds the way free to each of eight equally spaced places from that share to
+// t*, rounded. Else the share is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
                  const oracle::StepJudgement& judgement, const Claims& claims,
                  const Contract& contract, StepDiff& diff);

@@ -62,8 +62,8 @@ CauseTime time_of(const detector::TimeEnclosure& t) {
   return t.hi <= thousandth ? CauseTime::near_0 : CauseTime::inside;
 }
 
-// A share of the extent at t = 0, as a distance: of the longest side of the box around all
-// vertices.
+// A distance that is this share of the extent: of the longest side of the box around all vertices
+// at t = 0.
 double share_of_extent(const PositionsView& x, double share) {
   double half = 0;  // so that the difference of two doubles does not overflow
   for (int axis = 0; axis < 3; ++axis) {
@@ -94,8 +94,8 @@ class PairOfStep {
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair)
       : triangles_(triangles), motion_(motion), pair_(pair), faces_{pair.a, pair.b} {}
 
-  // Says that the pair holds the two features of a query: of its vertices these alone count, and of
-  // its triangles the face alone.
+  // Says that the pair holds the two features of a query. Then only the vertices of these features
+  // count, and of the triangles only the face.
   void set_query(const detector::Feature& features) {
     query_ = features;
     faces_.clear();

@@ -51,9 +51,9 @@ struct Cause {
   CauseNumbers numbers = CauseNumbers::ordinary;
   // For a query it is always `nothing`.
   CauseSharing sharing = CauseSharing::nothing;
-  // Not in contact at t = 0, but some vertex and face, or two edges, of the two triangles that
-  // share no vertex are then nearer than 1e-5 of the mesh's extent, by exact distances. The extent
-  // is the longest side of the box around all vertices at t = 0.
+  // The two triangles are not in contact at t = 0, but two of their features without a common
+  // vertex (vertex and face, or two edges) are then nearer than 1e-5 of the mesh's extent, exactly.
+  // The extent is the longest side of the box around all vertices at t = 0.
   bool is_near_at_start = false;
   friend bool operator==(const Cause&, const Cause&) = default;
 };

@@ -15,7 +15,7 @@ namespace assay::properties {
 
 namespace {
 
-// The pair of triangles for which the contract does not take a step of the case that starts with
+// Returns a pair of triangles because of which the contract does not take a step that starts with
 // the mesh at x. Only pairs that count, and that the detector tests, are looked at.
 std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsView& x,
                                                     const corpus::Case& c,
@@ -33,9 +33,9 @@ std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsVie
   });
 }
 
-// The relation as the detector sees it: as coarse as its coordinates. If it can be told none, every
-// pair counts, and what is left are the bodies, because they name triangles. Returns whether it can
-// be so.
+// Rounds the relation to the detector's coordinates. If the detector takes no relation, every pair
+// counts, and only the bodies stay, because they name triangles. Returns whether all numbers are
+// finite.
 bool contract_relation(corpus::Case& c, const Contract& contract) {
   if (c.counted && !contract.takes_relations) {
     detector::CountedPairs names;
@@ -66,7 +66,7 @@ std::string why_no_frame(const detector::PositionsView& x, const std::vector<Edg
 std::optional<detector::Positions> exact_end(const detector::Positions& x,
                                              const detector::Positions& to) {
   const detector::Positions way = displacement(x, to), end = x + way;
-  // What is rounded is not the same when either part is taken away again.
+  // If the sum was rounded, taking one part away does not give the other part.
   if (!end.allFinite() || end - x != way || end - way != x) return std::nullopt;
   return end;
 }
@@ -107,8 +107,8 @@ bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& 
   return true;
 }
 
-// Whether who stops at x_t0 + share (x_t1 - x_t0) can: each way of each step is a number of the
-// contract's coordinates.
+// Whether a caller can stop at x_t0 + share (x_t1 - x_t0): x_t1 - x_t0 is finite in the contract's
+// coordinates, in each step.
 bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
   const auto steps = corpus::steps_of(c);
   return std::all_of(steps.begin(), steps.end(), [&](const corpus::CaseStep& step) {
@@ -164,7 +164,7 @@ std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract&
   if (!contract_relation(out, contract)) return std::nullopt;
   for (auto& frame : out.frames) {
     detector::Positions positions = round_to(frame, contract.coordinates);
-    // Facts about other coordinates are none about these.
+    // Facts about the given coordinates need not hold for the rounded ones.
     if (positions != frame && out.expected.answer != detector::Answer::error) {
       out.expected = {};
       if (out.counted) out.counted->steps.clear();

@@ -17,8 +17,8 @@ namespace assay::properties {
 // because they start in contact, or too near to it. The frame at which the first remaining step
 // starts becomes the first frame, because the detector is made there. Returns nothing if a
 // coordinate is out of the contract's range, or if no step is left: the case is then not for this
-// detector. A query (query_case.h) is taken or left out as a whole; a case that claims to be a
-// query and is none is not taken. Expected facts that are no longer known to hold are left out.
+// detector. A query (query_case.h) is taken or left out as a whole; a case that only claims to be a
+// query is left out. Expected facts that are no longer known to hold are left out.
 std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract& contract);
 
 // Returns why contract_case() gives nothing for the case, in one line: the member of the contract,

@@ -30,7 +30,7 @@ bool has_an_answer(const CaseResults& results) {
 
 // The worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
-  // A case of which a step is refused speaks for nothing, although its other steps hold.
+  // A case with a refused step says nothing, even if its other steps hold.
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::refused, Outcome::undecided,
                                    Outcome::error, Outcome::defect};
   const auto rank = [&](Outcome outcome) {
@@ -297,7 +297,7 @@ class CaseChecker {
       check_step(s);
       collision |= run.steps[s].answer == Answer::collision;
     }
-    // The answer that is expected of a case is that of all pairs (CaseRelation).
+    // The expected answer of a case is about all pairs (CaseRelation).
     if (!expected || case_.counted) return std::move(check_);
     if (*expected == Answer::collision ? claims_.has(Claim::free_sound) && !collision
                                        : claims_.has(Claim::no_spurious) && collision) {

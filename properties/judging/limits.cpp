@@ -15,14 +15,15 @@ namespace {
 
 using detector::Positions;
 
-// What a limiter that promises no progress is compared with.
+// If a limiter promises no progress, it is measured by this one.
 constexpr double usual_progress = 0.9;
-// One that stays although a vertex could move by so many units in its last place stalls (L17).
+// A limiter stalls if it stays although a vertex could move by so many units in its last place
+// (L17).
 constexpr double ulps_of_a_stall = 16;
-// Where the way is shorter than this, or the gap ahead is narrower, rounding may be what keeps a
-// limiter from its progress, and no claim is broken.
+// If the way is shorter than this, or the gap ahead is narrower, rounding may keep a limiter from
+// its progress, and no claim is broken.
 constexpr double ulps_of_a_way = 1024, ulps_of_a_gap = 64;
-// So many equal places, from what is promised to the contact, have to be free for it to be owed.
+// Progress is owed only if so many equally spaced places, from the promised share on, are free.
 constexpr int owed_places = 8;
 
 template <class Real>
@@ -31,7 +32,7 @@ double unit_in_last_place(double x) {
   return static_cast<double>(std::nextafter(a, std::numeric_limits<Real>::infinity())) -
          static_cast<double>(a);
 }
-// In the numbers that the limiter and its caller compute in.
+// Returns a unit in the last place of x, in the coordinates of the limiter and its caller.
 double ulp(double x, Coordinates coordinates) {
   return coordinates == Coordinates::float32 ? unit_in_last_place<float>(x)
                                              : unit_in_last_place<double>(x);
@@ -59,7 +60,7 @@ class LimitComparison {
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    // A share counts for no more than the positions beside it go, each rounded by an ulp at most.
+    // A share counts only as far as the positions beside it go, each rounded by an ulp at most.
     limit.way =
         answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;
@@ -94,8 +95,9 @@ class LimitComparison {
     return truth_of(judgement, of_way, step_.triangles).first;
   }
 
-  // Whether rounding cannot be why less than this share is gone: there is room, and each of some
-  // equal places from there to the contact is free to go to, rounded as the caller would.
+  // Returns whether rounding cannot explain a way shorter than this share: there is room, and the
+  // way is free to each of some equally spaced places from there to the contact, rounded as by the
+  // caller.
   bool is_owed(double share, double possible) {
     if (!has_room(share)) return false;
     for (int i = 0; i < owed_places && truth_.first; ++i) {
@@ -105,7 +107,7 @@ class LimitComparison {
     return true;
   }
 
-  // Where the caller stops who is told this share; nothing if that is beyond all numbers.
+  // Returns where this share makes the caller stop; nothing if a coordinate overflows.
   std::optional<Positions> place_at(double share) const {
     Contract of_rest = contract_;
     if (of_rest.limit_gives == LimitGives::positions) of_rest.limit_gives = LimitGives::start_plus;
@@ -114,8 +116,8 @@ class LimitComparison {
     return stop ? std::optional(stop.value().positions) : std::nullopt;
   }
 
-  // The length of the way to where the caller stops over that of the whole step, both over all
-  // vertices together. Each coordinate may have gone so many units in its last place farther.
+  // The length of the caller's way, divided by the length of the whole step, both over all vertices
+  // together. Each coordinate may have gone `ulps` units in its last place farther.
   double share_gone(double ulps) const {
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
     const Positions whole = to - from;
@@ -148,9 +150,9 @@ class LimitComparison {
            !oracle::any_nearer_than(from, step_.triangles, gap, counted_pairs());
   }
 
-  // Whether a pair may be one that the question is about.
+  // Says of a pair whether the question may be about it.
   oracle::WantedPair counted_pairs() const {
-    // Relations refer to them.
+    // Relations refer to the features.
     const auto features =
         std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(step_.triangles));
     std::vector<std::shared_ptr<oracle::PairRelation>> relations;

@@ -46,7 +46,7 @@ double TimesOff::quantile(double part) const {
 }
 
 double LimitUse::share(double part) const {
-  // The worst come first. What was used to the end stands in no list.
+  // The worst come first. Steps that used all of the time stand in no list.
   const auto at_least_so_good =
       contact - static_cast<std::uint64_t>(part * static_cast<double>(contact - 1));
   const auto used_up = contact - unused.steps;

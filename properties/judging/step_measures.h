@@ -19,8 +19,8 @@ struct TimesOff {
   std::uint64_t steps = 0;
   double worst_share = 0;  // of a step
   double worst_ulps = 0;
-  // By share of a step, how often it was met, for quantiles. A share is rounded upward to two
-  // digits (0.00012), so that no time looks better than it is, and sums stay short.
+  // How often each share of a step was met, for quantiles. A share is rounded upward to two digits
+  // (0.00012), so that no time looks better than it is, and sums stay short.
   std::map<double, std::uint64_t> shares;
 
   // Returns the rounded share at this part of the values in ascending order: 0.5 gives the median,

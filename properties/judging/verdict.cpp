@@ -139,12 +139,12 @@ std::string asked_text(const Contract& contract, double slack = 0) {
                      slack > 0 ? fmt::format(" + {}", slack) : "");
 }
 
-// t* may lie between two adjacent doubles, of which the lower one alone does not hold it.
+// If t* lies between two adjacent doubles, an interval may miss it by less than an ulp.
 std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
 }
 
-// Makes a failure of a step of what shows the broken claim.
+// Makes the failure of a step from the evidence of its broken claim.
 class FailureOfStep {
  public:
   FailureOfStep(const StepDiff& diff, const detector::StepResult& result, const Contract& contract)

@@ -24,7 +24,7 @@ using detector::InputError;
 using detector::Positions;
 using detector::Triangles;
 
-// What L12 calls doubtful: input that is no surface of a body, and is answered all the same.
+// Doubtful input (L12) is no surface of a body, and is answered nevertheless.
 
 // Two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
@@ -113,7 +113,7 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   return premise_held ? holds() : not_met();
 }
 
-// Empty if the mesh is refused for that reason.
+// Returns what is wrong; empty if the mesh is refused for the expected reason.
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
                          InputError error) {
   const auto creation =

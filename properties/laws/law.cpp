@@ -80,8 +80,8 @@ bool same_lists(const List& a, const List& b) {
                     [](const auto& x, const auto& y) { return same(x, y); });
 }
 
-// The counts that are compared. Those of marking depend on earlier steps too
-// (detector/search/pair_rule.h), and so may those that are set to 0 beside them.
+// The counts that are compared. Counts of marking depend on earlier steps, too
+// (detector/search/pair_rule.h), and so may the other counts that are set to 0 here.
 detector::StepCounts of_this_step(detector::StepCounts counts) {
   counts.marking = {};
   counts.search.child_counts = counts.search.skipped = counts.search.contour_tests = 0;

@@ -1,10 +1,10 @@
 // A law: a statement that holds in every step of every case, as code, and how often it was met.
 //
 // A law that is never met proves nothing, so each law counts the steps in which its premise held,
-// and among these the close ones, in which the law was nearly broken or nearly did not apply: the
-// smallest of the values on which it rests is at most 1 % of the largest. These values are |view
-// values| over the step; for L13 they say how far the triangles of a certified patch face its
-// direction (case_facts.h).
+// and among these the close ones. In a close step the law was nearly broken or nearly did not
+// apply: the smallest of the values on which it rests is at most 1 % of the largest. These values
+// are |view values| over the step; for L13 they say how far the triangles of a certified patch face
+// its direction (case_facts.h).
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ struct LawTally {
 };
 
 // The cullings under which a campaign has to meet the premise of a law. Each culling finds the
-// triangles that are clean from step to step in another way: view-point knows it after every step,
-// and view-auto may have done a step without views. So a law about clean triangles that is met
-// under one culling says nothing about the others.
+// triangles that are clean from step to step in another way: view-point finds them after every
+// step, and view-auto may have done a step without views. So a law about clean triangles that is
+// met under one culling says nothing about the others.
 enum class PremiseScope : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
 
 struct Law {
@@ -39,7 +39,7 @@ struct Law {
   std::string_view statement;  // the law in one or two sentences
   std::string_view needs;      // what the law needs from the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds its tally of this case
-  // The law is checked on one case in this many, because laws that run the case again are dear.
+  // The law is checked on one case in this many, because laws that run the case again are slow.
   int one_in = 1;
   PremiseScope met_under = PremiseScope::any_culling;
   // The change that the law is about, if the changed case can be put to any detector; else null.

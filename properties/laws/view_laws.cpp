@@ -17,8 +17,8 @@ namespace {
 
 using detector::ViewSign;
 
-// Looks at some triangles of the surface at some times. They are the same ones whenever the case
-// is looked at.
+// Looks at some triangles of the surface at some times. The choice is the same whenever the case is
+// looked at.
 template <class Look>
 Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   if (!facts.has_views(s)) return not_met();

@@ -51,8 +51,8 @@ WholeVector whole_vector(Random& random) {
   return v;
 }
 
-// Builds two features whose distance at a time of eighths is the length of an integer vector w,
-// exactly: they lie on the two sides of a slab across w, with a foot on each of its planes. All
+// Builds two features whose distance at a time in eighths is exactly the length of an integer
+// vector w: they lie on the two sides of a slab across w, with a foot on each of its planes. All
 // coordinates are integers while the time is 0 or 1 or the velocities are multiples of 8, and
 // eighths otherwise.
 class Touch {
@@ -82,7 +82,7 @@ class Touch {
   QueryTask moving_freely(int reach) {
     return with_motion([&](std::size_t) { return integer_point(random_, reach); });
   }
-  // The groups go towards each other, and each point along the planes of the slab besides.
+  // The groups go towards each other, and each point also moves along the planes of the slab.
   QueryTask approaching() {
     const double speed = random_.between(1, 3);
     return with_motion([&](std::size_t i) {
@@ -107,7 +107,7 @@ class Touch {
 
  private:
   Point tangent() { return cross(across_.w, integer_point(random_, 2)); }
-  // Not on the inner side of the plane at which it is; side 1 is that of the second feature.
+  // A random offset, not to the inner side of its plane; side 1 is that of the second feature.
   Point outward(double side) {
     const Point p = integer_point(random_, 6);
     return Point{} + (dot(p, across_.w) * side < 0 ? -1 : 1) * p;
@@ -176,8 +176,8 @@ QueryTask in_a_cube(std::uint64_t seed, std::uint64_t index) {
   return asked_of("generic", seed, index, {std::ldexp(random.unit(), -halvings), 0});
 }
 
-// Distances of whole numbers and their parts, and roots of whole numbers as doubles, which are next
-// to distances that there are.
+// Draws whole numbers, parts of these, and roots of whole numbers, rounded to doubles: the roots
+// are next to distances that occur.
 Separation small_distance(Random& random) {
   const double whole = random.between(0, 12);
   const int kind = random.below(4);
@@ -227,13 +227,14 @@ QueryTask collapsing(std::uint64_t seed, std::uint64_t index) {
     if (where == 0) x[i].t0 = point.t0;
     if (where == 1) x[i].t1 = point.t1;
     if (where == 2) x[i] = point;
-    // In the middle: the way from the kept point turns about.
+    // In the middle: the vector from the kept point is reversed.
     if (where == 3) x[i].t1 = point.t1 + (point.t0 + -1 * x[i].t0);
   }
   return q;
 }
 
-// The cross product of two edges vanishes when the distance is d for the first time, or so.
+// The cross product of two edges vanishes when the distance is d for the first time, or nearly
+// then.
 QueryTask no_normal(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::of_collapsed);
@@ -305,7 +306,7 @@ QueryTask all_doubles(std::uint64_t seed, std::uint64_t index) {
   return asked_of(family, seed, index, {any(), random.one_in(3) ? any() : 0});
 }
 
-// d, or one coordinate, a few units in the last place beside an exact touch.
+// An exact touch, with d or one coordinate changed by a few units in the last place.
 QueryTask beside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   QueryTask q = any_touch(random, index);
@@ -323,7 +324,7 @@ QueryTask beside(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-// They are within d for a short time only.
+// The features are within d for a short time only.
 QueryTask just_inside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);

@@ -47,7 +47,7 @@ double& any_coordinate(Random& random, Query& q) {
   return end[static_cast<std::size_t>(random.below(3))];
 }
 
-// Makes planar and collinear worlds in any direction: it replaces p by its shadow in one.
+// Makes planar and collinear worlds in any direction: it replaces p by its projection into one.
 Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& directions) {
   if (dimensions == 3) return p;
   Point shadow = {0, 0, 0};
@@ -221,9 +221,9 @@ QueryTask generic(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-// The first group lands on the second one where the step ends: both are at one level there, or at
-// any angle; or some units of the last place beyond, or short of it. Some pass within the step, and
-// some leave. One in six is generic.
+// The first group lands on the second one at the end of the step: level or at any angle, exactly or
+// some units of the last place beyond or short of it. Some pass within the step, and some leave.
+// One in six is generic.
 QueryTask everyday(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);

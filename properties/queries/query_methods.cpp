@@ -60,7 +60,7 @@ oracle::DistanceVerdict ask_distance_referee(const QueryTask& task,
                                   options);
 }
 
-// Of a distance no time is asked for, so that any bracket of it will do.
+// For a distance no first time is asked for, so any bracket of it will do.
 MethodAnswer referee(const QueryTask& task) {
   if (!task.within) return {oracle::referee(task.query)};
   return {ask_distance_referee(task, {.bits = 0}).within};
@@ -93,7 +93,7 @@ MethodAnswer least_distance(const QueryTask& task) {
     throw std::logic_error("farther apart than the least distance");
   if (least > 0 && is_within(std::nextafter(least, 0.0)))
     throw std::logic_error("nearer than the least distance");
-  // The sum is rounded, so only what lies beyond the rounding tells.
+  // The sum is rounded, so only a least distance beyond the rounding tells.
   const double sum = task.within->first + task.within->second;
   if (least > std::nextafter(sum, std::numeric_limits<double>::infinity())) return {Decision::no};
   if (std::isfinite(sum) && least < std::nextafter(sum, 0.0)) return {Decision::yes};

@@ -52,8 +52,8 @@ struct QueryMethod {
   const char* word = nullptr;  // a user's word for the method (method_of)
   bool knows_distance = false;
   std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "" for none
-  // Of free-sound and no-spurious, the claims that the method makes. Bounded arithmetic may raise
-  // false alarms; plain doubles and floats promise nothing.
+  // The claims that the method makes, out of free-sound and no-spurious. Bounded arithmetic may
+  // raise false alarms; plain doubles and floats promise nothing.
   Claims claims = {Claim::free_sound, Claim::no_spurious};
 };
 
@@ -89,7 +89,7 @@ ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, rungs)
 // Compares every method that checks such queries with the oracle's timed answer; `pick` chooses the
 // methods that get only some of the queries. Verdicts must be equal, times equal in every bit or
 // within the proved bounds, a known time must not be missed, and a listed query must have its known
-// answer by its rung. Returns the contradiction, or nothing. The dearest part is the algebraic
+// answer by its rung. Returns the contradiction, or nothing. The slowest part is the algebraic
 // kernel.
 std::optional<std::string> check_query(const QueryTask& task, std::uint64_t pick, QueryTally& tally,
                                        std::span<const QueryMethod> methods = query_methods());

@@ -114,9 +114,9 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 // mesh_passes.cpp: cuts a mesh of more than 1,000 triangles, with which passes would take too long,
 // before any pass begins. It looks for the least number of triangles around the reported pair that
 // still fails, by doubling and then halving, and leaves out halves and quarters. A failure of the
-// same claim and kind counts as the same, because another contact may now come first. If more than
-// 1,000 triangles are left, the failure depends on size, and returns their number. Returns 0 if
-// fewer are left, or if a limit ended the search.
+// same claim and kind counts as the same, because another contact may now come first. Returns the
+// number of triangles that are left if it is above 1,000: the failure then depends on size. Else,
+// or if a limit ended the search, returns 0.
 std::size_t cut_large_mesh(ReductionSearch& search);
 
 // step_passes.cpp: passes that shorten the sequence.
@@ -143,7 +143,7 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 
 // small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
-void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
+void try_small_spheres(ReductionSearch& search);    // also around it: thousands of proposals
 
 // small_meshes.cpp: lists all triangulated spheres with few vertices.
 
@@ -165,7 +165,7 @@ SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
 // step_passes.cpp: makes the relation state less.
-void simplify_relation(ReductionSearch& search);  // without it, without its parts, at rest at first
+void simplify_relation(ReductionSearch& search);  // dropped, in part, or at rest in frame 0
 
 // step_passes.cpp: passes on the view primitive that the case states.
 void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin

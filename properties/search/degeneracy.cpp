@@ -1,6 +1,6 @@
 // All polynomials in question are affine in each coordinate alone: F is a determinant, L a minor of
 // it, and a place at time t is affine in both ends. So a difference quotient of any length is the
-// derivative, but for rounding, and a step as long as the mesh costs no bits.
+// derivative, except for rounding, and a step as long as the mesh loses no bits.
 #include "properties/search/degeneracy.h"
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ struct Differences {
                  l3 = u[0].cross(u[1])[axis];
     return i == 0 ? -(l1 + l2 + l3) : i == 1 ? l1 : i == 2 ? l2 : l3;
   }
-  // Of the face, or of the two edges.
+  // The normal of the face, or of the two edges.
   Vec normal(int first_group) const {
     return first_group == 1 ? Vec((u[1] - u[0]).cross(u[2] - u[0])) : Vec(u[0].cross(u[2] - u[1]));
   }

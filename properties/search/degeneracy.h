@@ -33,9 +33,9 @@ constexpr auto names_of(Hardness) {
                                          {distance, "at the distance"}});
 }
 
-// The share of each kind, from 0 (exactly degenerate) to 1. If it is a value at a root, which is no
-// double, a share below 2^-53 may be given as 0. Zeros of F at an end, of its discriminant and of F
-// itself are exact.
+// The share of each kind, from 0 (exactly degenerate) to 1. At a root that is no double, a share
+// below 2^-53 may be given as 0. Zeros of F at an end, of its discriminant and of F itself are
+// exact.
 struct Gap {
   std::array<double, all_values<Hardness>.size()> share{};
   double& operator[](Hardness kind) { return share[static_cast<std::size_t>(kind)]; }

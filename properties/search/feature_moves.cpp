@@ -98,7 +98,8 @@ double neighbour(double x, int steps, Coordinates coordinates) {
   return x;
 }
 
-// A step of up to three units of the last place; a coordinate 0 moves by some of those of the mesh.
+// Moves a coordinate by up to three units of the last place; a coordinate 0 by such units of the
+// mesh's size.
 void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
   auto& point = one_of(random, q.points);
   auto& end = random.one_in(2) ? point.t0 : point.t1;
@@ -161,7 +162,7 @@ void flatten(Random& random, Candidate& child, const MoveContext&) {
   const int kind = random.below(4);
   const double level_0 = q.points[0].t0[axis], level_1 = q.points[0].t1[axis];
   for (auto& p : q.points) {
-    if (kind == 0) {  // a plane that is not that of two axes
+    if (kind == 0) {  // a plane that no two axes span
       p.t0[axis] = p.t0[copied];
       p.t1[axis] = p.t1[copied];
       continue;
@@ -172,8 +173,8 @@ void flatten(Random& random, Candidate& child, const MoveContext&) {
   set_query(child.c, *child.focus, q);
 }
 
-// Brings the features into a plane that is not that of two axes, as doubles see it: F is then noise
-// of rounding, at the edge of every error bound. The features overlap in the plane throughout.
+// Brings the features into a plane that no two axes span, as doubles see it: F is then noise of
+// rounding, at the edge of every error bound. The features overlap in the plane throughout.
 void near_a_plane(Random& random, Candidate& child, const MoveContext&) {
   if (!child.focus) return;
   FourPoints q = query_at(child.c, *child.focus);
@@ -251,7 +252,8 @@ void align(Random& random, Candidate& child, const MoveContext&) {
   set_query(child.c, *child.focus, q);
 }
 
-// Gives the features the paths of those of another case, in its size or in their own.
+// Gives the features the paths of another case's features, in the other case's size or in their
+// own.
 void transplant(Random& random, Candidate& child, const MoveContext& context) {
   if (!child.focus || !context.other || !context.other->focus) return;
   const auto& other = *context.other->focus;

@@ -101,7 +101,7 @@ class Sides {
   long greatest_ = 0;
 };
 
-// What the error bounds of the filters are measured in: the product over the axes of the greatest
+// The unit of the error bounds of the filters: the product over the axes of the greatest
 // |coordinate| of the u_j.
 double log2_of_bound(const FourPoints& q) {
   double sum = 0;
@@ -131,7 +131,7 @@ std::array<double, 2> critical_times(const Scaled& f) {
 }
 
 // How far the distance at this time is from the one asked about, over the greater of the two and,
-// for a contact, the extent. A contact itself is no miss of a contact: 1.
+// for a contact, the extent. 1 if a contact is asked for and there is one.
 double share_of_distance(const FourPoints& query, double time, double separation) {
   const double distance = std::sqrt(oracle::closest_places(query, time).squared);
   if (!(distance < 1e300) || (separation == 0 && distance == 0)) return 1;
@@ -187,7 +187,8 @@ Gap gap_of(const FourPoints& query, double time, double separation) {
   // The scaled coefficients are the coefficients times a small number, which is left out.
   const double unit = 3.0 * oracle::IntegerScale(query.points).exponent() - log2_of_bound(query);
   gap[Hardness::flat] = std::exp2(std::clamp(greatest + unit, -1000.0, 0.0));
-  // Some 128 units of 2^-53. Exactly at a bound is worth 40 bits, and a factor of two 4 bits less.
+  // Some 128 units of 2^-53. A value exactly at a bound is worth 40 bits, and each factor of two
+  // away 4 bits less.
   constexpr double bits_of_bound = -46, bits_at_bound = 40, bits_less = 4;
   const double bits = bits_at_bound - bits_less * std::abs(least + unit - bits_of_bound);
   if (least > -1e300) gap[Hardness::bound] = std::exp2(-std::max(bits, 0.0));

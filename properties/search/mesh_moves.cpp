@@ -17,7 +17,7 @@ namespace {
 
 using Row = Eigen::RowVector3d;
 
-// Whether the mesh may be changed: a relation and ghosts speak of its numbers.
+// Whether the mesh may be changed: a relation and ghosts refer to its numbers.
 bool is_plain(const corpus::Case& c) { return !c.counted && !c.ghosts; }
 
 // A triangle becomes another one, a corner at a time; or is doubled in its place, flipped, dropped.
@@ -39,7 +39,7 @@ void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
     edited = keep_triangles(child.c, is_kept);
   } else if (kind == 3) {
     edited = close_loops(child.c, static_cast<std::size_t>(random.below(3)));
-  } else if (kind == 4) {  // a seam: the triangle once more, of vertices in the same places
+  } else if (kind == 4) {  // a seam: a copy of the triangle, with its own vertices
     add_mesh(edited, detector::Triangles{{0, 1, 2}}, [&](std::size_t f) {
       return detector::Positions(child.c.frames[f](one, Eigen::all));
     });
@@ -89,8 +89,8 @@ void renumber(Random& random, Candidate& child, const MoveContext&) {
   child.focus.reset();  // it names triangles
 }
 
-// Two triangles between an edge of each of the two in focus: they are of one component then, or
-// joined once more, and the mesh has other loops.
+// Adds two triangles between an edge of each triangle in focus. Then the two are of one component,
+// or joined once more, and the mesh has other loops.
 void bridge(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (!is_plain(c) || !child.focus || c.triangles.rows() < 2) return;

@@ -62,8 +62,8 @@ class NearestFeatures {
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
-// The places in FourPoints of the vertices of a feature: an edge that pierces a face gives its
-// first end.
+// Puts the vertices of a feature into the order of FourPoints. If an edge pierces a face, its first
+// end stands for the edge.
 void set_feature(Focus& focus, const detector::Feature& feature) {
   const auto& v = feature.vertices;
   const bool is_piercing = feature.kind == FeatureKind::piercing;
@@ -79,8 +79,9 @@ Row row_at(const detector::MovingPoint& p, double t) {
   return row_of(p.t0) + t * (row_of(p.t1) - row_of(p.t0));
 }
 
-// How far a triangle is positive, and how far negative, each from 0 to 1: the share of times and
-// corners by a quarter, the rest by the share of times of that corner which has it most often.
+// How far a triangle is positive, and how far negative, each from 0 to 1: a quarter is the share of
+// times and corners with this sign, three quarters are the share of times of the corner that has
+// the sign most often.
 struct Shares {
   double positive = 0, negative = 0;
 };

@@ -24,7 +24,7 @@ struct Focus {
   std::size_t step = 0;                    // of corpus::steps_of
   std::array<std::int32_t, 4> vertices{};  // in the order of detector::FourPoints
   int first_group = 1;
-  double time = 0;  // when they meet, or, of a few times, are nearest, in doubles
+  double time = 0;  // when they meet, or the time of the nearest of a few samples
   std::optional<detector::PairContact> contact;
   std::vector<detector::TrianglePair> pairs;  // all pairs that meet first
 };

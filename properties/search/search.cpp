@@ -87,7 +87,7 @@ Swarm::Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t be
 }
 namespace {
 
-// How far the detector is off, in bits: what it may be under its contract counts too.
+// How far the detector is off, in bits. Deviations that its contract allows count, too.
 double error_bits(const CaseResults& results) {
   constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
   double bits = 0;
@@ -108,8 +108,8 @@ double error_bits(const CaseResults& results) {
   return bits;
 }
 
-// What the detector did in its first configuration, in a few letters: it distinguishes cases of one
-// cause that go different ways through it.
+// What the detector did in its first configuration, in a few letters, which distinguish cases of
+// one cause that go different ways through the detector.
 std::string ways_of(const CaseResults& results) {
   std::string ways;
   if (results.runs.empty()) return ways;
@@ -171,11 +171,11 @@ std::optional<Entry> entry_of(const CaseResults& one, const SearchSpace& space, 
   return entry;
 }
 
-// The best case of each cell: of a cause, a kind of features, what is hardest, how the detector
-// went, and how a culling sees it.
+// The best case of each cell. A cell is a cause, a kind of features, the hardest property, the way
+// of the detector (ways_of), and how a culling sees the case.
 class Archive {
  public:
-  // Of two equally good cases the later stays, so that the search drifts.
+  // The later of two equally good cases stays, so that the search drifts.
   void offer(Entry&& one) {
     causes_.insert(one.cause);
     const auto [place, is_new] = cells_.try_emplace(one.cell, cases_.size());
@@ -190,7 +190,7 @@ class Archive {
   // Null if there is none of this kind.
   const Candidate* draw(Random& random, Parents parents = Parents::any) const {
     if (parents == Parents::any) return cases_.empty() ? nullptr : &one_of(random, cases_).child;
-    // What is alike is rare, so half of the draws are of it.
+    // Cases that are alike are rare, so half of the draws choose among them.
     const bool is_alike = parents == Parents::alike || (!alike_.empty() && random.one_in(2));
     const auto& places = is_alike ? alike_ : within_;
     return places.empty() ? nullptr : &cases_[one_of(random, places)].child;
@@ -225,7 +225,7 @@ class LaneSearch {
         batch.push_back(std::move(*one));
       }
       idle_ = batch.empty() ? idle_ + 1 : 0;
-      // Of a swarm that led to too few cases nothing more is expected.
+      // A swarm that led to too few cases is replaced.
       renew_ = batch.size() < count;
       of_swarm_ += batch.size();
       if (idle_ > most_idle) break;  // the contract takes none
@@ -308,7 +308,7 @@ class LaneSearch {
         result_.finds.push_back({c, i, *failure, results.runs[i], result_.cases});
     }
     result_.defects += is_defect ? 1 : 0;
-    // What has no verdict would let later cases depend on how fast the machine is.
+    // Cases without a verdict would let later cases depend on the speed of the machine.
     const auto is_open = [](const Verdict& trial) {
       return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
     };

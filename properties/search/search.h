@@ -20,7 +20,7 @@
 
 namespace assay::properties {
 
-// Examines some cases, each as the contract has it.
+// Examines some cases, each as fitted to the contract.
 using ExamineCases = std::function<std::vector<CaseResults>(std::vector<corpus::Case>)>;
 
 // A source of fresh cases. `draw` should make a case of at most most_triangles; a larger one is not
@@ -94,7 +94,7 @@ struct Swarm {
   Theme theme = Theme::everything;
   Parents parents = Parents::any;
   std::vector<const Move*> moves;          // drawn by their weights
-  std::vector<const CaseSource*> sources;  // the same
+  std::vector<const CaseSource*> sources;  // drawn by their weights
   Eigen::Index most_triangles = 0;
   std::size_t most_frames = 0;
   int fresh_one_in = 1;

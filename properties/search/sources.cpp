@@ -18,9 +18,9 @@
 namespace assay::properties {
 namespace {
 
-// All sources of a kind together, however many they are, are drawn from in a fixed proportion to
-// those of another kind: small cases of the strata's families most often, for they are cheap and
-// find what is not degenerate.
+// The sources of one kind together, however many they are, have a fixed weight against those of
+// another kind. Small cases of the strata's families have the greatest weight, because they are
+// cheap and find failures that are not degenerate.
 constexpr int weight_of_a_kind = 400;
 
 int weight_of_queries(std::string_view queries) {
@@ -94,7 +94,7 @@ class CuratedCases {
   }
 
  private:
-  // A case without frames is none that is taken.
+  // A case without frames is not taken.
   corpus::Case at(std::size_t i) {
     const std::lock_guard lock(mutex_);
     const auto [place, is_new] = cases_.try_emplace(i);

@@ -16,7 +16,7 @@ namespace {
 
 using detector::FourPoints;
 
-// Puts a frame before that of this number, and the view primitive of that frame with it.
+// Inserts a frame before the one of this number, whose view primitive it shares.
 void insert_frame(corpus::Case& c, std::int32_t place, detector::Positions x) {
   const auto script = corpus::steps_of(c);
   c.frames.insert(c.frames.begin() + place, std::move(x));

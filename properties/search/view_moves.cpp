@@ -52,9 +52,9 @@ void view(Random& random, Candidate& child, const MoveContext&) {
   see_from(c, q0, q1, way, is_line);
 }
 
-// Newton steps of a view primitive and a triangle onto degeneracies of the view polynomial, which
-// is F of an end of the primitive and the three corners: it is zero where the triangle has no
-// sign. So a sign that holds at the ends of a step alone comes about, and one that is zero once.
+// Moves a view primitive and a triangle by Newton steps onto degeneracies of the view polynomial: F
+// of an end of the primitive and the three corners, which is zero where the triangle has no sign.
+// This makes signs that hold only at the ends of a step, and signs that are zero once.
 void look_aside(Random& random, Candidate& child, const MoveContext& context) {
   auto& c = child.c;
   if (c.ghosts || c.triangles.rows() == 0) return;
@@ -95,8 +95,8 @@ struct Side {
   Row corner, normal;  // of length 1
 };
 
-// A place from which all sides face away, as near as may be or farther; nothing if doubles find
-// none soon. It follows from the perceptron's rule a way on which all normals lie.
+// Returns a place from which all sides face away, the nearest or a farther one; nothing if doubles
+// find none soon. The perceptron's rule gives a direction on whose side all normals lie.
 std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) {
   constexpr int most_tries = 24;
   constexpr double least_cosine = 0x1p-6;
@@ -125,10 +125,10 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
   return Row(middle - (least + one_of(random, farther) * size) * way);
 }
 
-// A view primitive from which the pair in focus, all that meets first, or the whole mesh faces
-// away, or which it faces, at both ends of the step and at some places between; one that moves is
-// behind it in each frame. What meets nevertheless, meets because a triangle turns on the way, or
-// because a ghost is touched (L4, L11).
+// Sets a view primitive from which the pair in focus, all pairs that meet first, or the whole mesh
+// faces away, or which these face, at both ends of the step and at some places between. If the
+// primitive moves, this holds in each frame. Pairs then meet only because a triangle turns on the
+// way, or because a ghost is touched (L4, L11).
 void face_away(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || c.triangles.rows() == 0) return;
@@ -142,7 +142,7 @@ void face_away(Random& random, Candidate& child, const MoveContext&) {
     triangles.resize(static_cast<std::size_t>(c.triangles.rows()));
     std::iota(triangles.begin(), triangles.end(), 0);
   }
-  const double side = random.one_in(4) ? -1 : 1;  // they face it, or away from it
+  const double side = random.one_in(4) ? -1 : 1;  // the triangles face the view, or away from it
   const auto sides_of = [&](const detector::Positions& x, std::vector<Side>& sides) {
     for (const auto t : triangles) {
       const Row p = x.row(c.triangles(t, 0)), q = x.row(c.triangles(t, 1)),
@@ -155,7 +155,7 @@ void face_away(Random& random, Candidate& child, const MoveContext&) {
   const auto& from = c.frames[detector::at(step.from)];
   const auto& to = c.frames[detector::at(step.to)];
   std::vector<Row> places;
-  if (random.one_in(3)) {  // it moves, and is behind them in each frame
+  if (random.one_in(3)) {  // the view moves, and is behind them in each frame
     for (const auto& x : c.frames) {
       std::vector<Side> sides;
       sides_of(x, sides);
@@ -190,7 +190,7 @@ void face_away(Random& random, Candidate& child, const MoveContext&) {
 struct Ray {
   std::int32_t vertex = 0;
   Row from, way, view;  // `way` leads onto the triangle
-  double farthest = 0;  // so many ways may be gone before the view-point is reached
+  double farthest = 0;  // how often `way` fits before the view-point
 };
 
 std::optional<Ray> any_ray(Random& random, const corpus::Case& c, const detector::Positions& x,
@@ -213,7 +213,7 @@ std::optional<Ray> any_ray(Random& random, const corpus::Case& c, const detector
   if (!(ray.way.norm() > 0)) return std::nullopt;
   constexpr double farther[] = {0.0625, 0.25, 0.5, 1, 2, 8};
   const double away = one_of(random, farther);
-  const bool is_behind = random.one_in(2);  // of the vertex, or of the triangle
+  const bool is_behind = random.one_in(2);  // the view is behind the vertex, or behind the triangle
   ray.view = is_behind ? Row(ray.from - away * ray.way) : Row(goal + away * ray.way);
   if (!is_behind) ray.farthest = 1 + away / 2;
   bool is_positive = true, is_negative = true;
@@ -255,7 +255,7 @@ void put_into_a_plane(Random& random, Candidate& child) {
   }
 }
 
-// Of some view primitives that from which what meets first is seen the most alike.
+// Chooses, among some view primitives, the one that sees the first contacts the most alike.
 void gaze(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || child.focus->pairs.empty()) return;

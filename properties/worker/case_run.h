@@ -118,7 +118,7 @@ std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
                                                 const Configuration& configuration,
                                                 std::span<const detector::StepResult> undisturbed);
 // Returns the results as a run that can be compared with another: without the counts of marking,
-// which depend on the marking before, whether its step was committed or not.
+// which depend on the marking in earlier steps, committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);
 
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.

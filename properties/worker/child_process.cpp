@@ -114,7 +114,7 @@ ChildEnd ChildProcess::finish(std::chrono::milliseconds patience) {
   }
   ChildEnd end = end_of(0);
   if (id_ >= 0) {
-    // The number of the group is not used again as long as nobody has waited for its leader.
+    // The number of the group stays reserved until somebody waits for its leader.
     if (state_of(id_) != State::not_ours) ::kill(-id_, SIGKILL);
     end = end_of_child(id_);
     id_ = -1;
@@ -131,7 +131,7 @@ ChildProcess::~ChildProcess() {
 
 namespace {
 
-// What the copy says last, if its work threw: this mark, and what() of the exception.
+// The last message of the copy if its work threw: this mark, and what() of the exception.
 constexpr char threw = '\1', ran_out_of_memory = '\2';
 
 void write_all(int descriptor, std::string_view text) {
@@ -182,7 +182,7 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   const auto fail = [](const char* what) {
     throw std::system_error(errno, std::generic_category(), what);
   };
-  // The copy speaks into a file in memory: a pipe would wake this process for every line.
+  // The copy writes to a file in memory: a pipe would wake this process for every line.
   const int file = ::memfd_create("said", MFD_CLOEXEC);
   if (file < 0) fail("no file in memory");
   const pid_t copy = ::fork();
@@ -304,7 +304,8 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
 }
 
 // The states: S and D wait, T is stopped, I is a thread of the system that waits, Z and X have
-// ended. One that a debugger holds (t) does not wait, so that it is not ended so soon.
+// ended. A process that a debugger holds (t) counts as not waiting, so that it is not ended so
+// soon.
 bool waits(const Row& row) { return std::strchr("SDTIZX", row.state) != nullptr; }
 
 bool all_wait(const Row& process) {

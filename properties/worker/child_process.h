@@ -22,8 +22,8 @@ namespace assay::properties {
 inline constexpr int child_descriptor = 3;
 
 // An open file of this process, and its number in the child. REQUIRES that `here` is not the number
-// of another file in the child: least_passed_descriptor or more never is, and the first of a list
-// may have any number.
+// of another file in the child: numbers from least_passed_descriptor on never are, and the first of
+// a list may have any number.
 struct PassedDescriptor {
   int here, there;
 };

@@ -128,8 +128,8 @@ namespace {
 // The number by which bwrap finds the filter of calls.
 constexpr int filter_descriptor = 5;
 
-// Calls that ask for a network, and those that give memory which no limit counts. Programs do
-// without, as on a system that does not have them.
+// Calls that ask for a network, and calls that give memory which no limit counts. Programs work
+// without these, as on a system that does not have them.
 constexpr const char* refused_calls[] = {
     "socket", "io_uring_setup", "memfd_create", "memfd_secret", "shmget", "msgget", "mq_open",
 };
@@ -157,7 +157,8 @@ std::string try_bubblewrap() {
   if (!output) return "the system gives no file in memory";
   auto child = start_behind_bubblewrap("true", {}, {}, {{output->descriptor(), STDERR_FILENO}});
   if (!child) return child.error().message;
-  // It takes a tenth of a second. A machine under load must not be taken for one that forbids it.
+  // The trial takes a tenth of a second. A machine under load must not count as one that forbids
+  // bwrap.
   constexpr std::chrono::minutes patience{5};
   const ChildEnd end = child.value().finish(patience);
   if (end.signal == 0 && end.code == 0) return "";

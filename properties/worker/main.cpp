@@ -56,14 +56,14 @@ void stop_being_root() {
 // limit. A lower limit that the user has set stays. False if the system refuses.
 bool limit_memory(std::uint64_t bytes) { return bytes == 0 || limit(RLIMIT_AS, bytes); }
 
-// Limits, besides, the bytes of each file that it writes, to the same number. A file that would
-// grow beyond is an error of the call, and not the end of the process. Limits the processes and
-// threads that it may start, to 512 more than there are now: as root the workers of all runs are of
+// Limits also the bytes of each file that this process writes, to the same number. A call that
+// would write more fails, and does not end the process. Limits the processes and threads that it
+// may start to 512 more than there are now, because under root the workers of all runs belong to
 // one user.
 //
 // The system exempts root from the limit on processes, by the real user of a process and by its
-// rights. So if this is root, it becomes another real user and gives up its rights; as whom files
-// are opened stays as it is. REQUIRES that this process has one thread.
+// rights. So root becomes another real user here and gives up its rights; the user as whom files
+// are opened stays the same. REQUIRES that this process has one thread.
 bool limit_plugin(std::uint64_t bytes) {
   constexpr rlim_t most_processes = 512;
   struct sysinfo status = {};
@@ -99,8 +99,8 @@ bool settle(std::uint64_t host) {
   return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
 }
 
-// Gives what is loaded from now on other hash seeds and other addresses than in a worker with
-// another number: of the heap, and of what is mapped. The memory stays taken.
+// Gives code that is loaded from now on other hash seeds and other addresses (of the heap, and of
+// mappings) than in a worker with another number. The memory stays taken.
 void vary(std::uint64_t variation) {
   ::setenv("PYTHONHASHSEED", std::to_string(variation).c_str(), 1);
   constexpr std::size_t page = 4096, small = 16;

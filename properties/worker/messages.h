@@ -1,6 +1,6 @@
 // The messages between the host and its worker: plain bytes, with lengths in front. Both ends are
 // built from the same sources, which wire_version checks, and run on the same machine. So plain
-// data travels as it lies in memory.
+// data is sent as it lies in memory.
 //
 // The fields of a message are listed once for both directions, below and beside the types
 // (fields.h). The channel that carries messages stands last.
@@ -39,7 +39,7 @@ namespace assay::properties {
 template <class T, class... Other>
 inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 
-// Types whose values travel as their bytes. They are listed by name, so that a type that gains a
+// Types whose values are sent as their bytes. They are listed by name, so that a type that gains a
 // pointer does not slip through.
 template <class T>
 inline constexpr bool travels_as_bytes =
@@ -80,7 +80,7 @@ class Wire : public NamedFields<Wire<reads>> {
       fields(*this, item);
     }
   }
-  // A number that is no valid bool or enum value is never stored in one.
+  // A bool or an enum never gets a number that is no valid value of it.
   template <class T, class Number>
   void pass_up_to(T& item, Number last) {
     Number number = reads ? Number{0} : static_cast<Number>(item);
@@ -162,7 +162,8 @@ class Wire : public NamedFields<Wire<reads>> {
 // The messages, field by field. A new field of a result or an option does not compile until it is
 // named here.
 
-// The relation of the options does not travel: that of the case counts, and travels with it.
+// The relation of the options is not sent: the relation of the case counts, and is sent with the
+// case.
 template <class Archive>
 void fields(Archive& archive, detector::Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
@@ -191,7 +192,7 @@ ASSAY_FIELDS(corpus::CaseView, q0, q1)
 ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
-// Only facts that a detector may know travel, and never the expected facts.
+// Only facts that a detector may know are sent, never the expected facts.
 template <class Archive>
 void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);

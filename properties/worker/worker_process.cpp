@@ -43,7 +43,7 @@ struct WorkerProcess::Parts {
       const ChildEnd end = child.finish(patience);
       return is_behind_bubblewrap ? end_behind_bubblewrap(end) : end;
     }
-    // Looked at while the worker is waited for.
+    // Called again and again while the host waits for the worker.
     std::optional<std::chrono::milliseconds> wait(WorkerWatch& watch) {
       if (output) output->keep_short();
       return watch.patience();
@@ -102,7 +102,7 @@ struct WorkerProcess::Parts {
     return text.empty() ? "" : "; it printed: " + text.substr(text.rfind('\n') + 1);
   }
 
-  // Buries a worker that ended between two cases, and so owes no answer. The system kills a worker
+  // Removes a worker that ended between two cases, and so owes no answer. The system kills a worker
   // when the thread that started it ends; that is no disturbance.
   void bury() {
     const ChildEnd end = live->finish(last_breath);
@@ -173,8 +173,8 @@ struct WorkerProcess::Parts {
 
   std::string who() const { return plugin_library ? plugin_library->string() : program.string(); }
 
-  // Hears the first message of the worker. If the worker ended without one, returns how it ended;
-  // then there is no worker any more.
+  // Receives the first message of the worker. If the worker ended without one, returns how it
+  // ended; then there is no worker any more.
   Expected<std::optional<ChildEnd>> greet() {
     WorkerWatch watch(live->child, std::min(limits.seconds, longest_loading));
     std::string message;
@@ -223,16 +223,16 @@ struct WorkerProcess::Parts {
       run.output = live->take_printed();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
-        // The worker ends itself, because what it has left of its memory is in pieces.
+        // The worker ends itself, because its free memory is fragmented.
         live.reset();
         return;
       }
     }
   }
 
-  // Hears the reply to a request that was sent like that. `rule_of` says which rule a decoded reply
-  // breaks. If there is no reply by the rules, the worker is ended, and the run that was under way
-  // is appended, unless it is to be repeated.
+  // Receives the reply to a request that was sent in this way. `rule_of` says which rule a decoded
+  // reply breaks. If there is no reply by the rules, the worker is ended, and the run that was
+  // under way is appended, unless it is to be repeated.
   template <class RuleOf>
   bool hear(WorkerWatch& watch, Transfer transfer, std::uint64_t longest, RunReply& reply,
             std::vector<CaseRun>& runs, const RuleOf& rule_of) {
@@ -318,7 +318,7 @@ std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
   constexpr std::size_t most_at_once = 256;
   std::vector<CaseRun> runs;
   while (runs.size() < cases.size() * configurations.size()) {
-    // A case of which some runs are there is ended by itself.
+    // A case with some runs already done is finished by itself.
     const std::size_t place = runs.size() % configurations.size();
     const auto queue = cases.subspan(runs.size() / configurations.size());
     const auto some = queue.first(place > 0 ? 1 : std::min(most_at_once, queue.size()));

@@ -22,8 +22,8 @@ namespace assay::properties {
 
 namespace {
 
-// Makes the next ascending list of numbers below `end`, in which equal numbers are allowed. None
-// is below those of the first list. Returns false after the last list.
+// Makes the next ascending list of numbers below `end`, in which equal numbers are allowed. The
+// first list has the least numbers. Returns false after the last list.
 bool next_ascending(std::span<int> list, int end) {
   for (std::size_t i = list.size(); i > 0; --i) {
     if (list[i - 1] + 1 == end) continue;

@@ -41,8 +41,8 @@ struct TetrahedronGrid {
   int movers = 4;      // how many vertices move at most
 };
 
-// One motion of a class, with view-points: one of each set of those that its own symmetries map
-// onto each other.
+// One motion of a class, with one view-point of each set of view-points that the motion's own
+// symmetries map onto each other.
 struct TetrahedronMotion {
   std::array<detector::MovingPoint, 4> vertices;
   // The number of motions of the grid, with their vertices in order, in this class.

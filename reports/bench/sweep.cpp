@@ -92,7 +92,7 @@ properties::CaseRun run_here(const corpus::Case& c, const SweptSubject& subject,
   return run;
 }
 
-// Returns for each round the time that `ms` takes from its times.
+// Returns for each round the time that `ms` computes from the times of the round.
 template <class Ms>
 std::vector<double> each(const SweptRuns& runs, const Ms& ms) {
   std::vector<double> list;

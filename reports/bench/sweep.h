@@ -33,8 +33,8 @@ constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
   return (hash ^ word) * 0x100000001b3u;
 }
 
-// Returns a hash of all parts of a result that depend neither on time nor, like the counts of
-// marking, on the searches before the step.
+// Returns a hash of a result, without the parts that depend on time or, like the counts of marking,
+// on the searches before the step.
 std::uint64_t result_hash(const detector::StepResult& result);
 
 // The way in which a case is played and timed.
@@ -55,10 +55,10 @@ struct SweepPlan {
   // Subjects in this process look at each step once before it is timed, so that the time of a short
   // case does not include the cost of new memory.
   bool is_warm = false;
-  // A subject whose first run had a step of more seconds is not run again. That run is then the
-  // sample of every round.
+  // A subject is not run again if a step of its first run took more seconds than this. That run is
+  // then the sample of every round.
   double longest_repeated = HUGE_VAL;
-  // A subject that took this many times as long as the fastest one takes part in two rounds only.
+  // A subject takes part in two rounds only, if it took this many times as long as the fastest one.
   double far_off = HUGE_VAL;
   std::function<void()> tick = [] {};  // called between runs
 };

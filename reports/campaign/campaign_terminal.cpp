@@ -197,7 +197,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
       request.own_cases = std::move(own);
     }
   }
-  request.worker = properties::worker_program();  // of which a proof speaks, too
+  request.worker = properties::worker_program();  // a proof names it, too
   // The proof is read before the first code of a plug-in runs.
   if (!words.power.empty() && request.plan.fault_cases == 0) {
     fmt::print("campaign {} plants no faults: --power is not needed\n", request.plan.name);

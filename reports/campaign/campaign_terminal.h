@@ -83,9 +83,8 @@ std::vector<properties::SpeedFigure> measure_speed();
 // detector's owner, which `run` and `certify` add.
 
 // Returns the folder of the shipped corpus: curated cases, known failures, the conformance set. It
-// lies beside the program, as that was built or installed, so the program holds no path of another
-// machine. The environment variable ASSAY_CORPUS names another folder. Fails if there is no such
-// folder.
+// lies beside the program, built or installed, so the program holds no path of another machine. The
+// environment variable ASSAY_CORPUS names another folder. Fails if there is no such folder.
 Expected<std::filesystem::path> shipped_corpus();
 
 // Reads the cases in a folder of the owner: every file whose name ends with .json. Fails if one

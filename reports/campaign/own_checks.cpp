@@ -80,8 +80,8 @@ properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
   return limits;
 }
 
-// A detector that hangs in this many cases of the corpus is not asked for the others, because each
-// may take long, and nothing is certified any more.
+// If a detector hangs in this many cases of the corpus, the others are left out, because each may
+// take long, and nothing is certified any more.
 constexpr int most_hung_cases = 3;
 
 constexpr const char* row_format = "{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n";
@@ -135,7 +135,7 @@ class CorpusCheck {
   void judge(const corpus::Case& c, properties::WorkerProcess& worker,
              std::vector<JudgedSource>& rows) {
     const auto source = rows.front().source;
-    // Ids of a source that counts as another one have its own prefix behind that one's.
+    // If a source counts as another one, its ids begin with the other prefix, and its own follows.
     const auto id = (row_of(source).counts_as == source ? "" : row_of(source).prefix) + c.id;
     const auto contracted_case = properties::contract_case(c, request_.detector.contract);
     for (auto& row : rows) ++(contracted_case ? row.cases : row.left_out);
@@ -322,7 +322,7 @@ std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
 }
 
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
-  // A folder is named before the first case is put there.
+  // A folder that does not exist yet has no cases.
   std::error_code ignored;
   if (!std::filesystem::exists(folder, ignored))
     return properties::OwnCases{{}, digest_of_files({})};

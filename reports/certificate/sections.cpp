@@ -39,7 +39,7 @@ Json each(const List& list, const Make& make) {
   return rows;
 }
 
-// The fields of each (properties/fields.h).
+// The fields of each item of a list (properties/fields.h).
 template <class List>
 Json fields_of_each(const List& list) {
   return each(list, [](const auto& one) { return properties::json_of_fields<Json>(one); });
@@ -76,8 +76,8 @@ Json histogram(const std::map<int, std::uint64_t>& counts) {
   });
 }
 
-// Returns the fields of a row of evidence, under the keys of
-// properties/campaign/ledger/evidence.cpp; but not its name.
+// Returns the fields of a row of evidence, without its name, under the keys of
+// properties/campaign/ledger/evidence.cpp.
 template <class T>
 Json facts_of(const T& evidence) {
   Json facts = Json::parse(to_row(evidence).fields);
@@ -85,7 +85,7 @@ Json facts_of(const T& evidence) {
   return facts;
 }
 
-// Returns the members that the row of a source shows of each of its inputs; null without inputs.
+// Returns, for each input of a source, the members that its row shows; null without inputs.
 Json inputs_json(const RunFindings& findings, Source source) {
   Json inputs;
   for (const auto& row : findings.evidence.rows_of(source)) {
@@ -116,7 +116,7 @@ Json fault_json(const properties::FaultProof& proof) {
 }
 
 Json world_json(const properties::World& world) {
-  // If the time ended a world, the numbers of classes and motions stand among the times only.
+  // If the time limit ended a world, the numbers of classes and motions stand among the times only.
   const bool is_settled = world.complete || world.counterexample;
   return {{"world", world.world},
           {"complete", world.complete},

@@ -152,7 +152,7 @@ enum class TestState : std::uint8_t { holds, failed, skipped };
 struct TestCase {
   std::string name;
   TestState state;
-  std::string why;  // of a test that holds, nobody asks
+  std::string why;  // not used for a test that holds
 };
 using Tests = std::vector<TestCase>;
 

@@ -195,7 +195,7 @@ class CheckRun {
     return bodies;
   }
 
-  // The limits are on work, and reading is none.
+  // Reading does not count against the limits.
   corpus::Expected<corpus::SourceStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
     return steps_.step(s);
@@ -221,7 +221,7 @@ class CheckRun {
     if (!why) return std::nullopt;
     if (why->empty()) return nlohmann::ordered_json();
     const auto number = steps_.number_of(s);
-    // Many steps are left out for the same reason, in other words at most by other numbers.
+    // Many steps are left out for the same reason, in words that differ at most in their numbers.
     const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
     if (is_new || question_.shows_all_steps)
       say(fmt::format("step {}: left out: {}{}\n", number + 1, *why,
@@ -242,7 +242,7 @@ class CheckRun {
     std::string told_error;
     if (result.answer == Answer::error) {
       const auto error = answers_.error_of(s);
-      // The built-in detector has errors for input alone.
+      // The built-in detector reports errors only for its input.
       if (!answers_.is_plugin()) {
         refusal_ = fmt::format("step {}: {}", shown_number, error);
         return {};
@@ -260,7 +260,7 @@ class CheckRun {
       progress.finish();
       say(step_text(shown_number, result, nullptr, shown_work(s)) + error_line(told_error));
       auto json = json_of(result, nullptr);
-      // A plug-in may name features that are none.
+      // A plug-in may name features that do not exist.
       if (!answers_.is_plugin()) note_contacts(step, result.pairs, result.answer, true, json);
       return json;
     }
@@ -353,7 +353,7 @@ class CheckRun {
   void tell_nested(const corpus::SourceStep& step,
                    const std::vector<detector::PairContact>& pairs) {
     if (bodies_.empty() && !is_at_rest_) return;
-    // Each box of a component is held against each other.
+    // The box of each component is compared with each other box.
     constexpr std::size_t most_components = 1000;
     if (bodies_.empty() && mesh_.components.size() > most_components)
       return say("  not looked for: components inside of others, because there are over 1,000\n");
@@ -480,7 +480,7 @@ class CheckRun {
   const properties::BodyNames bodies_;
   std::optional<std::vector<NestedBodies>> nested_;  // nothing until a step is judged
   std::size_t named_pairs_ = 0;                      // pairs in contact, as far as they were named
-  // Of --ply: the mesh at its first contact, and by triangle whether it is in contact.
+  // For --ply: the mesh at its first contact, and by triangle whether it is in contact.
   detector::Positions shown_mesh_;
   std::vector<std::uint8_t> is_marked_;
   std::optional<std::string> refusal_;

@@ -45,7 +45,7 @@ svg {{ width: 100%; max-width: 32rem; height: auto; }}
 </body></html>
 )";
 
-// Marks the triangles that have a vertex of those that are marked.
+// Marks the triangles that share a vertex with marked triangles.
 void add_neighbours(const detector::Triangles& triangles, Eigen::Index vertices,
                     std::vector<std::uint8_t>& is_marked) {
   std::vector<std::uint8_t> near(static_cast<std::size_t>(vertices), 0);
@@ -111,7 +111,7 @@ class KeptFailures {
   struct KeptStep {
     std::uint64_t number = 0;  // from 1
     std::string what, size;    // "14 triangles, 12 vertices, 1 step"
-    std::string folder;        // in the folder of all
+    std::string folder;        // inside the folder of all kept steps
     std::string again;
     std::string picture = {};             // SVG; empty: too large
     std::optional<bool> reproduced = {};  // by the plug-in; nothing: it was not asked

@@ -186,7 +186,7 @@ class SeparationRun {
 
   Expected<void> run_step(std::size_t s) {
     auto bodies = [&] {
-      const Limits::Pause pause(limits_);  // the limits are on work, and reading is none
+      const Limits::Pause pause(limits_);  // reading does not count against the limits
       return steps_.step(s);
     }();
     if (!bodies) return bodies.error();

@@ -33,7 +33,7 @@ class StepAnswers {
   virtual nlohmann::ordered_json to_json() const = 0;
 
   // Called before the first step. Returns the verdict on the run as a whole, without judging any
-  // step. If that does not hold, there may be no steps to ask for.
+  // step. If the verdict is not `holds`, there may be no steps to ask for.
   virtual properties::Verdict begin() { return {}; }
   // Makes the detector answer step s, which is `step`; run() then holds the answer. Steps are asked
   // for in order, each once.

@@ -18,7 +18,7 @@ namespace assay::reports {
 namespace {
 
 using Vector = Eigen::Vector3d;
-// The points of both triangles that the place of a contact is between.
+// The points of both triangles between which the place of a contact lies.
 NearestPoints points_of(const detector::PairContact& contact,
                         const detector::TrianglesView& triangles,
                         const detector::SteppedMesh& motion) {
@@ -154,12 +154,12 @@ std::optional<NearestPoints> CaseScene::nearest_points(const SceneStep& step,
     feature = {query->first_group == 1 ? FeatureKind::vertex_face : FeatureKind::edge_edge,
                {0, 1, 2, 3, -1}};
   } else if (contract.separation > 0 && feature.kind != FeatureKind::piercing) {
-    // Of the features that are within d at t = 0 any may be named, not the nearest.
+    // If several features are within d at t = 0, the named one need not be the nearest.
     feature = {};
   }
   auto nearest = contact_places(
       contact, c.triangles, {start_of(c, step.span), end_of(c, step.span)}, middle(contact.time));
-  // Of triangles that pierce each other only rounding is left.
+  // If triangles pierce each other, their distance is only rounding.
   if (nearest && nearest->distance() < 1e-9 * contract.separation) nearest->b = nearest->a;
   return nearest;
 }
@@ -219,7 +219,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
     if (s < run.steps.size()) step.answer = run.steps[s];
     if (s < run.candidates.size()) step.candidates = run.candidates[s];
     if (s < verdict.steps.size()) step.diff = std::move(verdict.steps[s]);
-    // Of the way that is allowed the detector answers nothing.
+    // The detector gives no answer about the allowed way.
     if (scene.failure && scene.failure->claim == properties::Claim::commit_free &&
         scene.failure->step == s) {
       step.answer.reset();

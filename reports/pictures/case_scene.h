@@ -49,10 +49,10 @@ struct SceneStep {
 
   // Returns whether `answer` has view sets to show.
   bool has_views() const { return answer && !answer->doubts.empty(); }
-  // Returns the judgement, by claims and contract, of a pair that is in contact or reported, in
-  // words: "missing", "late", "early", "spurious", "no candidate" and "answered free" break a
-  // claim; "not claimed", alone or behind one of these, "left out by the contract", "agrees" and
-  // "not run" do not.
+  // Returns in words how claims and contract judge a pair that is in contact or reported.
+  // "missing", "late", "early", "spurious", "no candidate" and "answered free" break a claim. "not
+  // claimed", alone or behind one of these words, "left out by the contract", "agrees" and "not
+  // run" do not.
   std::string difference(const detector::TrianglePair& pair, const CaseScene& scene) const;
 };
 
@@ -83,7 +83,7 @@ struct CaseScene {
 double middle(const detector::TimeEnclosure& time);
 
 // Makes the scene. `worker` runs the detector; null: the detector is not available. Returns nothing
-// if the contract cannot represent a coordinate. Judges exactly, which is dear: meant for shrunk
+// if the contract cannot represent a coordinate. Judges exactly, which is slow: meant for shrunk
 // cases.
 std::optional<CaseScene> make_scene(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,

@@ -109,8 +109,8 @@ class Picture {
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
   // Chooses one of four isometric sides: the one from which the triangle of the pair that covers
-  // the smaller area covers most. A triangle that is not shown does not count. Where the nearest
-  // points are apart, the side counts by as much as the segment between them appears in its length.
+  // the smaller area covers most. A triangle that is not shown does not count. If the nearest
+  // points are apart, a side also counts by how long the segment between them appears.
   void choose_side() {
     double most = -1;
     const auto* contact = exact_ ? exact_ : answer_;

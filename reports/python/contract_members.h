@@ -34,7 +34,8 @@ inline pybind11::dict words_of_members() {
   return members;
 }
 
-// Sets the members of the description. `described` of assay/hosting.py made numbers of words.
+// Sets the members of the description. `described` of assay/hosting.py has turned words into
+// numbers.
 inline void set_contract(assay_description& description, const pybind11::dict& numbers) {
   properties::Contract contract;
   visit_members(description, contract, [&]<class T>(const char* name, T& member, const auto&) {

@@ -172,10 +172,10 @@ py::dict words_of_options() {
   return words;
 }
 
-// After this many queries it is asked whether signals have come. They take about a millisecond.
+// Python is asked for signals after this many queries, which take about a millisecond.
 constexpr std::size_t queries_of_a_piece = 1024;
 
-// Whether it came to the end. `test` answers a query.
+// Answers queries by `test`. Returns whether all were answered.
 template <class Test>
 bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_group,
             const Test& test, bool* hit, double* lo, double* hi,
@@ -195,7 +195,7 @@ bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_
   return true;
 }
 
-// With a separation above 0 a hit is what comes within it, exactly.
+// With a separation above 0, features hit if they come within it, exactly.
 template <int first_group>
 py::tuple answers(const py::object& x_t0, const py::object& x_t1, const std::string& arithmetic,
                   double separation) {
@@ -234,13 +234,13 @@ py::ssize_t vertices_of(std::int32_t kind) {
   return place < of_kinds.size() ? of_kinds[place] : -1;
 }
 
-// Whether a feature names vertices. That of triangles with the same vertices does not, nor does one
-// of a detector that names no features.
+// Whether a feature names vertices. It names none if its triangles have the same vertices, or if
+// the detector names no features.
 bool is_named(const std::int32_t* feature) {
   return feature[1] >= 0 && vertices_of(feature[0]) > 0;
 }
 
-// Refuses what is not of the mesh, because a result may have been made by hand.
+// Refuses contacts that are not of the mesh, because a result may have been made by hand.
 void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
                      const IntegerArray& features, const detector::TrianglesView& triangles) {
   const bool are_rows = pairs.ndim() == 2 && pairs.shape(1) == 2 && times.ndim() == 2 &&
@@ -265,8 +265,8 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
 }
 
 // The place of each contact at its first time: points k x 3, barycentric coordinates k x 2 x 3,
-// errors k, normals k x 3 and their errors k. A normal that is not there is NaN, and so is all of
-// a place whose feature has no name.
+// errors k, normals k x 3 and their errors k. A missing normal is NaN, and so is every number of a
+// place whose feature has no name.
 py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
                          const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
                          const IntegerArray& features) {

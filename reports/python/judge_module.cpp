@@ -34,8 +34,8 @@ void demand_good_input(const detector::TrianglesView& triangles,
     if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
 }
 
-// With a distance, the sum of two doubles, the oracle is asked for what comes within it, and not
-// for contacts.
+// With a distance, the sum of two doubles, the oracle is asked for pairs that come within it, and
+// not for contacts.
 py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
                const std::optional<std::pair<double, double>>& within, int jobs) {
   const TrianglesArgument mesh(triangles, "triangles");
@@ -198,7 +198,7 @@ py::tuple mesh_and_frames(detector::Triangles& triangles,
   return py::make_tuple(owning_array(std::move(triangles)), positions);
 }
 
-// Returns the files in order, and what is said of it.
+// Returns the files in order, and the remarks on their order.
 py::tuple in_order_of_numbers(const std::vector<std::string>& files) {
   const auto order = corpus::in_order_of_numbers({files.begin(), files.end()});
   py::list paths;

@@ -60,7 +60,7 @@ class Recorder {
   }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
-  // It writes no end: the process may be one that was forked from that which records.
+  // Writes no end of the log, because this process may be a fork of the one that records.
   ~Recorder() { assay_record_free_(&recorder_); }
 
   // `answer` is what hosting.parts_of() gives, or None.

@@ -63,8 +63,8 @@ std::string pair_rows(const std::vector<detector::PairContact>& contacts,
   return "{" + rows + "}";
 }
 
-// `allowed` may be reported or not: what the contract leaves out or, if it has a slack, all that
-// comes within that.
+// `allowed` are pairs that need not be reported: those that the contract leaves out or, if it has a
+// slack, all pairs within the slack.
 std::string step_row(const corpus::CaseStep& step, const properties::StepTruth& truth,
                      const std::vector<detector::PairContact>& allowance, bool is_query) {
   const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
@@ -143,7 +143,8 @@ int main() {
 static_assert(static_cast<int>(exported_case::Claim::times_unique) ==
               static_cast<int>(properties::Claim::times_unique));
 
-// What an answer is asked for: the broken claim, or all that are judged if none is broken.
+// The claims that an answer is checked for: the broken claim, or all judged claims if none is
+// broken.
 std::string asked_text(const properties::DetectorUnderTest& detector, bool is_query,
                        std::optional<properties::Claim> claim) {
   const auto claims = detector.claims_in(detector.configurations.front());
@@ -155,7 +156,8 @@ std::string asked_text(const properties::DetectorUnderTest& detector, bool is_qu
   return join(names, ", ");
 }
 
-// The arrays of the case and what its answers are asked for, with a function to fill in.
+// The arrays of the case and the claims that its answers are checked for, with a function to fill
+// in.
 std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
                       const std::vector<oracle::StepJudgement>& judgements,
                       std::optional<properties::Claim> claim) {
@@ -226,7 +228,7 @@ std::string relation_text(const detector::CountedPairs& pairs) {
              [&](const auto& pair) { return "{" + array(pair.a) + ", " + array(pair.b) + "}"; }));
 }
 
-// The same as a plug-in is told it; a pointer that is null if the case has no relation.
+// The relation as a plug-in is told it: a pointer that is null if the case has no relation.
 std::string told_relation_text(const corpus::Case& c) {
   const auto* pairs = corpus::counted_of(c);
   if (!pairs || pairs->count_all()) return "static const assay_counted_pairs* counted = nullptr;\n";

@@ -12,7 +12,7 @@
 namespace exported_case {
 
 // Two triangles and the interval of their first time. The pairs that meet at t* are the edges of a
-// graph of triangles. `part` is the number of its connected part, and -1 of a pair that meets
+// graph of triangles. `part` is the number of the pair's connected part, or -1 if the pair meets
 // later.
 struct Pair {
   int a, b;
@@ -21,16 +21,15 @@ struct Pair {
 };
 
 // From frame `from` to frame `to`; with `commit` the detector's state goes on. The first contact
-// time t* is `lo` where lo and hi are one number, else strictly between the two, which are adjacent
-// doubles.
+// time t* is `lo` if lo == hi, else strictly between the two, which are adjacent doubles.
 struct Step {
   int from, to;
   bool commit, collision;
   double lo, hi;
   const char *lo_as_fraction, *hi_as_fraction;
   std::vector<Pair> pairs;  // that meet
-  // What the detector may report or not, but not earlier: contacts that the contract leaves out, or
-  // all that comes within its margin.
+  // Pairs that the detector may report, but not earlier: contacts that the contract leaves out, or
+  // all pairs that come within its margin.
   std::vector<Pair> allowed;
 };
 
@@ -57,7 +56,7 @@ struct Asked {
 };
 
 struct Case {
-  int query;  // 0: a mesh; of four points 1: a vertex and a face, 2: two edges
+  int query;  // 0: a mesh; of a query 1: a vertex and a face, 2: two edges
   const int* triangles;
   int triangle_count, vertex_count;
   const double* frames;  // of all vertices, one frame behind the other
@@ -102,7 +101,7 @@ inline bool is_whole(const Case& c, const Step& step, const Found& found) {
                     });
 }
 
-// Whether numbers leave room for a share of a step: it moves some coordinate by 2^10 units in its
+// Whether a share of a step is longer than rounding: it moves some coordinate by 2^10 units in its
 // last place.
 inline bool has_room(const Case& c, const Step& step, double share) {
   const double *x_t0 = c.frame(step.from), *x_t1 = c.frame(step.to);
@@ -111,8 +110,8 @@ inline bool has_room(const Case& c, const Step& step, double share) {
   return false;
 }
 
-// Whether the answer to a step keeps a claim. Whether the way to other positions than the end is
-// free, `assay replay` alone can tell.
+// Whether the answer to a step keeps a claim. Only `assay replay` can tell whether the way to
+// positions other than the end is free.
 inline bool holds(Claim claim, const Case& c, const Step& step, const Found& found) {
   if (!found.error.empty()) return claim != Claim::total;
   const auto begins_after = [&](double lo, double exact) { return lo > exact + c.time_tolerance; };
@@ -171,7 +170,7 @@ inline bool holds(Claim claim, const Case& c, const Step& step, const Found& fou
   return true;
 }
 
-// An answer to the last bit. Answers are the same where their texts are.
+// Returns the text of an answer to the last bit. Equal answers have equal texts.
 inline std::string text_of(const Found& found) {
   std::string text = found.error + "\n";
   const auto add = [&text](double number) {
@@ -191,8 +190,8 @@ inline std::string text_of(const Found& found) {
   return text;
 }
 
-// Prints what the answer to step s breaks of what is asked; `again` is the answer of a second call.
-// Returns whether it breaks anything.
+// Prints the claims that the answer to step s breaks; `again` is the answer of a second call.
+// Returns whether it breaks any.
 inline bool is_wrong(const Case& c, std::size_t s, const Found& found, const Found& again) {
   const Step& step = c.steps[s];
   bool wrong = false;

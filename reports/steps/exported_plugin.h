@@ -30,14 +30,14 @@ inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int
   std::sort(list.begin(), list.end(), [](const Pair& x, const Pair& y) {
     return std::tie(x.a, x.b, x.lo) < std::tie(y.a, y.b, y.lo);
   });
-  // Of a pair that is given twice the earliest counts.
+  // If a pair is given twice, the earliest time counts.
   list.erase(std::unique(list.begin(), list.end(),
                          [](const Pair& x, const Pair& y) { return x.a == y.a && x.b == y.b; }),
              list.end());
   return "";
 }
 
-// Returns what stands in the way of an answer; empty if nothing does, or it is undecided.
+// Returns the error in place of an answer; empty if there is an answer, or if it is undecided.
 inline std::string read_result(const Case& c, const assay_result& raw, Found& found) {
   if (raw.answer == ASSAY_ERROR) return raw.message ? raw.message : "an error without a message";
   if (raw.answer == ASSAY_FREE) return raw.pair_count == 0 ? "" : "answers free and gives pairs";
@@ -51,13 +51,13 @@ inline std::string read_result(const Case& c, const assay_result& raw, Found& fo
   return read_pairs(c, raw.pair_count, raw.pairs, raw.pair_times, found.pairs);
 }
 
-// A plug-in that is asked for one case after its first call has said what it holds.
+// Asks a plug-in about one case. The plug-in's first call has said which functions it has.
 class Plugin {
  public:
   Plugin(const Case& c, const assay_detector_api* api, const assay_counted_pairs* counted)
       : case_(c), api_(api), counted_(counted) {}
 
-  // Returns what it lacks to be asked at all; empty if nothing.
+  // Returns which function the plug-in lacks for this case; empty if none.
   const char* lacking() const {
     if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no query";
     return api_->create && (api_->evaluate || has_candidates() || has_limit())
@@ -110,7 +110,7 @@ class Plugin {
     return false;
   }
 
-  // Where a step goes, as the detector is told it: by its end or by its displacement.
+  // Returns the motion of a step as the detector is told it: its end or its displacement.
   std::vector<double> told(const Step& step) const {
     const double *x_t0 = case_.frame(step.from), *x_t1 = case_.frame(step.to);
     std::vector<double> way(x_t1, x_t1 + case_.coordinates());
@@ -151,7 +151,7 @@ class Plugin {
         found.share = raw.share;
         if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1))
           found.error = "its share is none";
-        // Where it says no positions, only whether they are the end is asked here.
+        // If no positions are given, a share of 1 stands for the end, and any other for the start.
         const double* const stop = raw.positions    ? raw.positions
                                    : raw.share == 1 ? case_.frame(step.to)
                                                     : x_t0;
@@ -196,7 +196,7 @@ inline std::string text_of(const std::vector<Found>& list) {
 }
 
 // Asks the library in a process of its own, which writes the text of its answers to a pipe. Returns
-// whether that process came to its end, and not the library to its own.
+// whether that process came to its end, and the library neither crashed nor exited.
 inline bool ask_elsewhere(const char* library, std::string& text) {
   int ends[2];
   if (pipe(ends) != 0) return false;
@@ -216,9 +216,9 @@ inline bool ask_elsewhere(const char* library, std::string& text) {
   return child > 0 && waitpid(child, &status, 0) == child && status == 0 && !text.empty();
 }
 
-// The program. Its word is the library; a second word is where it writes its answers, in the
-// process of its own. Returns 0 if no claim that is asked is broken, 1 if one is, and 2 if nothing
-// can be asked.
+// The program. Its first argument is the library. In the process of its own a second argument says
+// where to write the answers. Returns 0 if no claim that is asked is broken, 1 if one is, and 2 if
+// nothing can be asked.
 inline int ask_library(const Case& c, const assay_counted_pairs* counted, int argc, char** argv) {
   void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
   void* entry = library ? dlsym(library, "assay_detector") : nullptr;

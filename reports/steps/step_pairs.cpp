@@ -149,7 +149,7 @@ class Inside {
   Inside(const detector::PositionsView& x, const detector::Topology& mesh, const Body& body)
       : instant_(own_places(x, body)), field_(instant_, own_triangles(mesh, body)) {}
 
-  // The components are connected and meet nothing of the body, so one vertex speaks for each.
+  // The components are connected and meet nothing of the body, so one vertex of each decides.
   bool holds(const detector::PositionsView& x, const Body& other) const {
     return std::all_of(
         other.components.begin(), other.components.end(), [&](const Component* component) {

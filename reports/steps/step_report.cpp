@@ -87,8 +87,8 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& work) {
   return out;
 }
 
-// Tells the exact first time beside the detector's: of the built-in detector where it differs, of a
-// plug-in wherever there is one.
+// Tells the exact first time beside the detector's: for the built-in detector if it differs, for a
+// plug-in if there is one.
 std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
   if (!diff.first_contact || diff.partial) return "";
   if (!diff.first)

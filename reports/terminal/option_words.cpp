@@ -33,7 +33,7 @@ std::optional<double> number_of(const std::string& word) {
   return is_number ? std::optional(number) : std::nullopt;
 }
 
-// Numbers for which `is_right` holds, which are `what`.
+// Checks for numbers for which `is_right` holds; `what` names them.
 template <class IsRight>
 Check number(IsRight is_right, const char* what) {
   return [=](const std::string& word) {

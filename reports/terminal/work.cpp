@@ -182,7 +182,7 @@ Expected<void> make_probe(const std::string& path, std::string probe) {
 
 Expected<void> may_write_one(const std::string& path, const std::vector<std::string>& inputs) {
   if (path.empty()) return outcome::success();
-  // Elsewhere it stands for standard output, where this would be mixed with the text.
+  // Other programs mean standard output by "-", where the file would be mixed with the text.
   if (path == "-") return Problem{"-: name a file; standard output is for the text"};
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) return Problem{path + ": is a directory"};

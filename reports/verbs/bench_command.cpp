@@ -46,7 +46,7 @@ Expected<BenchReport> measure(const BenchRequest& request) {
   const BenchProgress progress = {[&](const std::string& name) { line.phase(name); },
                                   [&] { line.tick(); }};
   if (!request.suite.empty()) return suite_named(request.suite)->run(settings, progress);
-  // It is loaded once here, so that what is wrong with it is known before any work.
+  // The plug-in is loaded once here, so that its faults are known before any work.
   BOOST_OUTCOME_TRY(plugin, choose_detector(request.detector, {.seconds = settings.case_seconds}));
   if (!plugin.description.parts.steps)
     return Problem{

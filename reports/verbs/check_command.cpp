@@ -35,7 +35,7 @@ struct CheckRequest {
   std::function<std::vector<std::string>()> option_texts;  // given_options of the verb
 };
 
-// What is judged, as bits, so that an option may be of several kinds.
+// The kind of input, as bits, so that an option may be for several kinds.
 enum Kind : unsigned { frames = 1, rest = 2, bodies = 4, a_case = 8, a_log = 16, queries = 32 };
 
 struct KindWords {
@@ -49,9 +49,8 @@ constexpr KindWords kinds[] = {{frames, "frames", "FRAME..."},
                                {a_log, "a log", "LOG"},
                                {queries, "queries", "QUERIES.csv"}};
 
-// The kinds of input that these options are for, the options with which they do not go there, and
-// one without which they would mean nothing. An option with a different meaning for other kinds has
-// a row for each meaning.
+// The kinds of input that these options are for, the options that they exclude there, and one that
+// they need. An option with a different meaning for other kinds has a row for each meaning.
 struct OptionRow {
   std::string options;
   unsigned kinds;
@@ -89,7 +88,7 @@ const std::vector<OptionRow>& option_rows() {
 
 Expected<void> refuse_options(Kind kind, const std::string& file,
                               const std::vector<std::string>& option_texts) {
-  // With the blanks that are about it in a row.
+  // The option's name between blanks, as it stands in a row.
   const auto name_in = [](const std::string& word) {
     return " " + word.substr(0, word.find(' ')) + " ";
   };
@@ -131,7 +130,8 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
   return outcome::success();
 }
 
-// The kind of the input as a whole. Inputs of two kinds are refused, and two where one is judged.
+// The kind of the input as a whole. Inputs of two kinds are refused, and so are two inputs if only
+// one can be judged.
 Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& words_of_bodies) {
   using corpus::InputKind;
   auto files = inputs;
@@ -220,7 +220,7 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
                     request.offsets.size(), question.bodies.size())};
   auto keeping = request.keeping;
   keeping.origin = is_log ? question.files.front() : words_of(request);
-  // This is asked before the work, not after it.
+  // The files are checked before the work, not after it.
   auto inputs = question.files;
   if (!question.answers.empty()) inputs.push_back(question.answers);
   BOOST_OUTCOME_TRY(may_fill(keeping.folder, {"page.html"}));

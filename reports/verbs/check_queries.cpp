@@ -28,7 +28,7 @@
 
 namespace assay::reports {
 
-// A query whose answer differs from its label, or the referee's from the oracle's.
+// A query whose answer differs from its label, or about which referee and oracle differ.
 struct QueryDifference {
   std::string file;
   std::size_t query = 0;  // in the file
@@ -65,7 +65,7 @@ properties::QueryTask task_of(const corpus::LabelledQuery& query) {
   return task;
 }
 
-// " within 0.1", or nothing of a query of contact.
+// " within 0.1"; empty for a query of contact.
 std::string within_text(const std::optional<double>& separation) {
   return separation ? fmt::format(" within {}", *separation) : "";
 }

@@ -78,7 +78,7 @@ Expected<int> list_slow(const std::string& folder) {
 struct List {
   const char* name;
   const char* about;
-  bool is_of_a_run;  // and needs its folder
+  bool is_of_a_run;  // a list of a run needs its folder
   Expected<int> (*print)(const std::string& folder);
 };
 constexpr List lists[] = {

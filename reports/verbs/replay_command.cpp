@@ -61,7 +61,7 @@ std::optional<TrialName> trial_of(std::string_view id) {
   return TrialName{family, *index};
 }
 
-// A case that states options runs in the configuration of these. One that does not runs in every
+// A case that states options runs in their configuration. Any other case runs in every
 // configuration.
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
@@ -154,8 +154,8 @@ bool print_broken_laws(const properties::CaseResults& results,
   return !tally.failures.empty();
 }
 
-// Writes the first step with a contact that counts as a strip beside the exported files. Writes
-// none for a mesh that is too large for a picture.
+// Writes a strip of the first step with a counted contact, beside the exported files. Writes none
+// for a mesh that is too large for a picture.
 Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
                            const std::vector<oracle::StepJudgement>& judgements,
                            const properties::Contract& contract) {

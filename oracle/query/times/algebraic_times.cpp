@@ -1,11 +1,10 @@
-// The kernel's own isolation of zeros (Descartes' rule) calls itself once a halving: 1,190 deep
-// where two zeros are told apart by that many bits, on half a megabyte of stack. So zeros are
-// isolated here, and the pieces that are left lie on the heap. The kernel gives square-free parts,
-// and functions that compare numbers and refine them, which are loops.
+// The kernel's own isolation of zeros (Descartes' rule) calls itself for each halving: 1,190 deep,
+// on half a megabyte of stack, if two zeros differ only in that many bits. So zeros are isolated
+// here, and the remaining pieces lie on the heap. The kernel gives square-free parts, and functions
+// that compare numbers and refine them, which are loops.
 #include "oracle/query/times/times.h"
 
-// g++ 12 takes two handles of CGAL that share a number, when they are swapped, for one that is used
-// after its end.
+// When two handles of CGAL that share a number are swapped, g++ 12 wrongly sees a use after free.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wuse-after-free"
 #endif
@@ -155,8 +154,8 @@ AlgebraicTimes::~AlgebraicTimes() = default;
 
 int AlgebraicTimes::size() const { return static_cast<int>(zeros_->times.size()); }
 
-// Does not use the kernel's Sign_at_1. When its refinement meets the number itself, a rational
-// that was not known as one, that goes on with an empty interval and throws.
+// Does not use the kernel's Sign_at_1. If its refinement meets the number itself, a rational that
+// was not known as one, Sign_at_1 goes on with an empty interval and throws.
 int AlgebraicTimes::sign(const IntegerPolynomial& q, int i) const {
   if (q.is_zero() || q.degree() == 0) return q.is_zero() ? 0 : sgn(q.c[0]);
   const Polynomial kernel_q = kernel_polynomial(q);

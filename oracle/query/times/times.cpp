@@ -58,17 +58,17 @@ detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, d
 // How signs are found. Let p = a t^2 + b t + c with a > 0 and d = b^2 - 4ac > 0, let r be the zero
 // (-b + s sqrt(d)) / 2a with s = -1 or 1, and q = q2 t^2 + q1 t + q0.
 //
-// 1. At r is a q = a q - q2 p = u t + v, where u = a q1 - q2 b and v = a q0 - q2 c. Where q has a
-//    higher degree, so many steps of this kind make it linear.
+// 1. At r, a q = a q - q2 p = u t + v, where u = a q1 - q2 b and v = a q0 - q2 c. If q has a higher
+//    degree, several steps of this kind make it linear.
 // 2. 2a (u r + v) = A + s u sqrt(d), where A = 2av - bu. If the two terms do not have opposite
 //    signs, theirs is the sign. Else it is the sign of A times that of
 //    A^2 - u^2 d = 4a (a v^2 - b u v + c u^2); the bracket is the resultant of p and u t + v.
 //
 // If a = 0 and b > 0, then r = -c/b and b^n q(r) is found by Horner's rule.
 //
-// r > t exactly when r - t, a linear polynomial at r, is positive. The zeros of two polynomials
-// are compared by the sign of the one polynomial and of its derivative at the zero of the other:
-// that tells on which side of the two zeros, or between them, a number lies.
+// r > t exactly when r - t, a linear polynomial at r, is positive. The zeros of two polynomials are
+// compared by the signs of one polynomial and of its derivative at the zero of the other: they tell
+// whether that zero lies before, between or after the two zeros of the first polynomial.
 
 namespace {
 
@@ -184,7 +184,7 @@ double QuadraticTime::guess() const {
   if (zero_ == Zero::only) return quotient({-c.m, c.e}, b);
   Rounded root = square_root(rounded(b_ * b_ - ((a_ * c_) << 2)));
   root.m *= static_cast<double>(zero_);
-  // Of the two formulas, -b + root over 2a and 2c over -b - root, the one without cancellation.
+  // Takes the one of (-b + root) / 2a and 2c / (-b - root) that has no cancellation.
   const bool alike = (root.m < 0) == (b.m > 0) || b.m == 0;
   if (alike) return quotient(sum({-b.m, b.e}, root), {a.m, a.e + 1});
   return quotient({c.m, c.e + 1}, sum({-b.m, b.e}, {-root.m, root.e}));
@@ -213,10 +213,10 @@ QuadraticTimes::QuadraticTimes(std::span<const IntegerPolynomial> polynomials) {
                times_.end());
 }
 
-// The sign of q at a zero r of f: q is its leading coefficient times the product of t - e over its
-// real zeros e, or times what is positive if it has none. So the sign is known once it is known on
-// which side of r each e is. An e inside of the piece of r is before r exactly when f has the sign
-// there that it has where the piece begins, and is r exactly when f is zero there.
+// The sign of q at a zero r of f. q is its leading coefficient times the product of t - e over its
+// real zeros e, or times a positive function if it has none. So the sign follows from the side of r
+// on which each e lies. An e inside of the piece of r is before r exactly when f(e) has the sign of
+// f at the start of the piece, and is r exactly when f(e) = 0.
 namespace {
 
 int sign_of(const IntegerPolynomial& f, const QuadraticTime& time) { return time.sign(f); }

@@ -83,8 +83,9 @@ detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, d
 // Times whose signs are closed formulas: a zero of a polynomial of degree 1 or 2, as an exact
 // number, and the zeros of one cubic in the closed step, between those of its derivative.
 
-// The time is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0. It is held by its integers
-// and by which of the two zeros it is. No root is ever taken, and nothing is isolated or refined.
+// The time is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0. It is stored as its
+// integers and the choice between the two zeros. No root is ever taken, and nothing is isolated or
+// refined.
 class QuadraticTime {
  public:
   // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.

@@ -27,7 +27,7 @@ namespace {
 
 using Words = std::set<std::string>;
 
-// "edge-edge, t inside" as words.
+// Returns the words of a text such as "edge-edge, t inside".
 Words words_in(const std::string& text) {
   Words words;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -121,7 +121,7 @@ std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
   return contacts;
 }
 
-// The contacts of each of up to so many cases that hold, of those that have one.
+// Returns the contacts of each of up to so many cases that hold and have a contact.
 std::vector<std::vector<Words>> contacts_that_hold(const RunFindings& findings, std::size_t most) {
   std::vector<std::pair<std::string, std::string>> trials;  // family, id
   const auto take = [&](const TrialRecord& trial) {
@@ -156,7 +156,7 @@ std::string deed_of(const FailureRecord& failure) {
   return name_of(is_early ? Deed::reports : row_of(*claim).deed);
 }
 
-// The two triangles that the explanation names; nothing if they are none of the mesh.
+// The two triangles that the explanation names; nothing if the mesh does not have them.
 std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
                                                 const corpus::Case& c) {
   constexpr const char* word = "triangles ";
@@ -171,9 +171,9 @@ std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
   return std::nullopt;
 }
 
-// Returns the traits of the contact that a failure lost: those of the oracle's contact of the pair
-// that fits the signature. For a large mesh, on which the oracle takes long, only the traits in the
-// signature are known; a signature of the built-in detector has no cause.
+// Returns the traits of the contact that a failure lost: the contact of the named pair that the
+// oracle finds and that fits the signature. For a large mesh, on which the oracle takes long, only
+// the traits in the signature are known; a signature of the built-in detector has no cause.
 Words traits_of(const FailureRecord& failure, const Contract& contract) {
   constexpr Eigen::Index most_triangles = 1000;
   Words words = words_in(failure.contact);
@@ -224,7 +224,7 @@ class Sorter {
   }
 
  private:
-  // In how many cases that hold some contact has all of these traits.
+  // Among the cases that hold, returns how many have a contact with all of these traits.
   std::size_t holds_with(Traits traits) const {
     return static_cast<std::size_t>(std::ranges::count_if(contacts_, [&](const auto& contacts) {
       return std::ranges::any_of(contacts, [&](Traits of) { return holds(of, traits); });
@@ -245,17 +245,18 @@ class Sorter {
     return all;
   }
 
-  // Minus the logarithm of how likely so many failing cases have these traits by chance, if they
-  // are as frequent there as in cases that hold, or a little more.
+  // Returns minus the logarithm of the probability that so many failing cases have these traits by
+  // chance, if traits are as frequent in failing cases as in cases that hold, or a little more.
   double surprise(std::size_t cases, Traits traits) const {
     const double share =
         (static_cast<double>(holds_with(traits)) + 1) / (static_cast<double>(contacts_.size()) + 1);
     return -static_cast<double>(cases) * std::log(share);
   }
 
-  // The traits of the next group: those that would be the greatest surprise by chance. What all
-  // kinds that are left have in common goes first, unless it surprises less than half as much: one
-  // mistake is likelier than two. No trait, for all that are left: nothing is a surprise.
+  // Returns the traits of the next group: those that would be the greatest surprise by chance.
+  // Traits that all remaining kinds share come first, unless they surprise less than half as much,
+  // because one mistake is likelier than two. Returns no trait, for all remaining kinds, if nothing
+  // is a surprise.
   Traits next() const {
     const Traits all = common(kinds_);
     const double of_all = surprise(cases_of(kinds_, 0), all);
@@ -280,8 +281,8 @@ class Sorter {
     const Traits shared = common(kinds);
     const auto cases = cases_of(kinds, 0);
     if (surprise(cases, shared) < least_surprise_of_all) return group;
-    // The most telling trait first, then each that leaves at most half of the cases that hold; two
-    // at once where none does so alone.
+    // Takes the most telling trait first, then each trait that leaves at most half of the cases
+    // that hold, or two traits together if no single one does.
     Traits group_traits = 0;
     for (bool tells = true; tells && group.holds_with > 0;) {
       Traits best = 0;

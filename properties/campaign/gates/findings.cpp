@@ -73,8 +73,8 @@ class Reader {
         throw StoreProblem(
             fmt::format("{}: a run with seed {} is there already", file.string(), run.seed));
     }
-    // A digest of what lasts of rows, made as a chain: the digest so far and the hash of the next
-    // row make the next digest.
+    // A digest of the lasting fields of all rows, made as a chain: the digest so far and the hash
+    // of the next row make the next digest.
     std::string digest = corpus::sha256_of("");
     const auto add_row = [&](const Row& row) {
       digest = corpus::sha256_of(digest + row_hash(lasting(row)));
@@ -200,7 +200,7 @@ std::uint64_t RunFindings::met_count(const FailureRecord& failure) const {
 }
 
 const FailureRecord* RunFindings::example_of(const std::string& signature) const {
-  // What its own case shows comes first, then what a trial or the search has met.
+  // Failures that their own case shows come first, then those that a trial or the search has met.
   const auto rank = [](const FailureRecord& failure) {
     return std::pair(failure.flaky, failure.is_of_corpus());
   };

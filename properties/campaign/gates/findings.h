@@ -49,9 +49,9 @@ struct RunFindings {
   // Returns whether the runs together are a whole campaign: one run does all of it, or N runs of
   // shares 1/N have seeds with all N remainders modulo N. Under other seeds two runs would judge
   // the same indices (trial_index), and a check of every 16th index, say, might never be made.
-  // Whatever is wanted only of the whole, such as a bound, is not asked of less.
+  // Some demands, such as bounds, are made only of a whole campaign.
   bool is_whole() const;
-  // Returns how many of n the runs have to do together.
+  // Returns how many of n items the runs have to do together.
   std::uint64_t shares_of(std::uint64_t n) const;
   // Return the number of cases that the runs have to judge together, in one family and in all.
   std::uint64_t quota(const StratumPlan& stratum) const;
@@ -69,8 +69,8 @@ struct RunFindings {
   const FailureRecord* example_of(const std::string& signature) const;
   // Returns the outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
-  // Returns whether it can be judged if the laws were met often enough. It can for the built-in
-  // detector, once all trials of a whole campaign took place.
+  // Returns whether the run shows if laws were met often enough: it does for the built-in detector,
+  // once all trials of a whole campaign took place.
   bool laws_are_judged() const;
   // Returns whether the same command would add something: the run was killed or its time ended.
   bool has_more_to_do() const;

@@ -19,12 +19,12 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// The lines that speak against a gate and, if there are none, the reason why it could not be
-// judged, if there is one.
+// The lines that speak against a gate. If there are none, `not_judged` may say why the gate could
+// not be judged.
 struct GateFindings {
   Lines against;
   std::string not_judged;
-  Lines lasting = {};  // of the gate complete: those that stay when the same run goes on
+  Lines lasting = {};  // of gate `complete`: those that stay when the run goes on
 
   void add_to_do(std::string line) { against.push_back(std::move(line)); }
   void add_lasting(const std::string& line) {
@@ -33,7 +33,7 @@ struct GateFindings {
   }
 };
 
-// What can be done about the reasons of the gate complete.
+// What can be done about the reasons of gate `complete`.
 std::string remedy_of(const GateFindings& gate) {
   const auto all = gate.against.size(), lasting = gate.lasting.size();
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
@@ -112,14 +112,14 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
     gate.add_lasting("no claim of the detector was judged");
   // A share of a campaign may have too few contacts.
   for (const auto& line : f.is_whole() ? lacks_of_contacts(f, request.certificate) : Lines()) {
-    // What is still to come may hold contacts.
+    // The trials to come may have contacts.
     if (f.has_more_to_do()) {
       gate.add_to_do(line);
     } else {
       gate.add_lasting(line);
     }
   }
-  // Asked of a whole campaign: one share of it may have run on a machine short of memory.
+  // Asked only of a whole campaign, because one share may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
@@ -191,7 +191,8 @@ GateFindings check_corpus(const RunFindings& f, const VerbRequest&) {
 GateFindings check_claims(const RunFindings& f, const VerbRequest&) {
   GateFindings gate;
   // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
-  // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
+  // is stored, even if no trial counted it. A failure that only the corpus shows belongs to the
+  // gate corpus.
   std::set<std::string, LeastOddFirst> signatures;
   for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {

@@ -149,7 +149,7 @@ struct FailureGroup {
   // The traits that all contacts lost by the group share; possibly none.
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
-  // Of `all_holds` cases that hold, `holds_with` have a contact with all of these traits, too.
+  // `holds_with` of `all_holds` cases that hold also have a contact with all `shared` traits.
   std::size_t holds_with = 0, all_holds = 0;
 };
 
@@ -163,7 +163,7 @@ struct FailureGroup {
 // hundred cases that hold, drawn from the whole run. They are not named if n failing cases might
 // have them by chance: if (their share among cases that hold)^n is above 1e-4.
 //
-// Deterministic. The oracle judges the cases that hold again, which takes seconds. Without stores
+// Deterministic. The oracle judges again the cases that hold, which takes seconds. Without stores
 // in the folder of the findings no traits are named.
 std::vector<FailureGroup> failure_groups(const RunFindings& findings);
 

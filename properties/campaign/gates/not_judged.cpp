@@ -176,7 +176,7 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
       const auto contacts = tally.measures.contact_trials;
       with_contacts += contacts > 0 ? 1 : 0;
       if (tally.trials < trials || findings.is_left_out(stratum)) continue;
-      if (is_size_family(stratum.family)) continue;  // of which the detector may refuse the most
+      if (is_size_family(stratum.family)) continue;  // the detector may refuse most of these cases
       if (least_share * contacts < trials)
         lines.push_back(
             fmt::format("{}: {} of {} planned cases have a contact inside the contract, a tenth is "

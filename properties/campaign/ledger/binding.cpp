@@ -61,7 +61,7 @@ std::string first_difference(const std::string& part, const Json& a, const Json&
   if (!a.is_structured() || !b.is_structured())
     return fmt::format("{} {} and {}", part, a.is_null() ? "none" : corpus::json_text(a),
                        b.is_null() ? "none" : corpus::json_text(b));
-  // Its name says more than any other member does.
+  // The name says more than any other member does.
   const bool are_named = a.is_object() && b.is_object() && a.contains("name") && b.contains("name");
   if (are_named && a["name"] != b["name"]) return first_difference(part, a["name"], b["name"]);
   for (const auto* list : {&a, &b}) {
@@ -155,7 +155,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
       binding.erase("seed");
       binding.erase("shares");
     }
-    // What comes of a build is not told beside it.
+    // If the builds differ, no other difference that follows from a build is told.
     Json& digests = binding["digests"];
     const bool is_build = digests.is_object() && digests.contains("program");
     binding["build"] = is_build ? Json{digests["program"], digests["worker"]} : Json();

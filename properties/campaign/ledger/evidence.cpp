@@ -136,8 +136,8 @@ void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
 }  // namespace
 
 void EvidenceFacts::add(EvidenceFacts other) {
-  // A run that planted the faults by itself goes before those that took over a proof: that may be
-  // its own, whose cases would count twice.
+  // A run that planted the faults by itself goes before runs that took over a proof, because the
+  // proof may be that of this run, and its cases would then count twice.
   const auto planted_count = [](const auto& facts) {
     return facts.power.empty() && !facts.faults.empty();
   };

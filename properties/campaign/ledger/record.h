@@ -20,7 +20,7 @@ using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 // How often a law was met (LawTally, law.h).
 struct LawCount {
   std::uint64_t premise = 0, close = 0, broken = 0;
-  // `premise` by the word for the culling, for a law that has to be met under several cullings.
+  // By the word for the culling, its part of `premise`; for a law to be met under several cullings.
   Counts by_culling;
   // Only for a plug-in: steps whose answers differ in two forms of a case, as its claims allow.
   std::uint64_t differs = 0;
@@ -54,7 +54,7 @@ inline void add_to(Extremes& sum, const Extremes& more) { sum.include(more); }
 // The counts of a trial besides its outcomes. Member by member they add up to the counts of many.
 struct TrialCounts {
   Counts tags;  // cases that have the tag
-  // By the view sets of the two triangles in contact, and by the names of laws.
+  // The keys name the view sets of the two triangles in contact, and the law.
   std::map<std::string, SetPairCount, std::less<>> set_pairs;
   std::map<std::string, LawCount, std::less<>> laws;
   StepMeasures measures;  // most of them only for a plug-in
@@ -97,11 +97,11 @@ struct SourceRow {
   Source counts_as;    // itself, or the source of which it is a part
   bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
   const char* prefix;  // of the ids of its failures; no trial's id begins so
-  // Says where a kind of failure was met that no trial has shown; the same in a summary; and the
+  // Says where a kind of failure was met if no trial has shown it; the same in a summary; and the
   // name of the count behind the verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
-  // The section of a certificate that lists its inputs, if any, and the members of JudgedSource
-  // that it shows, with another name in front where they have one there ("queries=cases").
+  // The section of a certificate that lists the source's inputs, if any; and the members of
+  // JudgedSource that the section shows. "queries=cases" shows `cases` under the name `queries`.
   const char *section = "", *shown_text = "";
 };
 constexpr auto names_of(Source) {
@@ -153,7 +153,7 @@ struct FailureRecord {
   bool is_of_corpus() const { return row_of(source).counts_as == Source::corpus; }
 };
 
-// Follows the explanation of a failure that its own case does not show.
+// A text behind the explanation of a failure that its own case does not show.
 inline constexpr const char* needs_what_came_before =
     "; asked again by itself, it comes to something else: what fails may need what the process did "
     "before, and a replay may hold";

@@ -44,8 +44,7 @@ std::optional<std::string> unchecked_binding(const Database& db) {
   return binding ? binding : first("note", "SELECT value FROM note WHERE key='binding'");
 }
 
-// The end of a key is a number, so that of two keys that differ in it alone the shorter comes
-// first.
+// The end of a key is a number. If two keys differ in it alone, the shorter key comes first.
 constexpr const char* order_of_keys = "ORDER BY rtrim(key, '0123456789'), length(key), key";
 
 }  // namespace
@@ -99,7 +98,7 @@ Expected<Store> Store::read(const std::filesystem::path& file) {
 Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
   return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::write);
-    // With these settings a killed process loses nothing that add() returned from. Only a power
+    // With these settings a killed process loses nothing for which add() has returned. Only a power
     // cut may lose the end.
     parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     parts->db.check_whole();

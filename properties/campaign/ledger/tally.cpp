@@ -81,7 +81,7 @@ void Tally::add(const TrialRecord& record) {
   counts += record.counts;
   disturbances += record.disturbed;
   note_slow(record);
-  // The limit of large cases is another one.
+  // Large cases have another limit.
   if (record.slowest_us >= near_from_us && !is_size_family(record.family))
     near_limit.push_back(without_counts(record));
 }
@@ -147,7 +147,7 @@ std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_
 }
 
 std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises) {
-  // So much of what is wanted of all cullings together is wanted of each.
+  // Each culling needs a tenth of the steps that are wanted of all cullings together.
   constexpr std::uint64_t least_of_a_culling = 10;
   std::vector<std::string> lines;
   for (const auto& [law, count] : laws_in(counts)) {

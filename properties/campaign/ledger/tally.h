@@ -69,7 +69,7 @@ std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts,
                                                      bool built_in = true);
 
 // Returns the cullings under which a campaign has to meet the law, each with the number of times
-// that it did; nothing if any culling will do.
+// that the premise held; nothing if any culling will do.
 std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const LawCount& count,
                                                                        const Law& law);
 

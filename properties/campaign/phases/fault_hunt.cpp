@@ -152,7 +152,7 @@ std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
 }
 
 Canary meet_canary(const CampaignRequest& request) {
-  // A planted fault that many cases show, so that a run that does not find it finds nothing.
+  // A planted fault that many cases show, so that a run that misses it finds nothing.
   constexpr std::string_view canary = "pair/zero-zero-dropped";
   constexpr std::uint64_t most_cases = 400;
   Canary result{std::string(canary), {}};

@@ -18,9 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A phase must be over when this share of the plan's time has passed. A campaign with trials
-// missing does trials: what is left to them is all but a tenth, in which what they showed is
-// shrunk, and then nothing else is begun. The same command goes on with the rest.
+// A phase must be over when this share of the plan's time has passed. If trials are missing, they
+// have all but a tenth of the time. In this tenth their failures are shrunk, and then nothing else
+// is begun. The same command goes on with the rest.
 constexpr double trials_share = 0.9, faults_share = 0.95;
 
 // The limits for shrinking a single failure.
@@ -66,7 +66,7 @@ struct CampaignRun {
   }
 
   // If an earlier call of this run proved planted faults by itself, its proofs are dropped,
-  // because proofs that are taken over do not stand beside them.
+  // because a store never holds both these and proofs that are taken over.
   void take_power() {
     if (facts().power.empty()) drop_proofs();
     store_.set(to_row(request_.power->source));
@@ -246,8 +246,8 @@ std::string difference_of_trials(const TrialRecord& first, const TrialRecord& no
   return "";
 }
 
-// Runs the trials of one store once more. Names the first that comes to something else; empty if
-// none does.
+// Runs the trials of one store once more. Names the first trial with another result; empty if there
+// is none.
 std::string difference_of_store(const CampaignRequest& request,
                                 const std::vector<TrialRecord>& records,
                                 const std::function<void(const TrialProgress&)>& progress) {

@@ -70,8 +70,8 @@ Canary meet_canary(const CampaignRequest& request);
 // the run in `folder` did not find every planted fault itself or gave a fault fewer cases or seeds
 // than the plan asks for, and where read_findings fails.
 //
-// REQUIRES that no code of a plug-in has run in this process's workers yet: every file that such
-// code could write to has then been read before.
+// REQUIRES that no code of a plug-in has run in this process's workers yet, because such code could
+// change the files that are read here.
 Expected<PowerProof> take_power(const std::filesystem::path& folder,
                                 const std::filesystem::path& out, const CampaignRequest& request);
 
@@ -112,11 +112,11 @@ corpus::Case long_sequence(std::uint64_t seed);
 
 // Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
 // sequences to the plug-in. A plug-in that claims to be deterministic runs each of them with each
-// of repeated_threads if it asks how many it may use, else three times; any other runs each once.
-// Each run has a process of its own, except the last, which is a second run in the process of the
-// run before it. Stores a JudgedSource for each mesh that is not stored yet. If an answer differs
-// from that of the first run, or a run ends in a way that breaks a claimed `total`, that is a
-// failure, whose mesh is the step that differs. A run that hangs is reported and breaks nothing;
+// of repeated_threads if it asks how many it may use, else three times; any other plug-in runs each
+// once. Each run has a process of its own, except the last, which is a second run in the process of
+// the run before it. Stores a JudgedSource for each mesh that is not stored yet. If an answer
+// differs from that of the first run, or a run ends in a way that breaks a claimed `total`, that is
+// a failure, whose mesh is the step that differs. A run that hangs is reported and breaks nothing;
 // after three such meshes no further mesh is run.
 //
 // The oracle judges two steps of each scene as the first run answered them, if the scene has such
@@ -246,8 +246,8 @@ class CampaignObserver {
 // Does all work whose results are not in the store yet: the trials, the shrinking of failures, and
 // the planted faults (or it takes the request's proof of them). Trials have nine tenths of the
 // plan's time; if some are missing then, failures are shrunk in the last tenth and nothing else is
-// begun. The canary and the worlds of tetrahedra are always done again; of two results for a world
-// the one that came farther stays. A share does the same worlds and large meshes as a whole
+// begun. The canary and the worlds of tetrahedra are always done again; of two results for a world,
+// the result that came farther stays. A share does the same worlds and large meshes as a whole
 // campaign, because they take little time. `corpus` is the folder of the curated cases.
 //
 // Stored rows stay, whatever happens. Fails if the store cannot be read or written any more.

@@ -24,7 +24,7 @@ constexpr std::size_t most_differing = 2;  // steps of a sequence
 constexpr int most_kept = 4;               // steps of a sequence, of each signature
 constexpr Eigen::Index largest_small_mesh = 600;
 
-// Between the largest of the trials and the wanted size, each doubling equally often.
+// Draws a size between that of the largest trial and the wanted one, each doubling equally often.
 std::uint64_t drawn_size(Random& random, std::uint64_t most) {
   constexpr std::uint64_t largest_of_trials = 200;
   std::uint64_t least = std::min(most, largest_of_trials);
@@ -34,15 +34,15 @@ std::uint64_t drawn_size(Random& random, std::uint64_t most) {
   return least + random.next() % (std::min(2 * least, most) - least + 1);
 }
 
-// Entries between -most and most.
+// Draws a matrix with entries between -most and most.
 Eigen::Matrix3d drawn_entries(Random& random, double most) {
   Eigen::Matrix3d entries;
   for (double& entry : entries.reshaped()) entry = most * random.signed_unit();
   return entries;
 }
 
-// A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
-// but for what rounding decides.
+// Draws a linear map that keeps the orientation. So it keeps contacts, except where rounding
+// decides, and outside stays outside.
 Eigen::Matrix3d drawn_map(Random& random) {
   constexpr double most = 0.25;
   return Eigen::Matrix3d::Identity() + drawn_entries(random, most);
@@ -133,7 +133,7 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// Tells whether the contract lets a contact be tested, as far as the features that meet first show.
+// Tells whether the contract lets a contact be tested, judging by the features that meet first.
 class TestedContacts {
  public:
   TestedContacts(const Contract& contract, const corpus::Case& c)
@@ -173,8 +173,8 @@ oracle::StepJudgement truth_by(const detector::StepResult& result,
   return judgement;
 }
 
-// The steps in which the run breaks a claim if the built-in detector, whose run is `answers`, is
-// right: those with the fewest contacts, and not more than most_differing.
+// The steps in which the run breaks a claim if `answers`, the run of the built-in detector, are
+// right: those with the fewest contacts, most_differing at most.
 std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
@@ -197,8 +197,8 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
   return places;
 }
 
-// Of a case that the contract takes: the colliding step with the fewest contacts that count, and
-// the first without any. `answers` is the run of the built-in detector.
+// Returns steps of a case that the contract takes: the colliding step with the fewest contacts that
+// count, and the first step without any. `answers` is the run of the built-in detector.
 std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
                                      const CaseRun& answers) {
   const TestedContacts is_tested(contract, c);
@@ -245,7 +245,7 @@ class Repetitions {
         threads_(threads_of_runs(request)),
         built_in_(request.worker, std::nullopt, {}) {}
 
-  // Where the limiter lets a step stop, by itself, in the process of the first run.
+  // Returns where the limiter lets this step alone stop, in the process of the first run.
   std::optional<detector::Positions> limit_of(const corpus::Case& step) {
     const auto run = run_once(step, 0);
     if (run.limits.empty() || !run.limits[0]) return std::nullopt;

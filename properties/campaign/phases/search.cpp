@@ -105,7 +105,7 @@ class ShareSearch {
                             .causes = {result.causes.begin(), result.causes.end()}};
     const std::lock_guard lock(mutex_);
     for (const auto& failure : failures) store_.add(failure);
-    if (!result.complete) return;  // it is searched again, and finds the same and more
+    if (!result.complete) return;  // the lane is searched again, and finds the same and more
     store_.set(to_row(lane));
     count(lane);
     if (progress_)
@@ -122,7 +122,7 @@ class ShareSearch {
   std::set<std::string> stored_lanes_;
   std::mutex mutex_;
   std::uint64_t next_ = 0;
-  // Of this run; the lanes that an earlier call stored are among them.
+  // Counts of this run, including the lanes that an earlier call stored.
   std::uint64_t lanes_ = 0, judged_cases_ = 0, defects_ = 0;
   std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
 };

@@ -14,7 +14,7 @@ namespace assay::properties {
 
 namespace {
 
-// Its oracle is worth several threads, and its failure more time.
+// For a large case the oracle uses several threads, and shrinking gets more time.
 bool is_large(const corpus::Case& c) {
   constexpr Eigen::Index from = 1000;
   return c.triangles.rows() > from;
@@ -54,12 +54,11 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 
 namespace {
 
-// A large mesh takes the oracle half a second a step, and may not become small at all, where a
+// A large mesh takes the oracle half a second a step, and may not become small at all, if a
 // detector is wrong on large meshes alone.
 constexpr double most_seconds_of_a_large_mesh = 20;
 
-// The key of the note which says that the shrinking of this failure had all the time that it may
-// have.
+// The key of the note that this failure has been shrunk for all of its time.
 std::string done_note(const FailureRecord& failure) {
   return fmt::format("shrunk {} {}", failure.id(), failure.shown_configuration());
 }
@@ -76,7 +75,7 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
 }
 
 // The explanation of a shrunk case, which names its own triangles and times. The signature stays
-// that of the failure, though the cause of a case that was cut from a large mesh may be another.
+// that of the failure, although a case that was cut from a large mesh may have another cause.
 std::string explanation_of(const Finding& finding, std::size_t fails_from = 0) {
   return finding.explanation + (fails_from == 0 ? "" : "; " + fails_from_text(fails_from));
 }
@@ -120,7 +119,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (configuration == configurations.end()) continue;
     const auto detector = request.detector.in(*configuration);
     if (progress) progress(failure.signature());
-    // New ones, because a process that was asked much before may fail where they do not.
+    // New processes, because one with many earlier cases may fail where a new one does not.
     WorkerProcess worker(request.worker, request.plugin, request.worker_limits()),
         last(request.worker, request.plugin, request.worker_limits());
     const auto shows = [&](const std::string& mesh, WorkerProcess& process) {
@@ -149,7 +148,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
       store.set_smallest(failure);
     };
     const OnBetter keep = [&](const corpus::Case& better) {
-      // What a large mesh shows is told in the end, because asking again takes long.
+      // A large mesh is explained only at the end, because asking again takes long.
       const auto finding = law || is_large(better)
                                ? std::nullopt
                                : judge_of_detector(detector, *configuration, worker)(better);

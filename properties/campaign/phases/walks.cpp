@@ -45,7 +45,7 @@ Scene scene_of(WalkKind kind, Random& random, double separation) {
   Draft draft;
   draft.frames.resize(1);
   Scene scene;
-  // Its lowest corner is at least a gap above z.
+  // The body's lowest corner is at least a gap above z.
   const auto add_body_above = [&](double z, double x = 0) {
     add_body(draft, random, {x, 0, z + gap + 1.5 * size_of_a_body});
   };
@@ -77,7 +77,7 @@ Scene scene_of(WalkKind kind, Random& random, double separation) {
   return scene;
 }
 
-// Where the mesh would be at the end of a step.
+// Chooses where the mesh would be at the end of each step of a walk.
 class Driver {
  public:
   Driver(WalkKind kind, const Scene& scene, Random& random)
@@ -99,7 +99,7 @@ class Driver {
 
  private:
   Row draw() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
-  // Back to where it began, part of the way.
+  // A part of the way of a vertex back to its start.
   Row lift(const Positions& x, Eigen::Index v) const { return 0.3 * (start_.row(v) - x.row(v)); }
 
   Row way(Eigen::Index v) const {
@@ -116,7 +116,7 @@ class Driver {
     }
   }
 
-  // The two bodies in each other's place.
+  // Returns the mesh with its two bodies exchanged.
   Positions crossed() const {
     Positions to = start_;
     const auto lower = start_.middleRows<corners_of_a_body>(corners_of_a_plate).eval();
@@ -156,7 +156,7 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
     if (!stop || !round_to(*stop, contract.coordinates).allFinite()) return c;
     c.frames.push_back(round_to(*stop, contract.coordinates));
   }
-  // The last place is where nothing begins.
+  // No step begins at the last place.
   if (!c.script.empty()) c.frames.pop_back();
   return c;
 }

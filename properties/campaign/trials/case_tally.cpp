@@ -76,7 +76,7 @@ void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> tru
   }
 }
 
-// The laws of one configuration of a case; what they ask of it is found once.
+// The laws of one configuration of a case; the facts that they need are found once.
 class ConfigurationLaws {
  public:
   ConfigurationLaws(const corpus::Case& c, const Configuration& configuration,
@@ -199,7 +199,7 @@ std::string line_of(const LawTally& tally) {
   return line.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-// The lines that are whole: a copy that is killed may leave a part of one.
+// Adds the tallies of whole lines, because a copy that is killed may leave a part of a line.
 void add_tallies(const std::string& text, std::vector<LawTally>& tallies) {
   std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
   for (std::string line; std::getline(lines, line);) {
@@ -263,8 +263,8 @@ FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& ru
   auto form = form_of(*law.change, c);
   const auto input = form ? contract_case(form->c, detector.contract) : std::nullopt;
   if (!input || corpus::steps_of(*input).size() != corpus::steps_of(form->c).size()) return check;
-  // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
-  // contract states a form in another scale knows nothing.
+  // Answers can be compared if the contract has not rounded the form. Lengths that the contract
+  // states do not fit a form in another scale.
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;

@@ -34,7 +34,7 @@ double shortest_edge_of(const corpus::Case& c) {
   return shortest;
 }
 
-// By which power of two the case comes into the range, or as near to it as it does.
+// Returns the power of two that brings the case into the range, or as near to it as possible.
 int exponent_into_range(const corpus::Case& c, const Contract& contract) {
   const double largest = greatest_of(c);
   if (largest == 0) return 0;
@@ -54,7 +54,7 @@ double scaled(double x, int exponent) {
 }
 
 // The length of most edges of a large mesh, and the longest side of a small one. A contract's
-// distances are told in it, so that a large mesh does not lie within them as a whole.
+// distances are compared with it, so that a large mesh does not lie within them as a whole.
 double unit_of(const corpus::Case& c) {
   constexpr Eigen::Index largest_small_mesh = 400;
   if (c.triangles.rows() <= largest_small_mesh) return extent_of(c);
@@ -91,7 +91,7 @@ int exponent_within(const corpus::Case& c, const Contract& contract) {
   return fits(std::ldexp(largest, apart), contract) ? apart : into_range;
 }
 
-// Whether every fourth case of such cases has to have a contact.
+// Whether every fourth case of this family has to have a contact.
 bool leaves_contacts_out(const Contract& contract, const Family& family) {
   return is_query_family(family.name) || contract.adjacency != Adjacency::all ||
          contract.start != StartRule::any || contract.tests_part() || contract.separation > 0;
@@ -102,13 +102,13 @@ bool is_every_fourth(const std::string& id) {
   return !digits.empty() && std::strtoull(digits.c_str(), nullptr, 10) % 4 == 0;
 }
 
-// Of a question about distance every second case is aimed at it.
+// For a question about distance every second case is aimed at the distance.
 bool may_be_aimed(const Contract& contract) {
   return least_aimed <= contract.separation && contract.separation <= most_aimed;
 }
 
-// What the oracle says of a case: whether a step has a contact that counts, and whether one starts
-// without being near already. A step that starts near is judged, but shows little.
+// The oracle's facts about a case: whether some step has a contact that counts, and whether some
+// step is not near at its start. A step that starts near is judged, but shows little.
 struct CaseContacts {
   bool contact = false, start_apart = false;
 };
@@ -140,7 +140,7 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
 }
 
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id) {
-  // The oracle is not asked for the sake of a large case alone.
+  // A large case need not have a contact, because the oracle would take long to tell.
   const bool is_large = family.triangles > 0;
   const bool wants_contact =
       !is_large && leaves_contacts_out(contract, family) && is_every_fourth(id);
@@ -182,7 +182,8 @@ bool is_clean(const detector::Positions& all, const detector::Triangles& triangl
                      [](std::uint8_t is_clean) { return is_clean != 0; });
 }
 
-// The same with the ghosts of the built-in detector, which it places by this arithmetic.
+// Whether every start of the case is clean with the ghosts of the built-in detector, which places
+// them by this arithmetic.
 bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithmetic) {
   detector::Options options;
   options.culling = detector::Culling::view_line;

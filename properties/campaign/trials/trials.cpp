@@ -76,7 +76,7 @@ std::uint64_t mesh_hash(const corpus::Case& c) {
   return hash;
 }
 
-// A case of ten times as many triangles as 10,000 may take ten times the limit of a case.
+// From 10,000 triangles on, the limit of a case grows with its triangles.
 double time_factor(const Family& family) {
   constexpr double from = 10'000;
   return std::max(1., static_cast<double>(family.triangles) / from);
@@ -207,7 +207,7 @@ class Trials {
   };
 
   // The processes of one thread: one for first runs, one for second ones; and the same for each
-  // size of large cases, whose limit of time is another. They are started when they are asked.
+  // size of large cases, which has its own limit of time. They are started when they are asked.
   class Workers {
    public:
     explicit Workers(const CampaignRequest& request) : request_(request) {}
@@ -276,7 +276,7 @@ class Trials {
     if (has_forms(request_.detector, results.c)) count_forms(trial);
   }
 
-  // The laws of a plug-in, in cases that hold: what fails anyway shows nothing of a form.
+  // Counts the laws of a plug-in in cases that hold: a case that fails shows nothing of its form.
   void count_forms(Trial& trial) const {
     const auto every = request_.plan.laws_every;
     if (every == 0 || trial.key->index % every != 0) return;
@@ -287,7 +287,7 @@ class Trials {
     if (again && request_.description.parts.takes_threads && again->end == RunEnd::completed) {
       auto& threads = counts[std::string(threads_law)];
       threads.premise += run.steps.size();
-      // What the claim deterministic says of it is judged with the trial.
+      // The claim `deterministic` is judged with the trial, not here.
       if (!same_answers(run, *again)) ++threads.differs;
     }
     if (trial.record.outcomes.front() != letter_of(Outcome::holds)) return;
@@ -341,8 +341,8 @@ class Trials {
     const auto& configuration = trial.configurations[i];
     const auto& run = trial.results.runs[i];
     auto& verdict = trial.results.verdicts[i];
-    // What is special about the first of many contacts says little, and would tell apart what a
-    // large mesh shows of one cause.
+    // The traits of the first of many contacts say little; with them, one mistake would have many
+    // signatures on large meshes.
     if (verdict.failure && !request_.detector.built_in && trial.key->family->triangles > 0)
       verdict.failure->cause = "large mesh";
     trial.record.outcomes[place_of(configuration, *trial.detector)] = letter_of(verdict.outcome);

@@ -43,11 +43,11 @@ struct TrialCase {
 // "quick:1:broken:3~1", "~2", ... are tried until it takes some, so that a stratum has as many
 // judged cases under every contract. For queries, and under a contract that leaves contacts out,
 // every fourth case must have a contact that counts, and is drawn again until it has one. A case is
-// drawn again, deterministically, at most most_redrawn times, of these at most most_without_contact
-// times because it has no contact. Then the last case that the contract takes stays. The case is
-// brought into the contract (below). Under a contract with a separation every second case is aimed
-// at the separation (parts.h), and a case is rejected if all of its steps start within it. Without
-// a contract the result for a mesh is the case of the id.
+// drawn again, deterministically, at most most_redrawn times, and for lack of a contact at most
+// most_without_contact times. Then the last case that the contract takes stays. The case is brought
+// into the contract (below). Under a contract with a separation every second case is aimed at the
+// separation (parts.h), and a case is rejected if all of its steps start within it. Without a
+// contract the result for a mesh is the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
@@ -67,7 +67,7 @@ corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 bool starts_clean(const corpus::Case& c);
 
 // Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
-// detector that may. Large meshes never do.
+// detector whose case may use it. Large meshes never do.
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
 
 // Returns the configurations with start clean in place of start verified.

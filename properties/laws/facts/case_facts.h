@@ -115,7 +115,7 @@ struct CertifiedPatches {
   // The number of triangles of the largest patch or union. L13 says nothing below 2.
   std::size_t largest = 0;
   // A triangle faces d if the three Bernstein coefficients of N.d over the step are positive (N is
-  // its normal, twice its area long). These are the sizes of the coefficients, for the direction
+  // its normal, twice its area long). `facing` has the sizes of the coefficients, for the direction
   // of the patch and all of its triangles, over all patches and unions of two triangles or more.
   ValueRange facing;
 
@@ -308,16 +308,16 @@ bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t compo
 
 // Returns the triangles that the oracle calls dirty at a new start: those that are not clean by its
 // layers. Layers do not count with start unknown, nor with start verified under a culling that
-// chooses views (view-auto, auto): there every component is dirty that is not free by view.
-// REQUIRES has_views(s).
+// chooses views (view-auto, auto): there a component is dirty unless it is free by view. REQUIRES
+// has_views(s).
 TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
 // alone. At a new start these are the triangles of dirty_at_a_new_start. Otherwise a triangle is
 // dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or in
-// contact with its own component), and is not now untouched and in the common layer. That layer is
-// the one of the triangles that are not in doubt; in a component without such triangles, it is the
-// layer of most untouched triangles.
+// contact with its own component), unless it is now untouched and in the common layer. That layer
+// is the one of the triangles that are not in doubt; in a component without such triangles, it is
+// the layer of most untouched triangles.
 //
 // A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
 // caller vouched for the start; else those that were in doubt after the step before. REQUIRES

@@ -27,8 +27,8 @@ bool is_given_in_form(const Law& law, std::string_view case_id) {
 
 namespace {
 
-// The pairs as pairs of triangles of the case, each with the least of its times. What meets another
-// part of its own triangle is no contact of the case.
+// The pairs as pairs of triangles of the case, each with the least of its times. A contact of two
+// parts of one triangle is no contact of the case.
 std::map<TrianglePair, TimeEnclosure> pairs_of_parents(const StepResult& result,
                                                        const std::vector<std::int32_t>* parent) {
   std::map<TrianglePair, TimeEnclosure> pairs;
@@ -49,8 +49,8 @@ std::map<TrianglePair, TimeEnclosure> pairs_of_parents(const StepResult& result,
 }
 
 // Whether two layer classes of a component have the same size. The order of triangles then decides
-// which is the common one (L9). This is asked of the start of the step, and of those from which
-// its state comes.
+// which is the common one (L9). Looks at the start of the step, and at the starts of the steps from
+// which its state comes.
 bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
   for (std::optional<std::size_t> start = s; start; start = facts.known_from(*start)) {
     const auto& layers = facts.layers_at_start(*start);
@@ -79,8 +79,8 @@ std::array<std::size_t, 6> sizes_of_sets(const StepResult& result, bool swaps_si
           result.dirty};
 }
 
-// `exact_start` says that the results rest on the positions of the case itself. The layers of the
-// oracle are those of these positions.
+// `exact_start` says that the results rest on the positions of the case itself. The oracle's layers
+// are layers at these positions.
 std::string compare_step(CaseFacts& facts, std::size_t s, const StepResult& base, const Form& form,
                          const StepResult& other, bool exact_start) {
   auto differs = difference_in_form(base, form, other, false);
@@ -152,7 +152,7 @@ void check_form(CaseFacts& facts, LawTally& tally, const CaseChange& change) {
   const auto form = form_of(change, facts.source());
   if (!form || form->step.empty()) return;
   auto options = facts.options();
-  // Nobody vouches for the starts of the form, which may be others.
+  // Nobody vouches for the starts of the form, because they may differ.
   if (options.start == detector::Start::clean) options.start = detector::Start::verified;
   auto player = CasePlayer::make(form->c, options, facts.stages_of()(options));
   if (!player) return;

@@ -58,8 +58,8 @@ std::string compare_pairs(const StepResult& whole, const StepResult& first,
 
 // Compares every committed step of the case in two halves with the whole step, both rounded to a
 // grid, so that the middle places of vertices, primitives and apexes are exact. A pair of the whole
-// step is one of a half, at twice its time or at twice its time less one; and a pair of a half is
-// one of the whole.
+// step is also a pair of a half, at twice its time or at twice its time less one; and a pair of a
+// half is also a pair of the whole step.
 void check_halves(CaseFacts& facts, LawTally& tally) {
   auto run = pinned_run(facts);
   if (!run) return;
@@ -166,8 +166,7 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   return difference(facts.result(s), result);
 }
 
-// What the step committed last left in contact is settled by the next step, so it shows where the
-// mesh rests there.
+// The next step uses the contacts that the last committed step left, so a step at rest shows them.
 std::string rests_alike(const CaseFacts& facts, detector::Detector& detector,
                         const detector::Positions& x) {
   const auto state_read = detector::SavedState::read(detector.state().bytes());
@@ -222,8 +221,8 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. So what
-// depends on them shows again and again, and a case that shows it can be shrunk.
+// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. So a
+// result that depends on order or lanes can be repeated, and its case can be shrunk.
 class DrawnOrder : public detector::ThreadArena {
  public:
   DrawnOrder(Random random, std::size_t lanes) : random_(random), lanes_(lanes) {}

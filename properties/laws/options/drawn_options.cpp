@@ -10,7 +10,8 @@
 namespace assay::properties {
 namespace {
 
-// Of every two values of different factors: whether they may meet, and whether they do in some row.
+// Says of every two values of different factors whether they may meet, and whether they meet in
+// some row.
 class PairsOfValues {
  public:
   PairsOfValues(const FactorSizes& sizes, const MayMeet& may_meet) {
@@ -116,7 +117,7 @@ SizeClass size_class(const CaseFacts& facts, Random& random) {
   return count <= few ? SizeClass::few : SizeClass::some;
 }
 
-// Those that prove nothing are left out.
+// Arithmetics that prove nothing are left out.
 constexpr detector::Arithmetic arithmetics[] = {detector::Arithmetic::exact,
                                                 detector::Arithmetic::bounded};
 constexpr std::uint8_t most_threads = 3;

@@ -28,7 +28,7 @@ struct TwoValues {
 using MayMeet = std::function<bool(const TwoValues&)>;
 inline bool all_may_meet(const TwoValues&) { return true; }
 
-// Returns rows in which all pairs of values occur that may meet, and no others. The choice is
+// Returns rows that contain every pair of values that may meet, and no other pair. The choice is
 // greedy: each row begins with a pair of values that is still missing, and each further factor
 // takes the value that adds most missing pairs. Equal seeds give equal rows, different seeds mostly
 // different ones. REQUIRES in each factor a value that may meet all others.

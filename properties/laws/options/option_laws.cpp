@@ -23,8 +23,8 @@ namespace {
 
 using detector::Answer, detector::StepLimit, detector::StepResult, detector::StopFunction;
 
-// What the oracle is asked about, and what the detector is given instead: behind the step that the
-// state asks for, and with its far body.
+// The case that the oracle is asked about, and the case that the detector is given instead: behind
+// the step that the state asks for, and with its far body.
 struct PosedCase {
   corpus::Case judged_case, played_case;
   DrawnOptions draw;
@@ -40,7 +40,7 @@ corpus::Case with_step_before(corpus::Case c, StateBefore state) {
   return c;
 }
 
-// Some cases have no such form: then what was drawn is taken back.
+// Some cases have no such form: then the drawn value is taken back.
 void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, corpus::Case& c) {
   if (d.left_out == LeftOut::nothing) return;
   std::vector<detector::PairContact> in_contact;
@@ -74,7 +74,7 @@ PosedCase posed(const CaseFacts& facts) {
   leave_out(d, random, facts, p.judged_case);
   d.options.separation = separation_of(d, random, p.judged_case);
   if (d.options.separation == 0) d.apart = Apart::none;
-  // Two features that only just come within it, or only just do not.
+  // Adds two features that only just come within the separation, or only just do not.
   if (d.apart != Apart::none && d.options.start != detector::Start::clean && random.one_in(2))
     p.judged_case = with_approach(std::move(p.judged_case), d.options.separation, random);
   auto large = d.has_far_body ? with_far_body(p.judged_case, d.options.separation)
@@ -84,8 +84,8 @@ PosedCase posed(const CaseFacts& facts) {
   return p;
 }
 
-// What the oracle says of each step of the posed case. It is asked anew only where what it said of
-// the case does not tell.
+// Returns the oracle's judgement of each step of the posed case. The oracle is asked again only if
+// its judgement of the case does not tell.
 std::vector<oracle::StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) {
   const auto* counted_pairs = corpus::counted_of(p.judged_case);
   const auto features = oracle::mesh_features(p.judged_case.triangles);
@@ -142,8 +142,8 @@ bool is_the_same(const StepLimit& a, const StepLimit& b) {
          a.first == b.first;
 }
 
-// Asks once to its end, to count how often the stop function is asked; then one of these times is
-// the last. `ask` gives what is wrong with an answer of which it is told that it was stopped.
+// Asks once to the end, to count the calls of the stop function; then asks again, and stops at one
+// of these calls. `ask` returns what is wrong with an answer that should have been stopped.
 template <class Ask>
 std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask& ask) {
   const auto state = detector.state().bytes();
@@ -151,7 +151,7 @@ std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask
   ask([&] { return ++times, false; }, false);
   if (times == 0) return "";
   const int last = random.between(1, times);
-  // With several threads it may be asked less often than before.
+  // With several threads the stop function may be called less often than before.
   std::string wrong = ask([&] { return ++questions == last; }, true);
   if (questions < last) return "";
   if (wrong.empty() && !detector.commit()) wrong = "what was stopped is committed";
@@ -200,7 +200,8 @@ struct PlayedStep {
   Reply reply;
 };
 
-// One for each step of the case; fewer if a state was not taken, or the mesh is refused.
+// Returns one result for each step of the case; fewer if a state was not taken, or the mesh is
+// refused.
 std::vector<PlayedStep> play(const PosedCase& p, const StagesOf& stages_of) {
   const auto& [options, state] = std::tie(p.draw.options, p.draw.state);
   auto player = CasePlayer::make(p.played_case, options, stages_of(options));
@@ -242,10 +243,10 @@ std::string fault_of(const StepLimit& limit, const PosedCase& p, const corpus::C
   return diff.breaches.empty() ? "" : fmt::format("limit: {}", name_of(diff.breaches.front()));
 }
 
-// Whether what the caller vouches for is true (CaseFacts::is_trusted). A step without views does
-// not tell its apexes. All that it takes from a clean start is that nothing pierces its own
-// component there; what has ghosts it leaves dirty (L15). So it will do if with the apexes of
-// `facts` all is clean.
+// Whether the caller vouches rightly (CaseFacts::is_trusted). A step without views does not tell
+// its apexes. It takes from a clean start only that nothing pierces its own component there, and
+// leaves components with ghosts dirty (L15). So it suffices if all is clean with the apexes of
+// `facts`.
 bool is_vouched_rightly(CaseFacts& tail, CaseFacts& facts, std::size_t s, std::size_t before) {
   if (tail.is_trusted(s)) return true;
   if (const auto& known_step = tail.known_from(s))

@@ -25,8 +25,8 @@ Eigen::RowVector3d middle_of(const corpus::Case& c, std::int32_t triangle) {
   return sum / (3. * static_cast<double>(c.frames.size()));
 }
 
-// The triangles of the best case, those of the reported pair first, then the others by how near
-// they are to it. Without a pair they are as near as to the first triangle.
+// The triangles of the best case: those of the reported pair first, then the others by their
+// distance from it. Without a pair the first triangle takes its place.
 std::vector<std::int32_t> near_first(const ReductionSearch& search) {
   const auto& c = search.best();
   auto focus = search.finding().focus;
@@ -50,8 +50,8 @@ bool offer_without(ReductionSearch& search, const std::vector<std::int32_t>& ord
   return search.offer(keep_triangles(search.best(), keep));
 }
 
-// The triangles around the pair: four times as many each time, until they fail. Then the least
-// number between the last two that still fails.
+// Keeps the triangles around the pair: four times as many each time, until they fail; then the
+// least number between the last two that still fails.
 void keep_the_nearest(ReductionSearch& search) {
   constexpr std::size_t fewest = 8, times = 4;
   std::size_t passes = 0;
@@ -214,7 +214,7 @@ void cone_outside(ReductionSearch& search) {
     for (const auto v : rings.far_first) {
       if (rings.distance[at(v)] > ring) outside.push_back(v);
     }
-    // Tried as apexes are the farthest vertex, the nearest, and some between.
+    // The farthest vertex, the nearest, and some between are tried as apexes.
     const std::size_t stride = std::max<std::size_t>(1, outside.size() / 6);
     for (std::size_t i = 0; i < outside.size(); i += stride) {
       Numbers targets = in_order(vertex_count(search.best()));

@@ -111,7 +111,7 @@ Case with_vertices_by_use(const Case& c) {
     was.push_back(v);
   };
   for (const auto& corners : triangles_of(c)) std::for_each(corners.begin(), corners.end(), use);
-  for (const auto v : in_order(number.size())) use(v);  // of which no triangle is, if any
+  for (const auto v : in_order(number.size())) use(v);  // those that no triangle names
   Case candidate = c;
   renumber_vertices(candidate, number);
   if (c.counted)
@@ -137,7 +137,7 @@ Case with_sorted_triangles(const Case& c) {
 }  // namespace
 
 void canonical_order(ReductionSearch& search) {
-  if (search.best().ghosts) return;  // their indices and apexes follow the mesh's own order
+  if (search.best().ghosts) return;  // ghosts follow the mesh's own order
   const auto all = [](const Case& c) {
     return with_sorted_triangles(with_lowest_corners_first(with_vertices_by_use(c)));
   };

@@ -97,7 +97,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-// The bytes of a file that may be none of the kind, so every place in it is checked.
+// The bytes of a file that may be no library, so every place in it is checked.
 class Image {
  public:
   explicit Image(const fs::path& file) {

@@ -51,7 +51,7 @@ class PluginRun {
     return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, way);
   }
 
-  // The result of a step, or why it has none: the same reasons.
+  // The result of a step, or why it has none.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
                             bool commit) {
     auto result = evaluated_step(x_t0, x_t1);

@@ -194,7 +194,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
-// Where a caller stops who computes in this format, one rounding an operation. Share 1 is x_t1.
+// Where a caller stops if it computes in this format, with one rounding for each operation. Share 1
+// is x_t1.
 template <class Real>
 void stop_at(double share, LimitGives gives, const detector::Positions& x_t0,
              const detector::Positions& x_t1, const detector::Positions* displacement,

@@ -42,7 +42,7 @@ std::vector<std::filesystem::path> places_beside(const std::filesystem::path& pr
   return places;
 }
 
-// Adds the file of a module or package, if there is one that is not there yet.
+// Adds the file of a module or package, if it exists and is not in the list yet.
 void add_module(const fs::path& place, std::vector<fs::path>& files) {
   for (const auto& file : {fs::path(place.string() + ".py"), place / "__init__.py"}) {
     std::error_code ignored;

@@ -49,15 +49,15 @@ inline std::optional<Goal> goal_if(bool condition, Goal goal) {
 
 namespace goal {
 
-// For the whole step of any mesh. view-auto falls back to bvh if views do not pay, so it may lose
-// only the time to find that out.
+// For the time of whole steps of any mesh. view-auto falls back to bvh if views do not pay, so it
+// may lose only the time to find that out.
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto, over the one culling that takes the least time for each
-// whole sequence: the ratios of the sums, of the median steps, and of any step of a millisecond or
-// more. Then a first step over that of bvh, whose pairs the first step has to look at; and one
-// thread over two.
+// For the times of whole sequences with culling auto, over the one culling that takes the least
+// time for each whole sequence: the ratios of the sums, of the median steps, and of any step of a
+// millisecond or more. Then the ratio of the first step to that of bvh, whose pairs it has to look
+// at, too; and that of one thread to two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -356,7 +356,7 @@ RunSuite speed_error_suite;
 // Plays whole sequences by each culling and by several threads, and compares the default with the
 // best choice.
 RunSuite sequences_suite;
-// Compares the peers that are not absent with the built-in detector: time and error.
+// Compares the peers that are there with the built-in detector: time and error.
 RunSuite peers_suite;
 
 // Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences:

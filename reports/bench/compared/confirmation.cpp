@@ -85,8 +85,8 @@ struct StepWitness {
                                 feature.kind == FeatureKind::vertex_face ? 1 : 2};
   }
 
-  // Returns whether the triangles, if triangles are taken, or else the features meet at this time.
-  // A feature is given as a triangle too, which may be a point or a segment.
+  // Returns whether the features, or the whole triangles if these are taken, meet at this time. A
+  // feature is given as a triangle too, which may be a point or a segment.
   bool meet_at(const PairContact& contact, const oracle::StaticTime& time) const {
     if (takes_triangles && oracle::triangles_meet(motion, triangles, contact.pair, time))
       return true;

@@ -32,7 +32,7 @@ void keep_smallest_sequences(std::vector<CaseFamily>& families, BenchReport& rep
 }
 
 // Returns the bytes for each triangle of a mesh of 20,480 triangles, for preprocessing and one
-// step: the resident memory of a new process above that with a mesh of 20 triangles. Nothing if a
+// step: the resident memory of a new process, less that for a mesh of 20 triangles. Nothing if a
 // run does not complete.
 std::optional<double> bytes_a_triangle(const BenchSubject& subject) {
   auto worker = subject.make_worker(60);

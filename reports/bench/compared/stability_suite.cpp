@@ -247,7 +247,7 @@ void add_survival_rows(const std::vector<BenchSubject>& subjects, const Survival
   }
 }
 
-// Returns whether a strength takes part: all do, or, with --quick, some, always the strongest and
+// Returns whether a strength takes part. All do; with --quick only some, always the strongest and
 // touching. Strengths with larger meshes are left out.
 bool takes_strength(const corpus::HardFamily& family, int strength, const BenchSettings& settings) {
   constexpr int most_triangles = 5000, steps_when_quick = 4;
