@@ -1,5 +1,5 @@
-// Makes a detector of stages other than the standard ones: one with another broad phase, one of a
-// scheme under study, or one that is wrong on purpose.
+// Makes a detector of other stages than the standard ones: with another broad phase, for a scheme
+// under study, or wrong on purpose.
 //
 //   Stages stages = standard_stages(options);
 //   stages.pair_search = std::make_shared<MySearch>();

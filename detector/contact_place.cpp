@@ -26,7 +26,8 @@ using Weights = std::array<double, 3>;  // of the vertices of a feature
 constexpr double place_error = 0x1p-49;    // 16 u
 constexpr double product_error = 0x1p-46;  // 128 u
 
-// Two features with the weights of their vertices, and how far the places of these are apart.
+// The weights of the vertices of two features, and the squared distance of the two places that they
+// give.
 struct Nearest {
   Weights a{}, b{};
   double squared = std::numeric_limits<double>::infinity();
@@ -119,7 +120,7 @@ class Places {
   }
 
  private:
-  // Exact, but for what falls below the normal numbers.
+  // Exact, except for results below the normal numbers.
   Vector3 scaled(const Point& x) const { return {scale_ * x[0], scale_ * x[1], scale_ * x[2]}; }
 
   static constexpr int least_exponent = -1000;  // 2^1000 is a double, and 2^1074 is none
@@ -134,7 +135,7 @@ void set_normal(const Places::Edge& u, const Places::Edge& v, ContactPlace& plac
   const Vector3 normal = u.at_t.cross(v.at_t);
   const double length = normal.norm();
   place.normal_error = product_error * u.size * v.size / length;
-  // What is cut off below the normal numbers is far less than this.
+  // Roundings below the normal numbers are far smaller than this.
   constexpr double surely_normal = 0x1p-900;
   if (!(length > surely_normal && place.normal_error < 0.5)) {
     place.normal_error = 0;
@@ -149,7 +150,7 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
                            const PairContact& contact) {
   const ProcessorState state;
   auto [kind, named] = contact.feature;
-  // Triangles with the same vertices meet in each of these, and so in the first.
+  // Triangles with the same vertices meet at each of them; this takes the first.
   if (kind == FeatureKind::same_vertices) {
     kind = FeatureKind::vertex_face;
     named = {named[0], named[0], named[1], named[2], -1};
@@ -182,7 +183,8 @@ ContactPlace contact_place(const SteppedMesh& motion, const TrianglesView& trian
     set_normal(places.edge(v[2], v[3]), places.edge(v[2], v[4]), place);
   }
 
-  // The first feature is of the triangle that holds its vertices: no triangle holds both.
+  // The first feature belongs to the triangle that holds its vertices; no triangle holds both
+  // features.
   const auto corner_of = [&](std::int32_t triangle, std::int32_t vertex) {
     for (int corner = 0; corner < 3; ++corner) {
       if (triangles(triangle, corner) == vertex) return corner;

@@ -20,12 +20,12 @@ struct ContactPlace {
   // together 1 up to rounding.
   std::array<Point, 2> barycentric{};
   // No coordinate of `point` is farther than this from the sum of the weighted corners of either
-  // triangle. Mostly 2^-48 of the largest coordinate of the two; more where two edges are nearly
-  // parallel, or the two do not meet.
+  // triangle. Mostly 2^-48 of the largest coordinate of the two; more if two edges are nearly
+  // parallel, or if the triangles do not meet.
   double error = 0;
   // The unit normal of the face, on the side from which its corners go counter-clockwise. For two
   // edges a and b, it has the direction of (a1 - a0) x (b1 - b0). No coordinate is off by more than
-  // normal_error. There is no normal if that bound would be 0.5 or more.
+  // normal_error. There is no normal if normal_error would be 0.5 or more.
   std::optional<Point> normal;
   double normal_error = 0;
 };

@@ -17,14 +17,14 @@
 namespace assay::detector {
 namespace {
 
-// A state knows nothing of components within which nothing is looked for. So it is of the mesh and
-// of the set of these components; of the rest of the relation between pairs it is independent.
+// Components that no search looks into are not in a state. So a state belongs to the mesh and the
+// set of these components, and does not depend on the rest of the relation between pairs.
 std::uint64_t digest_of(const StepContext& context) {
   return digest_of(context.surface.mesh, context.surface.first_apex) ^
          context.relation.digest_of_left_out();
 }
 
-// Views and cones prove that nothing is in contact, and nothing of how near it is.
+// Views and cones prove that there is no contact, but say nothing about distances.
 std::optional<Problem> check_separation(const Options& options) {
   const double d = options.separation;
   const auto wrong = [](std::string message) {
@@ -42,7 +42,8 @@ std::optional<Problem> check_separation(const Options& options) {
   return std::nullopt;
 }
 
-// The place after this share of the way: between both ends, and where a vertex rests it stays.
+// Returns the positions after this share of the way. Each lies between both ends, so a vertex at
+// rest keeps its place.
 Positions partial_step(const PositionsView& x_t0, const PositionsView& x_t1, double share) {
   Positions x(x_t0.rows(), 3);
   for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
@@ -52,16 +53,16 @@ Positions partial_step(const PositionsView& x_t0, const PositionsView& x_t1, dou
 }
 
 // Chooses the places that limit() tries, as parts of the time until the contact. Where the way
-// passes something closely, rounding decides of each place whether it is free: often of all places
-// beyond one, sometimes of each by chance. So places are tried ever farther below the first, down
-// to one that is free; then between that and the ones above it.
+// passes something closely, rounding decides whether a place is free. Often no place beyond a
+// certain one is free; sometimes it is chance at each place. So places are tried ever farther below
+// the first, until one is free; then places above that one are tried.
 class PartsToTry {
  public:
   static constexpr double farthest = 0.95, enough = 0.98 * farthest;
 
   bool is_over() const { return free_ >= enough || tried_ == most_; }
   double next() {
-    // Golden sections fall evenly wherever they end.
+    // Golden sections are spread evenly, however many are tried.
     constexpr double golden = 0.6180339887498949;
     if (free_ == 0 && tried_ < std::size(downward_)) {
       part_ = downward_[tried_];
@@ -168,16 +169,16 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                         ? stages.boundary->close_up(triangles, positions.rows(), pace)
                         : surface_without_ghosts(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
-  // The edges tell already that most meshes repeat no triangle.
+  // For most meshes the edges alone show that no triangle is repeated.
   if (surface.mesh.may_repeat_triangles) {
     if (auto repeated = check_repeated(triangles, positions.rows(), pace))
       return std::move(*repeated);
   }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
-  // Where times are not unique, it would depend on what is kept which pairs are found.
+  // If times are not unique, the pairs found would depend on what is kept.
   const bool keeps_near = options.keeps_near && options.arithmetic == Arithmetic::exact;
-  // What is kept needs a margin (L20).
+  // Kept feature pairs need a margin (L20).
   tree.grow_boxes(
       std::max(stages.elementary->separation(), keeps_near ? FloatGrid::least_distance : 0));
   SearchMemory search(tree);
@@ -195,7 +196,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
                       {}};
   context.relation = PairRelation(options.counted, context.surface.mesh);
   context.options.keeps_near = keeps_near;
-  context.options.counted = nullptr;  // the user's own, who may let it go
+  context.options.counted = nullptr;  // it belongs to the user, who may free it
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));
 }
@@ -247,7 +248,7 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
                                                      " proves no step free; exact and bounded do"};
     return limit;
   }
-  // The first contact alone decides where the way ends, and what is committed is a free step.
+  // Only the first contact decides where the way ends, and only a free step is committed.
   StepResult whole = first_contact(x_t0, x_t1, 1, stop);
   limit.answer = whole.answer;
   limit.problem = std::move(whole.problem);
@@ -264,7 +265,7 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
     const double share = parts.next() * whole.first.lo;
     Positions x = partial_step(x_t0, x_t1, share);
     bool is_free = x == x_t0;
-    // Among the least of all doubles a part of the time may be rounded up to it.
+    // Near the least double, a part of the time may be rounded up to the time itself.
     if (!is_free && share < whole.first.lo) {
       const Answer answer = first_contact(x_t0, x, 1, stop).answer;
       is_free = answer == Answer::free;

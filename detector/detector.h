@@ -16,7 +16,7 @@
 // both. A step that starts at other positions, even if one bit differs, is treated as a new start.
 // Each call completes or leaves the state unchanged. An instance serves one thread at a time, and
 // there are no globals. Answers do not depend on the caller's rounding mode or treatment of
-// denormals. Calls restore both at the end, and a stop function runs under the caller's.
+// denormals. Calls restore both at the end, and a stop function runs under the caller's settings.
 #pragma once
 
 #include <memory>
@@ -34,8 +34,8 @@ struct StateFields;  // of no concern to users
 struct Stages;       // assembly.h
 class Workers;       // assembly.h
 
-// What a detector carries from step to step. It is an immutable value that can be copied and kept
-// (copies share what they hold), and it can be turned into bytes for a file.
+// The state that a detector carries from step to step. It is an immutable value that can be copied
+// and kept (copies share what they hold), and it can be turned into bytes for a file.
 class SavedState {
  public:
   explicit SavedState(StateFields fields);
@@ -43,9 +43,9 @@ class SavedState {
   // The bytes are the same on every machine: 24 for each vertex, 1 for each triangle, 16 for each
   // pair in contact, and some for the components and holes. O(M).
   std::vector<std::uint8_t> bytes() const;
-  // Errors: damaged_state, other_state_version. It is restore() that checks whether the state is of
-  // the right mesh. Reading takes no more memory than a few times the size of `bytes`, whatever
-  // lengths the bytes claim. O(M).
+  // Errors: damaged_state, other_state_version. restore() checks whether the state is of the right
+  // mesh. Reading takes no more memory than a few times the size of `bytes`, whatever lengths the
+  // bytes claim. O(M).
   static Expected<SavedState> read(std::span<const std::uint8_t> bytes);
 
   const StateFields& fields() const { return *fields_; }
@@ -84,8 +84,8 @@ class Detector {
 
   // Answers whether there is a contact by the time `until`, and which one is first. This is
   // evaluate() with Pairs::first, whatever the options say. `free` means that there is no contact
-  // in [0, until]; a contact at `until` itself counts. A search that already knows a contact at
-  // some time gives that time for `until`, and nothing later is looked at.
+  // in [0, until]; a contact at `until` itself counts. A caller that already knows a contact passes
+  // its time as `until`; nothing later is looked at.
   // The step can be committed afterwards only if `until` is 1, because otherwise nothing is known
   // of the rest of the step.
   // Errors: those of evaluate; wrong_bound, if `until` is not in [0,1].
@@ -107,10 +107,10 @@ class Detector {
   //   x = limit.positions;
   //   detector.commit();
   //
-  // A free step is taken whole. Of any other step, 0.95 of the first contact time is taken, unless
-  // rounding brings that place into contact. That can happen where the way passes something within
-  // a few units in the last place of its coordinates. Then up to 18 nearer places are tried. If the
-  // free places lie at least somewhat together, 0.98 of the farthest free place or more is taken.
+  // A free step is taken whole. Any other step is taken up to 0.95 of its first contact time,
+  // unless rounding brings that place into contact. That can happen where the way passes something
+  // within a few units in the last place of its coordinates. Then up to 18 nearer places are tried.
+  // If the free places lie roughly together, 0.98 of the farthest free place or more is taken.
   // Whenever less than 0.93 of the time is taken, `is_short` says so. Share 0 means that the mesh
   // stays: there is a contact at the start, or at every place that was tried. With a separation,
   // read `within the separation` for `in contact`.
@@ -130,8 +130,8 @@ class Detector {
   // positions, further results equal those of the saved detector bit by bit. If the positions were
   // others, counts may differ and, unless the arithmetic is exact, false alarms too, because normal
   // cones prove other patches free. A step that was evaluated and not committed is dropped. Errors:
-  // foreign_state, if the state is of another mesh or culling, or if other bodies do not meet
-  // themselves (Options::counted; a state does not depend on the rest of that relation);
+  // foreign_state, if the state is of another mesh or culling, or of another set of bodies that do
+  // not meet themselves (Options::counted; a state does not depend on the rest of that relation);
   // damaged_state, if it contradicts the mesh. After an error nothing has changed.
   std::optional<Problem> restore(const SavedState& state);
 

@@ -63,10 +63,10 @@ constexpr auto names_of(Start) {
 enum class Pairs : std::uint8_t {
   all,  // the complete pair set of the step (K with closure, L7)
   // Pairs in contact by the upper end of the first time: each connected part of the contact graph
-  // at the first time holds one of them (L6). Some may meet later than that, within its enclosure:
-  // their own time is the same enclosure, or its upper end. As soon as a contact is found, nothing
-  // later is looked at. This took 0.1 to 0.45 of the time of `all` on scenes of many contacts, 0.92
-  // on rod-twist, and a few percent more than `all` where there is no contact.
+  // at the first time holds one of them (L6). Some may meet later, but within the enclosure of the
+  // first time: their own time is the same enclosure, or its upper end. As soon as a contact is
+  // found, nothing later is looked at. This took 0.1 to 0.45 of the time of `all` on scenes of many
+  // contacts, 0.92 on rod-twist, and a few percent more than `all` where there is no contact.
   first,
 };
 constexpr auto names_of(Pairs) {
@@ -86,20 +86,20 @@ struct Options {
   // state has to know them.
   const CountedPairs* counted = nullptr;
   // If 0, contacts are looked for, else pairs of triangles that come within this distance, in the
-  // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES, else
-  // create() refuses it with wrong_separation: it is finite and not negative; with one above 0 the
-  // culling is bvh or none, and the arithmetic exact.
+  // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES a finite
+  // number >= 0; above 0 it REQUIRES culling bvh or none, and exact arithmetic. Otherwise create()
+  // refuses it with wrong_separation.
   double separation = 0;
   // Whether evaluate, first_contact and limit keep the pairs of features that they found near. If
   // the next question is about a shorter step from the same start, it is answered from these in
   // 0.03 to 0.4 of the time, provided that the arithmetic is exact and the step has no views (L20).
   // Answers, pairs and times are the same; counts, and decisions of `automatic` that rest on them,
-  // are not. Takes up to 300 bytes a triangle, 550 while it is found, and up to 2 % of a first
-  // question.
+  // are not. Takes up to 300 bytes a triangle, 550 during the search, and up to 2 % of the time of
+  // a first question.
   bool keeps_near = false;
 };
 
-// Calls `visit` with the name of each option that is one of a list of values, and with the option.
+// Calls visit(name, option) for each option whose type is an enum.
 template <class Options, class Visit>
 constexpr void for_each_choice(Options& options, const Visit& visit) {
   visit("culling", options.culling);

@@ -1,5 +1,5 @@
-// What a step reports. If a separation was asked for (Options::separation), "in contact" means here
-// that two triangles come within that distance. The answer says what else is set:
+// The result of a step. If a separation was asked for (Options::separation), "in contact" means
+// here that two triangles come within that distance. The answer says what else is set:
 //
 //   if (result.answer == Answer::error) report(result.problem->message);
 //   if (result.answer == Answer::collision) use(result.first.lo, result.first.hi);

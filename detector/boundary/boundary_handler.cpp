@@ -38,9 +38,9 @@ Point centroid(const Loop& loop, const PositionsView& x, const LoopBox& box) {
   return c;
 }
 
-// The nodes below which the triangles of a component are swept, each part by one worker. How many
-// they are depends on the mesh alone, so the counts of a sweep do not depend on the workers. A part
-// of a component is its half, a quarter and so on.
+// Splits a component into parts (halves, quarters and so on), each swept by one worker, and returns
+// the top nodes of the parts. Their number depends on the mesh alone, so the counts of a sweep do
+// not depend on the workers.
 std::vector<std::int32_t> parts_of(const BoundingVolumeTree& tree, std::int32_t component,
                                    std::size_t triangles) {
   constexpr std::size_t least_triangles = 256, most_parts = 64;
@@ -111,16 +111,17 @@ namespace {
 // The work to place an apex and make the tree of its fan, in box tests for each ghost.
 constexpr std::uint64_t work_to_place = 20;
 
-// Every loop gets at least so much, which is 20 us, enough for a loop of a few edges.
+// Every loop gets at least this much work (20 us), enough for a loop of a few edges.
 constexpr std::uint64_t least_share = 4'000;
 
 constexpr std::size_t growth_of_most = 8;
 
-// In meshes of at least so many triangles, what only grazes a ghost's plane is taken for
-// untouched. On a flat sheet these are all triangles along a side, for each ghost over that side.
+// In meshes of at least this many triangles, a triangle that only grazes a ghost's plane is taken
+// for untouched. On a flat sheet, all triangles along a side graze the plane of each ghost over
+// that side.
 constexpr std::size_t large_mesh = 256;
 
-// A sweep asks whether to go on after as much work as a few pairs take.
+// A sweep asks whether to go on each time it has done the work of a few pairs.
 constexpr std::uint64_t work_between_looks = 512;
 
 }  // namespace
@@ -173,9 +174,9 @@ ApexRule ApexChoice::choose(std::size_t loop, std::uint64_t share) {
   ApexRule chosen = apex_rules[0];
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   std::array<bool, apex_rules.size()> was_cut{};
-  // A rule that touches many triangles is not followed to its end while another one may touch
-  // fewer: in each round rules are given up at `most` triangles, and `most` grows from round to
-  // round.
+  // In each round a rule is given up once it touches `most` triangles, and `most` grows from round
+  // to round. So a rule that touches many triangles is not followed to its end while another rule
+  // may touch fewer.
   const std::size_t all = surface_.mesh.triangles.size();
   for (std::size_t most = 1; most / growth_of_most <= all; most *= growth_of_most) {
     for (std::size_t r = 0; r < apex_rules.size() && fewest > 0; ++r) {
@@ -252,9 +253,9 @@ std::vector<MovingPoint> BoundaryHandler::place_apexes(const Surface& surface,
   return apexes;
 }
 
-// With a tree for each hole this takes as long as ghost by ghost or up to 2 % less (124 ghosts
-// against 25,472 triangles: 0.49 ms and 0.50 ms), because the same elementary tests take nearly
-// all the time.
+// A tree for each hole saves at most 2 % of the time of a search ghost by ghost (124 ghosts against
+// 25,472 triangles: 0.49 ms and 0.50 ms), because the same elementary tests take nearly all the
+// time.
 bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                             const StopFunction& stop, std::vector<std::uint8_t>& touched,
                             GhostCounts& counts) const {
@@ -269,7 +270,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
     GhostCounts counts;
   };
   std::vector<Lane> lanes(sweep.workers ? sweep.workers->count() : 1);
-  // The first lane goes on from the sweeps before, which have asked whether to stop.
+  // The first lane goes on with the counts of earlier sweeps, by which the stop function is asked.
   lanes[0].counts = counts;
   std::atomic<bool> is_whole = true;
   const auto run = [&](const LoopPiece& piece) {

@@ -83,7 +83,7 @@ class ApexChoice {
   std::uint64_t work() const { return result_.counts.work() + placing_; }
 
   const Surface& surface_;
-  Positions all_;  // of the mesh, and below them those of the apexes that are tried
+  Positions all_;  // rows: vertices of the mesh, then the apexes that are tried
   PositionsView x_, view_of_all_;
   PacedStop stop_;
   GhostSweep sweep_;

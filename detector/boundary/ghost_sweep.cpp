@@ -11,27 +11,28 @@ namespace {
 // The plane of a ghost at rest, in the coordinates of the tree's grid. These are scaled to about 1
 // and rounded to floats, which changes each by at most 2^-24 of the greatest of them.
 //
-// What it says to miss a ghost misses it. Coordinates in the grid are off by d_k = 2^-24 S_k, S_k
-// the greatest size. A side a_k is off by 2 d_k, so n_k = a_m b_n - a_n b_m is off by 2 d_m (|a_n|
-// + |b_n|) + 2 d_n (|a_m| + |b_m|) and terms of second order: half of `of_normal`, as 2^-22 = 4
-// 2^-24. At a point x of the box the value n.(x - corner) is off by the sum over k of (error of
-// n_k) |x_k - corner_k|, at most 2 S_k, and of |n_k| times the error of x_k - corner_k, at most 2
-// d_k = |n_k| wrong S_k / 2. So slack_ is twice the terms of first order. Those of second order are
-// 2^-22 of them, and the roundings of doubles are 2^-28 of them.
+// A box for which misses() returns true misses the ghost. Coordinates along axis k of the grid are
+// at most S_k in size, and off by d_k = 2^-24 S_k. A side a_k is off by 2 d_k, so n_k = a_m b_n -
+// a_n b_m is off by 2 d_m (|a_n| + |b_n|) + 2 d_n (|a_m| + |b_m|) and terms of second order. As
+// `wrong` is 2^-22 = 4 2^-24, `of_normal` is twice the terms of first order. At a point x of the
+// box the value n.(x - corner) is off by a sum over k. In this sum, the error of n_k is multiplied
+// by |x_k - corner_k| <= 2 S_k, and |n_k| by the error of x_k - corner_k, which is at most 2 d_k:
+// |n_k| wrong S_k / 2. So slack_ is twice the terms of first order. The terms of second order are
+// 2^-22 of these, and the roundings of doubles 2^-28.
 class GhostPlane {
  public:
   GhostPlane() = default;
   explicit GhostPlane(const std::array<FloatLanes, 3>& corners) {
-    Point size;  // at most what a coordinate is, of the ghost or of what the tree holds
+    Point size;  // bounds the coordinates of the ghost and of all that the tree holds
     std::array<Point, 2> sides;
     for (std::size_t k = 0; k < 3; ++k) {
       size[k] = 2;
       for (const auto& corner : corners) size[k] = std::max<double>(size[k], std::abs(corner[k]));
       for (std::size_t i = 0; i < 2; ++i) sides[i][k] = double(corners[i + 1][k]) - corners[0][k];
     }
-    // A coordinate is wrong by at most 2^-24 size, a side or an offset, of at most 2 size, by
-    // twice that. The products in doubles are wrong by far less. The bound is doubled for terms of
-    // second order.
+    // A coordinate is wrong by at most 2^-24 size. A side or an offset is at most 2 size long, and
+    // wrong by at most 2^-23 size. The products in doubles are wrong by far less. The bound is
+    // doubled for terms of second order.
     constexpr double wrong = 0x1p-22;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
@@ -43,8 +44,8 @@ class GhostPlane {
     }
   }
 
-  // Whether all of the box lies on one side of the plane, either strictly or, if grazing, so that
-  // it may touch the plane.
+  // Whether the whole box lies strictly on one side of the plane. If grazing, it may also touch the
+  // plane.
   bool misses(const MovingBox& box, bool grazing) const {
     double middle = -offset_, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -129,8 +130,8 @@ class HoleSweep {
     stopped_ = stopped_ || (stop_ && stop_());
     plan_asking();
   }
-  // Asks at the next multiple of the interval. Sweeps of many small holes, whose counts go on from
-  // each other, so ask no more often than that of one large hole.
+  // Asks at the next multiple of the interval. The counts go on from hole to hole, so the sweeps of
+  // many small holes ask no more often than the sweep of one large hole.
   void plan_asking() {
     next_asking_ = (counts_.work() / sweep_.work_between_stops + 1) * sweep_.work_between_stops;
   }

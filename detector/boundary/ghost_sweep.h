@@ -45,8 +45,8 @@ class FacePairTest {
 // the children 2n+1 and 2n+2; the last nodes are the leaves.
 class HoleTree {
  public:
-  // REQUIRES the ghosts of one loop in its order, at least one. Their corners are vertices of
-  // `motion`. The boxes may be compared with others of the same grid. 50 ns a ghost.
+  // REQUIRES one or more ghosts of one loop, in the order of the loop. Their corners are vertices
+  // of `motion`. The boxes may be compared with others of the same grid. 50 ns a ghost.
   HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
            const SteppedMesh& motion);
 
@@ -76,14 +76,14 @@ class HoleTree {
   std::vector<MovingBox> boxes_;
 };
 
-// Returns a tree for each hole of a component, whose ghosts are given.
+// Returns a tree for each hole of the component that has these ghosts.
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
                                       const FloatGrid& grid, const SteppedMesh& motion);
 
 // For sweeps in which nothing moves: whether to leave out triangles on one side of a ghost's plane
 // too. These are then not `near` either. `strict` leaves out the triangles strictly on one side.
 // `grazing` also leaves out those that, within rounding errors, touch the plane from one side
-// without lying in it. It may miss some triangles that a ghost touches.
+// without lying in it. So it may leave out triangles that a ghost touches.
 enum class ByPlanes : std::uint8_t { no, strict, grazing };
 
 // The input of a sweep and its options.

@@ -14,8 +14,8 @@ namespace assay::detector {
 
 namespace {
 
-// The longest side of the box with these corners. Halves: a side may be longer than the largest
-// double.
+// Returns the axis of the longest side of the box with these corners. It compares halves of the
+// sides, because a side may be longer than the largest double.
 std::size_t longest_side(const Point& lo, const Point& hi) {
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
@@ -26,16 +26,16 @@ std::size_t longest_side(const Point& lo, const Point& hi) {
 
 }  // namespace
 
-// Splits ranges of triangles in halves and numbers the nodes. What is split are spots: the centre
-// of a triangle in integers, on a grid over its component with 2^27 cells along the longest side,
-// and the triangle's number. A split finds the cell along one axis that holds the median by
-// counting, and brings the spots on both sides of it to the other of two lists. A node with m
-// triangles has 2m - 2 nodes below it, so each range knows the numbers of its nodes, and the
-// workers share the ranges out. Which spots come first does not depend on where they stood: those
-// of equal places are in the order of their numbers.
+// Splits ranges of triangles in halves and numbers the nodes. A spot stands for a triangle: it
+// holds the triangle's number, and its centre in integers, on a grid over its component with 2^27
+// cells along the longest side. A split counts spots to find the cell along one axis that holds the
+// median. Then it moves the spots on both sides of that cell to the other of two lists. A node with
+// m triangles has 2m - 2 nodes below it, so each range knows the numbers of its nodes, and the
+// workers share the ranges out. The order of spots does not depend on where they stood before:
+// spots of equal places are ordered by their numbers.
 struct BoundingVolumeTree::Builder {
   using Numbers = std::vector<std::int32_t>;
-  // Places lie between 2^29 and 3 * 2^29. Their bits, read as those of floats, are of normal
+  // Places lie between 2^29 and 3 * 2^29. If their bits are read as floats, these are normal
   // numbers in the same order.
   using Spot = LaneTruth;
   using Spots = std::unique_ptr<Spot[]>;
@@ -54,7 +54,7 @@ struct BoundingVolumeTree::Builder {
   PacedStop* pace;
   std::array<Spots, 2> lists;       // component after component
   std::vector<Bounds> bounds;       // by component
-  std::uint32_t placed = 0;         // the triangles of the components that have their ranges
+  std::uint32_t placed = 0;         // triangles of the components whose ranges are made
   std::vector<Range> large, small;  // that are still to be split
 
   bool run() {
@@ -83,7 +83,7 @@ struct BoundingVolumeTree::Builder {
     return !has_to_end(1);
   }
 
-  // Returns the first number behind those of the nodes below.
+  // Returns the number after those of the nodes below.
   std::int32_t grow_over_components(std::int32_t node, std::int32_t below,
                                     std::span<std::int32_t> numbers,
                                     const std::vector<Point>& middles) {
@@ -126,9 +126,9 @@ struct BoundingVolumeTree::Builder {
     (range.size() <= worth_sharing ? small : large).push_back(range);
   }
 
-  // Finds the spots of these ranges, each of a whole component. Sums of eighths do not overflow. In
-  // a component of a few units in the last place they are rounded by up to three times its size, so
-  // a place has up to 29 bits and a sign.
+  // Finds the spots of these ranges, each of a whole component. It sums eighths of coordinates,
+  // which do not overflow. If a component is a few units in the last place wide, the sums are
+  // rounded by up to three times its size, so a place has up to 29 bits and a sign.
   bool find_spots(const std::vector<Range>& ranges) const {
     constexpr std::uint64_t work_of_spot = 3;
     constexpr int cell_bits = 27, least_exponent = -990, origin_place = 1 << 30;
@@ -159,7 +159,8 @@ struct BoundingVolumeTree::Builder {
     return true;
   }
 
-  // Half of the triangles, as a whole number of wide nodes (WideTree) where there are enough.
+  // Returns half of the triangles. For more than two wide nodes (WideTree) it is rounded to whole
+  // ones.
   static std::uint32_t half_of(std::uint32_t count) {
     constexpr std::uint32_t wide = box_lanes::width;
     return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;
@@ -170,14 +171,14 @@ struct BoundingVolumeTree::Builder {
     return static_cast<std::uint64_t>(spot[axis]) << 32 | static_cast<std::uint32_t>(spot[3]);
   }
 
-  // How far some spots reach along the axis where they reach farthest.
+  // The extent of some spots along the axis on which they extend farthest.
   struct Extent {
     std::size_t axis;
     std::int32_t lo, side;
   };
-  // Of `count` spots, one or more.
+  // Returns the extent of `count` spots. REQUIRES count > 0.
   static Extent extent_of(const Spot* spots, std::size_t count) {
-    // Several take turns, because each waits for its own last result.
+    // Four minima and four maxima take turns, because each waits for its own last result.
     constexpr std::size_t turns = 4;
     FloatLanes los[turns], his[turns];
     std::fill_n(los, turns, std::bit_cast<FloatLanes>(spots[0]));
@@ -195,13 +196,13 @@ struct BoundingVolumeTree::Builder {
     const auto lo = least(least(los[0], los[1]), least(los[2], los[3])),
                hi = greatest(greatest(his[0], his[1]), greatest(his[2], his[3]));
     const auto lowest = std::bit_cast<Spot>(lo), sides = std::bit_cast<Spot>(hi) - lowest;
-    // Sums, because branches would be foretold wrongly as often as not.
+    // Computed without branches, because half of these would be mispredicted.
     const std::size_t is_last = sides[2] > std::max(sides[0], sides[1]);
     const std::size_t axis = 2 * is_last + (1 - is_last) * std::size_t{sides[1] > sides[0]};
     return {axis, lowest[axis], sides[axis]};
   }
 
-  // Splits a range in two. REQUIRES more than a few triangles.
+  // Splits a range in two. REQUIRES more than `few` triangles.
   Halves split(const Range& range) {
     Spot* const from = lists[range.list].get() + range.begin;
     Spot* const to = lists[1 - range.list].get() + range.begin;
@@ -216,8 +217,8 @@ struct BoundingVolumeTree::Builder {
              {child + 1, below_second, range.component, middle, range.end, list}}};
   }
 
-  // Sorts up to `most` spots along the axis: each goes to the place that says how many come before
-  // it.
+  // Sorts up to `most` spots along the axis: each goes to the place whose number is the count of
+  // spots before it.
   template <std::size_t most>
   static void rank(Spot* spots, std::size_t count, std::size_t axis) {
     Spot held[most];
@@ -269,7 +270,8 @@ struct BoundingVolumeTree::Builder {
     constexpr int least_bits = 5, most_bits = 10;
     const int bits = std::clamp(static_cast<int>(std::bit_width(count)), least_bits, most_bits);
     const int shift = std::max(0, static_cast<int>(std::bit_width(unsigned(side))) - bits);
-    // Neighbours in the list are mostly of one part, so two counters of each take turns.
+    // Neighbours in the list are mostly of the same part, so each part has two counters that take
+    // turns.
     std::uint32_t counts[1 << most_bits][2];
     std::memset(counts, 0, sizeof(*counts) << bits);
     const std::int32_t* const along = reinterpret_cast<const std::int32_t*>(from) + axis;
@@ -280,8 +282,8 @@ struct BoundingVolumeTree::Builder {
     // The part that holds the first spot of the second half.
     unsigned part = 0;
     for (std::size_t before = 0; (before += counts[part][0] + counts[part][1]) <= half;) ++part;
-    // Spots below the part go to the front and those above it to the back. Those of the part wait
-    // where the list has been read.
+    // Spots below the part go to the front and those above it to the back. Spots of the part itself
+    // wait in places of the list that have been read.
     std::size_t below = 0, waiting = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const unsigned p = part_of(i);
@@ -389,7 +391,7 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
   forget_fit();
   boxes_are_joined_ = false;
   wide_.make_room(motion.is_at_rest());
-  RoundedPositions points;  // taken last, and given back before the search takes room for its own
+  RoundedPositions points;  // allocated last, and freed before the search allocates its own
   if (!points.assign(motion, pace)) return false;
   grid_ = points.grid();
   const FloatLanes by = grid_.margin(separation_ + slack) / 2;

@@ -46,9 +46,9 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 //
 // The boxes of a node with n children are twelve rows of n floats: the three lower bounds at t=0,
 // the upper ones at t=0, and the same at t=1, unless the mesh is at rest. Rows follow each other
-// without gaps. So a mesh of many small components takes no more room than a large one, and whoever
-// reads eight floats from a row may read some of the next row, or of the eight floats that follow
-// the last one.
+// without gaps. So a mesh of many small components takes no more room than one large component.
+// Code that reads eight floats from a row may read some of the next row, or of the eight floats
+// after the last row.
 // Memory: 70 bytes a triangle, 55 of them boxes.
 class WideTree {
  public:
@@ -102,7 +102,7 @@ class WideTree {
   std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
 };
 
-// The component of a node that holds triangles of several.
+// The component of a node that holds triangles of several components.
 inline constexpr std::int32_t mixed_components = -1;
 
 class BoundingVolumeTree {
@@ -165,8 +165,8 @@ class BoundingVolumeTree {
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
                             const SteppedMesh& motion) const;
 
-  // Grows boxes from the next refit on, so that triangles that come within `distance` of each other
-  // have boxes that are not apart.
+  // Grows boxes from the next refit on, so that the boxes of triangles that come within `distance`
+  // of each other are not apart.
   void grow_boxes(double distance) {
     separation_ = distance;
     forget_fit();
@@ -187,7 +187,8 @@ class BoundingVolumeTree {
 
  private:
   struct Builder;
-  // Where the positions of a motion lie. The strides count: two views may begin at one place.
+  // Where the positions of a motion lie. Strides are compared too, because two views may begin at
+  // the same address.
   struct Arrays {
     explicit Arrays(const SteppedMesh& motion)
         : t0(motion.vertices_t0.data()),

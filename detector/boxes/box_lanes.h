@@ -20,8 +20,8 @@ struct BoxRows {
   std::size_t end = box_lanes::rows / 2;  // the first row of the bounds at t=1; 0 at rest
 };
 
-// A set of boxes of b, as bits, for each box i of a: first the boxes that i is to be compared with,
-// afterwards those of them that i is not apart from.
+// A set of boxes of b, as bits, for each box i of a. Before compare_all these are the boxes to
+// compare i with; afterwards only those that i is not apart from.
 using LaneSets = std::uint8_t[box_lanes::width];
 
 // A corner of a triangle at one end of the step: its rounded coordinates and a 0, then its sums
@@ -48,16 +48,16 @@ namespace feature_bits {
 }  // namespace feature_bits
 
 struct BoxKernels {
-  // Clears the bits of the boxes that are apart. box_of_a bounds all boxes of a, box_of_b all of b,
-  // each by one float for each row of a box; they spare comparisons. Returns how many boxes were
+  // Clears the bits of the boxes that are apart. box_of_a bounds all boxes of a, box_of_b all boxes
+  // of b; each has one float for each row. They save comparisons. Returns how many boxes were
   // compared. REQUIRES that both move, or that both are at rest.
   std::uint32_t (*compare_all)(const BoxRows& a, const float* box_of_a, const BoxRows& b,
                                const float* box_of_b, LaneSets& sets);
   // Returns, as bits, the boxes of b that are not apart from `box`, which has one float for each of
   // their rows.
   std::uint32_t (*compare_one)(const float* box, const BoxRows& b);
-  // Returns those bits of `pairs` (feature_bits) whose features have boxes that are not apart by
-  // more than the margin, which has eight floats; 0 if the two triangles are apart. A corner at t=1
+  // Returns the bits of `pairs` (feature_bits) whose features have boxes that are not apart by more
+  // than the margin; 0 if the two triangles are apart. The margin has eight floats. A corner at t=1
   // stands to_end floats after the same corner at t=0. An `at_start` bit compares an edge and a
   // face by their boxes at t=0 alone. Edge i is opposite to corner i.
   std::uint32_t (*compare_features)(const TriangleCorners& a, const TriangleCorners& b,

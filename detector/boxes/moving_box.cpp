@@ -17,11 +17,11 @@ FloatGrid::FloatGrid(const SteppedMesh& motion, PacedStop* pace) {
   const auto [lo, hi] = bounds_of(ends * static_cast<std::size_t>(motion.size()), place, pace);
   if (pace && pace->stopped()) return;
   for (std::size_t k = 0; k < 3; ++k) {
-    // Halves first: neither sum nor difference overflows.
+    // Halved first, so that neither sum nor difference overflows.
     centre_[k] = 0.5 * lo[k] + 0.5 * hi[k];
     int exponent = 0;
     std::frexp(0.5 * hi[k] - 0.5 * lo[k], &exponent);
-    // 2^-1024 is a double, if no normal one, and products with it are rounded in order.
+    // 2^-1024 is a subnormal double; rounding of products with it keeps order.
     constexpr int least_exponent = -1022, greatest_exponent = 1024;
     scale_[k] = std::ldexp(1.0, -std::clamp(exponent, least_exponent, greatest_exponent));
     common_scale_ = k == 0 ? scale_[k] : std::min(common_scale_, scale_[k]);
@@ -44,7 +44,7 @@ bool RoundedPositions::assign(const SteppedMesh& motion, PacedStop& pace) {
 
 double place_between(double from, double to, double share) {
   const double way = to - from;
-  // The difference of the greatest doubles is none.
+  // The difference of the greatest doubles overflows.
   const double at = std::isfinite(way) ? from + share * way : (1 - share) * from + share * to;
   return std::clamp(at, std::min(from, to), std::max(from, to));
 }

@@ -97,7 +97,7 @@ Bounds bounds_of(std::size_t count, PointOf point, PacedStop* pace) {
 // The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
 // once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
 // NaN. The centre lies between positions of the step, so their differences from the centre do not
-// overflow. Those of other points may overflow, to infinities that are still in order.
+// overflow. Differences of other points may overflow, to infinities that are still in order.
 class FloatGrid {
  public:
   FloatGrid() = default;
@@ -120,11 +120,11 @@ class FloatGrid {
 
   // Returns margins in floats for a distance d, 0 for d = 0. Two points are farther apart than d
   // along an axis if they are ordered along it by more than margin(d), or if their boxes are apart
-  // although each was grown by half of margin(d). They are farther by 2^-22 or more of the length
-  // that the grid brings to 1.
+  // although each was grown by half of margin(d). Their distance then exceeds d by 2^-22 or more of
+  // the length that the grid brings to 1.
   //
   // f(x) is off by at most 2^-23: |(x - centre) scale| <= 2 is rounded to float, and to double
-  // before. Let D = d scale, m = D (1 + 2^-20) + 2^-20, and a margin or a bound of a grown box be
+  // before. Let D = d scale and m = D (1 + 2^-20) + 2^-20. A margin, or a bound of a grown box, is
   // rounded by 2^-24 (2 + m) at most. Boxes are compared after two such roundings. So the order
   // proves that the scaled coordinates differ by more than
   //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40
@@ -143,10 +143,10 @@ class FloatGrid {
     return margin_of(root * (d * common_scale_));
   }
 
-  // Returns, by axis, how far positions may be off if features that boxes with a margin told apart
-  // are to stay apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h).
-  // It is negative if that error is larger, and NaN if the unit is no double: no position is so
-  // near.
+  // Returns, by axis, how far positions may move while features that boxes with a margin told apart
+  // stay apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h). It is
+  // negative if that error is larger, and NaN if the unit is no double; then no position is near
+  // enough.
   std::array<double, 3> tolerance() const {
     const auto r = [&](int k) {
       const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;

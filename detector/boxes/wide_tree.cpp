@@ -10,8 +10,8 @@ namespace {
 
 using box_lanes::width;
 
-// Writes the bounds of a box in the order of the rows, so far from each other; those at t=1 only of
-// a mesh that moves.
+// Writes the bounds of a box in the order of the rows, `stride` floats apart; those at t=1 only if
+// the mesh moves.
 void write_rows(const MovingBox& box, bool moves, float* first, std::size_t stride) {
   const auto three = [&](std::size_t row, FloatLanes bounds) {
     for (std::size_t k = 0; k < 3; ++k) first[(row + k) * stride] = bounds[k];
@@ -56,7 +56,8 @@ struct WideTree::Builder {
     while (count < width) {
       std::size_t largest = width;
       for (std::size_t i = 0; i < count; ++i) {
-        // What holds one component is not opened beside others: it is a node of its own.
+        // Beside other components, a subtree of one component stays closed: it is a node of its
+        // own.
         const bool may_open = mixed ? is_mixed(subtrees[i]) : !is_small(subtrees[i]);
         if (may_open &&
             (largest == width || subtrees[i].triangles() > subtrees[largest].triangles())) {
@@ -75,8 +76,8 @@ struct WideTree::Builder {
     return count;
   }
 
-  // A node of a few triangles has a first half no larger than the second, so its leaves follow each
-  // other as their numbers do.
+  // In a node of a few triangles the first half is no larger than the second, so the order of its
+  // leaves is that of their numbers.
   void add_triangles(const Subtree& of, std::size_t slot) {
     if (binary.is_leaf(of.top)) wide.slots_[slot] = {of.top, binary.triangle(of.top)};
     for (auto node = of.first; node < of.last; ++node) {
@@ -109,7 +110,7 @@ struct WideTree::Builder {
 };
 
 WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
-  // What a mesh of few components needs. Of others the lists grow, and are cut to size.
+  // Enough for a mesh of few components. For other meshes the lists grow, and are cut to size.
   const std::size_t triangles = binary.node_count() / 2 + 1, expected = triangles / 6 + width;
   nodes_.reserve(expected);
   binary_of_.reserve(expected);

@@ -26,7 +26,8 @@ struct FilterSearch {
     if (want == Want::yes_no) return;
     result.lo = piece.lo;
     result.hi = piece.hi;
-    // Then F has exactly one root: its coefficients change sign once, whatever the uncertain are.
+    // Then F has exactly one root: its coefficients change sign once, whatever the uncertain signs
+    // are.
     const bool single =
         sign_beyond(piece.f[1], f_bound) == f_lo || sign_beyond(piece.f[2], f_bound) == -f_lo;
     result.time_bracketed = all_free && single;
@@ -39,7 +40,7 @@ struct FilterSearch {
   FilterResult result{Decision::no};
 };
 
-// `is_below` says of two numbers whether the first is below the other, by as much as is asked.
+// is_below(a, b) says whether a is below b, by more than the gap that is asked for.
 template <class IsBelow>
 bool are_separated(const FourPoints& query, const IsBelow& is_below) {
   const int split = query.first_group;
@@ -98,7 +99,7 @@ struct BoundedSearch {
 }  // namespace
 
 bool separated_along_an_axis(const FourPoints& query, double by) {
-  // A plain comparison is faster than a difference, and most questions are of contact.
+  // A plain comparison is faster than a difference, and most queries ask for contact.
   if (by == 0) return are_separated(query, [](double a, double b) { return a < b; });
   return are_separated(query, [by](double a, double b) { return b - a > by; });
 }
@@ -131,11 +132,11 @@ ContactResult bounded_contact(const FourPoints& query, Want want) {
 //   split at s       | three such levels                      | as before + 7.5 B         | B
 //   halved           | (x + y) / 2 at three levels            | as before + 3 B           | B
 //
-// Of the 2.5 B of a level 1 - s costs B / 2, because it is at most 1; its product with x costs
-// (1 - s) B, the product of s and y costs s B, and the sum costs B. The bound so far is at most B,
-// or no sign is sure, so the sum of it and of what is added costs B more. The code adds 9 B for a
-// split and 5 B for a halving; what is left is slack. s itself is exact: a time t in [lo,hi] and
-// lo are multiples of the last place of t, so t - lo is a double, and hi - lo is a power of two.
+// In the 2.5 B of a level, 1 - s costs B / 2, because it is at most 1; its product with x costs
+// (1 - s) B, the product of s and y costs s B, and the sum costs B. The bound so far is at most B
+// (else no sign is sure), so adding to it costs B more. The code adds 9 B for a split and 5 B for a
+// halving; the rest is slack. s itself is exact: a time t in [lo,hi] and lo are multiples of the
+// last place of t, so t - lo is a double, and hi - lo is a power of two.
 
 namespace {
 

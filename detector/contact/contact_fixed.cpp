@@ -79,7 +79,7 @@ class FixedSearch {
   }
 
   // Whether there is a contact where the points are collinear: along the first axis on which they
-  // do not coincide, the groups must not be apart.
+  // differ, the groups have to overlap or touch.
   template <class SignThere>
   bool meet_on_line(SignThere sign_there) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,7 +101,7 @@ class FixedSearch {
     if (coplanar_ || f.changes > 0) {
       const Decision inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
       if (inside == Decision::open && depth < max_fixed_depth) {
-        // The piece keeps what it has computed, and its halves are made of that.
+        // halves() needs all dependencies. The piece keeps those that it has computed already.
         for (std::size_t k = 0; k < 3; ++k) piece.dependency(k, products_);
         for (Piece& half : piece.halves()) {
           const Decision found = visit(half, depth + 1);
@@ -349,7 +349,7 @@ std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, doubl
     const int sign_lo = root.sign_at(lo);
     assert(sign_lo != 0);
     const TimeEnclosure time = root.bracket(sign_lo, lo, hi, guess);
-    // An end that has moved is one at which the sign was seen.
+    // An end moves only to a time at which the sign was seen.
     assert(time.hi != hi || root.sign_at(hi) == -sign_lo);
     return time;
   });

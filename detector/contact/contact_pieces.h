@@ -44,8 +44,8 @@ constexpr auto quadratic_error(int depth) {
 template <class Number>
 struct ContactPiece {
   CubicOf<Number> f;
-  // L_k,i of the notation, by axis k. Each coefficient holds those of all four points i side by
-  // side.
+  // L_k,i of the notation, by axis k. Each coefficient holds the coefficients of the four points i
+  // side by side.
   std::array<QuadraticOf<std::array<Number, 4>>, 3> dependencies;
   Number lo, hi;  // dyadic: exact
 };
@@ -197,7 +197,7 @@ class ContactPieces {
 };
 
 // Guesses a root in [0,1] of a cubic whose values at 0 and 1 differ in sign. It makes Newton steps,
-// and halves where a step would leave the bracket. How near the guess is is not promised.
+// and halves where a step would leave the bracket. It promises nothing about its accuracy.
 template <class Number>
 Number guess_root(const CubicOf<Number>& b) {
   const Number c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]);

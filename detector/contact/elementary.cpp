@@ -12,12 +12,12 @@ namespace {
 // surely_later() has two proofs, each in doubles and then, if these cannot tell, in integers.
 //
 // Order along an axis. If the two groups are strictly ordered along an axis at t=0 and in the same
-// sense at `until`, they are so between, because every point moves linearly.
+// sense at `until`, they are ordered at all times between, because every point moves linearly.
 //   Doubles: with M the largest size of a coordinate along the axis, x + until (y - x) is off by
-//   less than 8 M u + 2^-1073 (boxes/moving_box.h), and so each of two bounds that are
+//   less than 8 M u + 2^-1073 (boxes/moving_box.h), and so is each of the two bounds that are
 //   compared.
-//   Integers: (2^62 - m) x + m y, where m 2^-62 is `until` rounded up, which proves no less. It has
-//   62 bits more than a coordinate, so W + 1 limbs hold it.
+//   Integers: (2^62 - m) x + m y, where m 2^-62 is `until` rounded up, which proves no less. This
+//   sum has 62 bits more than a coordinate, so W + 1 limbs hold it.
 //
 // Coplanarity. The cubic F (contact_pieces.h) has no zero in [0, until] if its Bernstein
 // coefficients over that piece have one sign, and the first and the last are not 0. De Casteljau's
@@ -36,7 +36,7 @@ struct GroupBounds {
   std::array<T, 2> lo, hi;
 };
 
-// value(i): of point i.
+// value(i) is the value of point i.
 template <class Value>
 auto bounds_of(int first_group, const Value& value) {
   using T = decltype(value(std::size_t{}));
@@ -62,13 +62,12 @@ int order_at_start(const FourPoints& query, std::size_t axis) {
 // With u = 2^-53 a place x + s (y - x), s in [0,1], is off by less than 8 M u + 2^-1073, and a
 // coefficient of F over [0,s] by at most 90 u MxMyMz more than one over [0,1]. M bounds |x| and
 // |y|, and 2 M is a double. The difference, at most 2 M, is off by 2 M u; its product with s by 2 M
-// u more and by 2^-1075 if it underflows; the sum, at most M and what it is off by, by M u and less
-// than M u more. De Casteljau's scheme takes three levels of such sums on coefficients of at most B
-// = 6 MxMyMz: the difference is off by 2 u B, the product by 2 u B and the sum by u B, so a level
-// adds 5 u B, and three add 90 u MxMyMz; what the operands are off by is averaged.
+// u more and by 2^-1075 if it underflows; the sum, at most M beside its error, by less than 2 M u
+// more. De Casteljau's scheme takes three levels of such sums on coefficients of at most B = 6
+// MxMyMz: the difference is off by 2 u B, the product by 2 u B and the sum by u B, so a level adds
+// 5 u B, and three add 90 u MxMyMz; the errors of the operands are averaged.
 
-// By how much the gap between the groups, in this order, is open at `until`: yes, no, or too little
-// for doubles to tell.
+// Whether the groups are still in this order at `until`; `open` if doubles cannot tell.
 Decision stays_ordered(const FourPoints& query, std::size_t axis, int order, double until) {
   double largest = 0;
   const auto there = bounds_of(query.first_group, [&](std::size_t i) {

@@ -23,7 +23,8 @@ struct ContactResult {
 };
 
 // In each arithmetic axis order comes first, on the inputs as they are given. In exact arithmetic
-// it takes 0.1 to 1 us in the mean for candidates of a mesh; a hit's time costs about 1 us more.
+// the test takes 0.1 to 1 us on average for candidates of a mesh; the time of a contact costs about
+// 1 us more.
 ContactResult test_contact(const FourPoints& query, Want want,
                            Arithmetic arithmetic = Arithmetic::exact);
 

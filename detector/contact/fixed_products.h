@@ -240,7 +240,7 @@ struct FixedPiece {
   double lo, hi;                                          // dyadic, and so exact
 
   // Returns the dependency of this axis, computed now if it is not there yet. Only a piece that is
-  // the whole step can lack one, because halves() hands all of them on.
+  // the whole step can lack a dependency, because halves() hands all of them on.
   const Dependency& dependency(std::size_t axis, const FixedProducts<W>& products) {
     auto& l = dependencies[axis];
     if (!l) l = products.dependency(axis);

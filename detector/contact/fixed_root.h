@@ -34,7 +34,7 @@ Integer integer_of(const FixedInteger<limbs>& value) {
 template <std::size_t W>
 class FixedRoot {
  public:
-  // b: B0..B3. bits: those of a coordinate; they only scale guesses.
+  // b: B0..B3. bits: the bits of a coordinate; they only scale guesses.
   FixedRoot(const FixedCubic<FixedInteger<3 * W>>& b, int bits) : bits_(bits) {
     const auto b0_3 = b[0] + b[0] + b[0];
     c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
@@ -110,7 +110,8 @@ class FixedRoot {
 //   a^2 L(-b/a)                       | 3 * 2^(10c + 82)          | 10c + 84
 //   l1^2 Q(-l0/l1)                    | 3 * 2^(6c + 48)           | 6c + 50
 //
-// They are products of factors with a limb more than W for each c, so all of them fit.
+// Each is a sum of products of such q and l. Products add up the limbs of their factors, 2 W + 1
+// each, so all of them fit.
 template <std::size_t W>
 int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
                  const FixedQuadratic<FixedInteger<2 * W>>& other, int l_before) {

@@ -36,9 +36,9 @@ FilterResult filter_contact(const FourPoints& query, Want want);
 
 // How often pieces are halved. A halving takes 40 ns, and integers (contact_fixed.cpp) take 2 us.
 // If the sign of the cubic is sure at both ends of a piece, halving soon finds the part with the
-// root, and the signs of the dependencies there. Of 5,171 queries of a simulation, these depths
-// leave 37 open; a depth of two leaves 1,097 open. If a sign is not sure, as at a contact just at
-// t=0 or where points stay coplanar, more halvings are mostly in vain. They are also mostly in vain
+// root, and the signs of the dependencies there. These depths leave 37 of 5,171 queries of a
+// simulation open; a depth of two leaves 1,097. If a sign is not sure, as at a contact just at t=0
+// or where points stay coplanar, more halvings are mostly in vain. They are also mostly in vain
 // after a piece that stays open.
 inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
@@ -55,8 +55,8 @@ ContactResult bounded_contact(const FourPoints& query, Want want);
 // and hi are k / 2^n with n <= 32, and that the cubic has different signs, beyond the bound, at
 // the two ends. For each cubic that f may stand for, the closed interval of the result holds its
 // first root in [lo,hi]: it begins at a time up to which there is surely no root, and ends at one
-// by which the sign has surely changed. How far apart these are is not promised. 0.1 us; 1 us if
-// roots are close together.
+// by which the sign has surely changed. It promises nothing about the width of the interval. 0.1
+// us; 1 us if roots are close together.
 TimeEnclosure enclose_first_root(const Cubic& f, double bound, double lo, double hi);
 
 // The elementary test in plain doubles or floats: the ladder with bounds 0 and no integers. It

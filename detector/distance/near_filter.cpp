@@ -6,7 +6,8 @@ namespace assay::detector {
 namespace {
 
 // The case analysis of Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9. Every share
-// along an edge is kept in [0,1], so that no degenerate feature leads to a place outside of it.
+// along an edge is kept in [0,1], so that the place stays on the edge even if the feature is
+// degenerate.
 
 Vector operator-(const Vector& a, const Vector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -39,7 +40,7 @@ Vector of_face(const Vector& a, const Vector& b, const Vector& c) {
   return (a + share(q, p + q + r) * ab) + share(r, p + q + r) * ac;
 }
 
-// From the edge of c and e to that of the origin and b.
+// Returns the vector from the edge ce to the edge of the origin and b, between nearest places.
 Vector between_edges(const Vector& b, const Vector& c, const Vector& e) {
   const Vector v = e - c;
   const double bb = dot(b, b), vv = dot(v, v), bv = dot(b, v), cb = dot(c, b), cv = dot(c, v);
@@ -85,7 +86,7 @@ class NearFilter {
     if (!is_in_range_) return {};
     Instant now = instant(0, at_start_);
     if (is_surely_near(now.size)) return {Decision::yes, 0, 0, 0};
-    double fall = 0;  // of the distance since the instant before, by time
+    double fall = 0;  // of the distance in unit time, since the instant before
     for (int i = 0; i < max_advances; ++i) {
       const Heights from = heights(now.n, now.x), to = heights(now.n, at_end_);
       const double gap = least_gap(from);
@@ -111,16 +112,16 @@ class NearFilter {
   }
 
  private:
-  // The points at a time, the vector n of that time with length 1, and the distance there. A gap
-  // along n above the level keeps apart by d.
+  // The points at a time, the vector n of that time with length 1, and the distance there. If a gap
+  // along n is above the level, the features are farther apart than d.
   struct Instant {
     double time;
     SeenPoints x;
     Vector n;
     double size, level;
   };
-  // Of the pairs of corners one whose gap first falls to a level: at which share of the piece, and
-  // how fast, by the piece.
+  // The gap of a pair of corners that is the first to fall to a level: the share of the piece at
+  // which it does, and its fall over the piece.
   struct Descent {
     double share = 1, rate = 0;
   };
@@ -135,16 +136,16 @@ class NearFilter {
 
   bool is_surely_near(double size) const { return length_slack * size + place_bound_ <= d_; }
 
-  // The time at which the distance comes to d if it falls on as before, less what bounds take. The
-  // end of the step if it does not fall.
+  // Returns the time at which the distance reaches d, less the bounds, if it goes on falling at
+  // this rate; the end of the step if it does not fall that far.
   double foreseen(const Instant& now, double fall) const {
     constexpr double bounds = 8;
     const double left = now.size - d_ - bounds * (gap_bound_ + place_bound_);
     return left < fall * (1 - now.time) ? now.time + left / fall : 1;
   }
 
-  // Whether the features are proved to be farther apart than d between two instants, by the n that
-  // goes from that of the one to that of the other. REQUIRES that n proves it at the first.
+  // Whether a vector that goes linearly from the n of one instant to the n of another proves the
+  // features farther apart than d in between. REQUIRES that n proves it at the first instant.
   bool keeps_apart(const Instant& from, const Instant& to) const {
     if (!(to.time > from.time) || !(least_gap(heights(to.n, to.x)) > to.level)) return false;
     const Heights a = heights(from.n, to.x), b = heights(to.n, from.x);

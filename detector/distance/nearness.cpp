@@ -64,8 +64,9 @@ bool holds_at(const RealRoot& time, const NearRegion<Polynomial>& region) {
   return true;
 }
 
-// Looks at a short piece [lo,hi] of the step in balls. Each region is then surely not near in it,
-// or its conditions surely hold in it, or neither is sure. Returns nothing if some are not sure.
+// Looks at a short piece [lo,hi] of the step in balls. Says for each region whether its conditions
+// hold in the piece; they need not if the region is surely not near there. Returns nothing if that
+// is not sure for some region.
 std::optional<std::array<bool, 9>> regions_that_hold(const FourPoints& query, double d, double lo,
                                                      double hi) {
   constexpr double least_width = 0x1p-900;
@@ -108,7 +109,7 @@ std::optional<TimeEnclosure> time_in_piece(const FourPoints& query, double d, do
   std::optional<TimeEnclosure> first;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (!(*holds)[i]) continue;
-    // Where its conditions hold a region is as far as the features at least: f(lo) > 0.
+    // Where its conditions hold, the faces of a region are no nearer than the features: f(lo) > 0.
     const Polynomial f = regions[i].f;
     const int at_hi = f.sign_at(Dyadic::of(hi));
     const SignChanges changes = sign_changes_over(f, Dyadic::of(lo), Dyadic::of(hi));

@@ -73,7 +73,7 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 
 inline constexpr double gap_error = 36 * unit_roundoff;    // times M |n|
 inline constexpr double place_error = 72 * unit_roundoff;  // times M
-// How much a length in doubles, or a product of it with d, may be too small, as a factor.
+// The factor by which a length in doubles, or its product with d, may be too small.
 inline constexpr double length_slack = 1 + 8 * unit_roundoff;
 
 struct NearResult {

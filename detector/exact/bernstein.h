@@ -186,7 +186,7 @@ int sign_beyond(T value, T bound) {
 // interval.
 template <class T, std::size_t n>
 int sure_sign(const std::array<T, n>& b, T bound) {
-  // By values and not by places, which would take branches.
+  // Keeps values and not their places, because places would take branches.
   T least = b[0], greatest = b[0];
   for (std::size_t i = 1; i < n; ++i) {
     least = std::min(least, b[i]);

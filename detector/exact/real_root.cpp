@@ -123,8 +123,8 @@ std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
 
 namespace {
 
-// The signs of a polynomial just inside the ends of an open interval: where it vanishes at an end,
-// the first of its derivatives that does not tells.
+// The signs of a polynomial just inside the ends of an open interval. If the polynomial vanishes at
+// an end, its first derivative that does not vanish there gives the sign.
 struct EndSigns {
   int after_lo, before_hi;
 };

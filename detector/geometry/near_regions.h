@@ -114,8 +114,8 @@ class NearRegions {
 
 enum class Near { within, nearer };  // at most the distance, or less than it
 
-// Returns whether the features are so near at the instant of the numbers: whether some region holds
-// there. Cheap regions are tried first.
+// Returns whether the features are within the distance (or nearer than it) at the instant of the
+// numbers, which means that some region holds there. Cheap regions are tried first.
 template <class Number>
 bool some_region_holds(const NearRegions<Number>& regions, Near near) {
   for (std::size_t i = regions.size(); i-- > 0;) {
@@ -138,7 +138,7 @@ bool vertex_is_nearer_to_face(const Point& p, const std::array<Point, 3>& face, 
 bool edges_are_nearer(const std::array<Point, 2>& a, const std::array<Point, 2>& b, double r);
 
 // The same for two triangles that share no vertex: true if they pierce each other, or if a feature
-// of one is that near to a feature of the other.
+// of one is nearer than r to a feature of the other.
 bool triangles_are_nearer(const std::array<Point, 3>& a, const std::array<Point, 3>& b, double r);
 
 }  // namespace assay::detector

@@ -30,8 +30,8 @@ constexpr int reach = 1000;
 // The work on a triangle (its size, one cast) and on a ray (one aim), in box tests.
 constexpr std::uint64_t work_of_size = 1, work_of_cast = 2, work_of_aim = 10;
 
-// The n-th direction to try, from a fixed recurrence: the same on every machine, and not one that
-// many edges are likely to be parallel to.
+// The n-th direction to try, from a fixed recurrence. It is the same on every machine, and unlikely
+// to be parallel to many edges.
 RayDirection direction_number(int n) {
   std::uint32_t state = 0x9e3779b9u * static_cast<std::uint32_t>(n + 1);
   RayDirection r{};
@@ -71,7 +71,7 @@ struct Ray {
   std::int32_t outward_of = -1;  // the triangle whose outside is asked for
   std::optional<int> winding;
 
-  // What the direction that is tried at present has shown.
+  // The findings of the direction that is tried at present.
   Shadow shadow{};
   bool reversed = false, met_edge = false, on_surface = false;
   int sum = 0;
@@ -160,9 +160,9 @@ class Crossings {
     const bool some_negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
     if (some_positive && some_negative) return;  // the line passes by
     const bool all_zero = s[0] == 0 && s[1] == 0 && s[2] == 0;
-    // A triangle of zero area is not crossed. If the line meets the segment that is left of it, it
-    // meets an edge of a neighbour too, and that gives the direction up. A triangle that is only a
-    // point would give up every direction.
+    // A triangle of zero area is passed over. If it is a segment that the line meets, the line
+    // meets an edge of a neighbour too, which rules the direction out. A triangle that is only a
+    // point would rule out every direction.
     if (all_zero && sure_of_zero_area(t)) return;
     // The line is not parallel to the triangle's plane, and the origin lies in that plane. So the
     // origin is the place where the line meets the triangle, perhaps at an edge, and every other

@@ -27,10 +27,10 @@ std::optional<int> winding_number(const Topology& mesh, std::span<const std::int
 
 // Returns the winding number w just outside each of the triangles `queries`, on the side of its
 // normal. The layer of that triangle is (w + 1, w). REQUIRES that a triangle of `queries` touches
-// no other triangle of `triangles` beyond shared vertices. There is none for a triangle of zero
-// area, and none if `pace` was stopped. All numbers together cost as much as about two winding
-// numbers of points (half of the rays point the wrong way at the first try), plus 50 ns for each
-// triangle whose shadow a ray meets.
+// no other triangle of `triangles` beyond shared vertices. A triangle of zero area has no such
+// number; none is returned if `pace` was stopped. All numbers together cost as much as about two
+// winding numbers of points (half of the rays point the wrong way at the first try), plus 50 ns for
+// each triangle whose shadow a ray meets.
 std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,

@@ -25,8 +25,9 @@ namespace assay::detector {
 
 // Says which pairs the relation is about. `features` are pairs of a vertex and a face, or of two
 // edges, that share no vertex; most detectors filter these. At this level a pair of triangles is in
-// contact when one of its counted feature pairs is. Its first time is the least of theirs. An edge
-// that pierces a face at t=0 counts if some feature pair of the two triangles does.
+// contact when one of its counted feature pairs is. Its first time is the least time of these
+// feature pairs. An edge that pierces a face at t=0 counts if some feature pair of the two
+// triangles does.
 enum class CountedLevel : std::uint8_t { triangles, features };
 constexpr auto names_of(CountedLevel) {
   using enum CountedLevel;

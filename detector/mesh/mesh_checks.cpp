@@ -63,7 +63,7 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
   return std::nullopt;
 }
 
-// Triangles with the same three vertices are among those of one lowest vertex.
+// Triangles with the same three vertices have the same lowest vertex.
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace) {
   const auto vertices = static_cast<std::size_t>(vertex_count);

@@ -1,5 +1,5 @@
-// Asks a stop function once for every so many units of work: often enough to end in time, and so
-// seldom that asking costs next to nothing.
+// Asks a stop function once in each interval of work: often enough to end in time, and so seldom
+// that asking costs next to nothing.
 //
 // The unit of work is the cost of a box test, about 5 ns. Callers count their work roughly. A stop
 // function may ask the system how much memory there is, which takes 10 us. Once it has returned
@@ -75,7 +75,7 @@ class PacedStop {
 };
 
 // Calls body(i) for i = 0 .. count - 1, and counts work_of_each for each call. The loop runs in
-// pieces, and only between pieces is the pace asked, so that asking does not slow the body down.
+// pieces, and the pace is asked only between pieces, so that asking does not slow the body down.
 // Returns false if the pace was stopped after some piece. Without a pace (null) all calls are made.
 template <class Body>
 bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {

@@ -77,7 +77,7 @@ struct NarrowCounts {
 
 struct ViewCounts {
   std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
-  std::uint64_t open = 0;  // triangles that bounded arithmetic could not tell: they count as zero
+  std::uint64_t open = 0;  // triangles whose sign bounded arithmetic cannot tell: taken for zero
 
   ViewCounts& operator+=(const ViewCounts& other) {
     lanes += other.lanes;
@@ -92,7 +92,7 @@ struct GhostCounts {
   std::uint64_t box_tests = 0;
   std::uint64_t pairs = 0;             // ghosts and triangles with moving boxes that are not apart
   std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order left open
-  // The triangles of those pairs that the sweep of the step itself met, each counted once.
+  // The triangles of these pairs, each counted once; only the sweep of the step itself counts them.
   std::uint64_t near_triangles = 0;
 
   // Returns the work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested

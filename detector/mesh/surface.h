@@ -23,9 +23,9 @@ using Loop = std::vector<std::int32_t>;
 // Splits the unmatched edges into closed walks; there are none for a cycle. If the triangles use
 // the directed edge (u,v) k times more often than (v,u), it is unmatched k times. Whatever the
 // triangles are, as many unmatched edges enter a vertex as leave it, so a split into closed walks
-// exists. Any split would do (L12, detector/LAWS.md). The one made here is the same on every
+// exists. Any split would do (L12, detector/LAWS.md). The split made here is the same on every
 // machine: a walk starts with the lowest unused unmatched edge, and from each vertex it takes the
-// lowest unused one that leaves it, until none is left there. O(N + M).
+// lowest unused edge that leaves it, until none is left there. O(N + M).
 std::vector<Loop> boundary_loops(const Topology& mesh);
 // The same with a pace. If `pace` was stopped the result is of no use.
 std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace);

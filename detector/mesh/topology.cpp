@@ -19,10 +19,10 @@ bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedS
   return list_by_row(mesh.triangles.size(), vertex_count, vertices, mesh.vertex_triangles, pace);
 }
 
-// An edge of a triangle, among those of one lower vertex: its higher vertex, the corner opposite to
-// it (3 times the triangle, and the place there), whether the triangle passes it in descending
-// direction, and, once they are sorted, whether it is the first use of its edge. Corners have 31
-// bits, because meshes are limited for that (mesh_checks.h).
+// A triangle's use of an edge, in the list of the edge's lower vertex: the higher vertex, the
+// opposite corner (3 times the triangle, plus the place in it), whether the triangle passes the
+// edge in descending direction and, once the list is sorted, whether this is the edge's first use.
+// Corners have 31 bits, because meshes are limited for that (mesh_checks.h).
 using EdgeUse = std::uint64_t;
 
 namespace edge_use {
@@ -38,8 +38,8 @@ constexpr auto corner(EdgeUse use) {
 }
 }  // namespace edge_use
 
-// The edges of some vertices to higher ones. Their uses are in the triangles around these vertices,
-// so they need no sort but that of the few uses at each vertex. Edges are numbered as they come.
+// The edges from some vertices to higher ones. All of their uses are in the triangles around these
+// vertices, so only the few uses at each vertex are sorted. Edges are numbered as they come.
 class EdgesOfVertices {
  public:
   EdgesOfVertices(Topology& mesh, std::int32_t begin, std::int32_t end) : mesh_(mesh) {
@@ -48,7 +48,8 @@ class EdgesOfVertices {
     for (auto v = begin; v < end; ++v) collect(v, around.row(v));
   }
 
-  // The first numbers that these edges and their uses get; sets those that come after them.
+  // Takes the first numbers of these edges and their uses, and sets both to the numbers that
+  // follow.
   void begin_at(std::size_t& edge, std::size_t& use) {
     first_edge_ = static_cast<std::int32_t>(std::exchange(edge, edge + count_));
     first_use_ = static_cast<std::int32_t>(std::exchange(use, use + uses_.size()));
@@ -115,8 +116,8 @@ class EdgesOfVertices {
   std::int32_t first_edge_ = 0, first_use_ = 0;
 };
 
-// In pieces, because so the uses of one that is written are still in the fastest cache. The workers
-// share some of these out at a time.
+// Edges are made in pieces, so that the uses of a piece are still in the fastest cache when it is
+// written. The workers share a few pieces at a time.
 bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   constexpr std::size_t of_piece = 512, pieces_of_worker = 8;
   constexpr std::uint64_t work_of_vertex = 2 * work_of_triangle;

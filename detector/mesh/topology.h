@@ -50,8 +50,8 @@ struct Topology {
   std::vector<UnmatchedEdge> unmatched;  // ascending by edge
   std::vector<Component> components;     // ascending by their lowest vertices
   std::vector<std::int32_t> component_of_triangle;
-  // False only if no two triangles have the same three vertices: every edge has one triangle, or
-  // two that differ in their third vertex.
+  // If false, no two triangles have the same three vertices: every edge has one triangle, or two
+  // that differ in their third vertex.
   bool may_repeat_triangles = false;
 };
 

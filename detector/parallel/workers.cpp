@@ -13,8 +13,8 @@ namespace {
 using State = ProcessorState::State;
 
 #if defined(__SSE2__)
-// MXCSR as a program starts with it: nothing traps, and all else is 0. The lowest six bits only say
-// what arithmetic has met.
+// MXCSR as a program starts with it: nothing traps, and all else is 0. The lowest six bits are
+// flags of the exceptions that arithmetic has met.
 constexpr State needed = 0x1F80, flags = 0x3F;
 
 State state_now() { return _mm_getcsr(); }

@@ -1,10 +1,9 @@
 // The threads of one detector, and the state of the processor in which they compute. They work on
 // the pieces of a loop at the same time; everything else is done by the calling thread.
 //
-// A piece writes only to places of its own or of its lane, and what lanes have gathered is put
+// A piece writes only to places of its own or of its lane, and the results of lanes are put
 // together in a way that does not depend on their order. So a result does not depend on how many
-// threads there are, nor on which of them did what. A loop returns when all of its pieces are
-// done.
+// threads there are, nor on which of them did what. A loop returns when all of its pieces are done.
 #pragma once
 
 #include <atomic>

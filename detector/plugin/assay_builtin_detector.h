@@ -72,10 +72,10 @@ typedef struct assay_builtin_error {
 } assay_builtin_error;
 
 /* The values of the options. The default culling is ASSAY_CULLING_AUTO; every other option has the
- * value 0 by default. What the options mean for the result is in detector/README.md. */
+ * value 0 by default. detector/README.md says what the options mean for the result. */
 enum {
   ASSAY_CULLING_VIEW_AUTO = 0,   /* each component seen from a point or a segment, whichever sees
-                                    more; a step in which that does not pay is one of bvh */
+                                    more; bvh in steps in which that does not pay */
   ASSAY_CULLING_VIEW_POINT = 1,  /* each component seen from a point */
   ASSAY_CULLING_VIEW_LINE = 2,   /* each component seen from a segment */
   ASSAY_CULLING_NORMAL_CONE = 3, /* a tree of boxes, less patches with a normal cone and a simple
@@ -85,7 +85,7 @@ enum {
   ASSAY_CULLING_AUTO = 6         /* view_auto and normal_cone in one descent, each used only where
                                     it is expected to pay */
 };
-/* What is known at a new start. detector/LAWS.md says what clean and dirty mean. */
+/* The triangles taken for clean at a new start. detector/LAWS.md defines clean and dirty. */
 enum {
   ASSAY_START_VERIFIED = 0, /* the detector finds out at each new start what is clean */
   ASSAY_START_CLEAN = 1,    /* the caller vouches that nothing is in contact and that all triangles

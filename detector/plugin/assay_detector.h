@@ -35,7 +35,7 @@
  *
  * PARTS. A library may hold less than a detector of whole steps: one elementary query
  * (vertex-face, edge-edge), the candidate pairs of a broad phase, or a limiter, which says how far
- * a step may be gone. It fills in the functions that it has and sets the others to NULL. evaluate,
+ * a step may be taken. It fills in the functions that it has and sets the others to NULL. evaluate,
  * commit and result stand together; they, candidates and limit need create and destroy.
  *
  * VERSIONS. abi_version is the first member of the table in every version. Members are only ever
@@ -70,13 +70,13 @@ enum {
 
 /* `refused: capacity`: the mesh, or this step of it, is more than the detector holds. It is a
  * return code of create, evaluate, result, candidates and limit, and also an answer of a step. If a
- * number of the description's capacity is exceeded, it is counted and breaks no claim. Otherwise it
- * is a refusal like any other. Beyond the capacity nothing else is excused: an answer that is given
- * has to be right. */
+ * number of the description's capacity is exceeded, this answer is counted and breaks no claim.
+ * Otherwise it is a refusal like any other. Beyond the capacity nothing else is excused: an answer
+ * that is given has to be right. */
 enum { ASSAY_BEYOND_CAPACITY = 4 };
 
-/* What the detector claims. It is judged by its claims and by nothing else. t* is the first
- * contact time of the step. */
+/* The claims of the detector. It is judged by these and by nothing else. t* is the first contact
+ * time of the step. */
 enum {
   ASSAY_CLAIM_FREE_SOUND = 1u << 0,    /* the answer is never `free` when there is a contact */
   ASSAY_CLAIM_NOT_LATE = 1u << 1,      /* first_lo <= t* */
@@ -98,11 +98,11 @@ enum {
                                         has no contact */
   ASSAY_CLAIM_PATH_FREE = 1u << 10,  /* the share of the step that it allows is below t* */
   ASSAY_CLAIM_PROGRESS = 1u << 11,   /* that share is at least `progress` times t*, or times 1
-                                        where nothing is in contact. It is judged where that moves
+                                        where nothing is in contact. Judged where this share moves
                                         some vertex by 2^10 units in its last place, and all gaps at
                                         the start are 2^6 units of the largest coordinate or more;
                                         units are those of the contract's coordinates */
-  ASSAY_CLAIM_WHOLE = 1u << 12       /* a step without a contact may be gone to its very end */
+  ASSAY_CLAIM_WHOLE = 1u << 12       /* a step without a contact may be taken whole */
 };
 
 /* Which pairs of neighbouring triangles the detector tests. A contact of a pair that it does not
@@ -123,14 +123,14 @@ enum {
 enum {
   ASSAY_START_ANY = 0,  /* every step */
   ASSAY_START_FREE = 1, /* steps that start without a contact */
-  /* Steps in which no vertex and face, and no two edges, that share no vertex are nearer to each
-   * other than start_distance at t = 0. */
+  /* Steps in which every vertex and face, and every two edges, without a common vertex are
+   * start_distance or more apart at t = 0. */
   ASSAY_START_APART = 2
 };
 
 /* Which pairs of features the detector tests. Contacts that it cannot find in this way are
- * counted, but not held against it. If it does not test both kinds, these are the contacts of the
- * other kind, and those of edges that already pierce a face when the step starts. */
+ * counted, but not held against it. If it tests one kind alone, these are the contacts of the other
+ * kind, and of edges that already pierce a face when the step starts. */
 enum { ASSAY_FEATURES_BOTH = 0, ASSAY_FEATURES_VERTEX_FACE = 1, ASSAY_FEATURES_EDGE_EDGE = 2 };
 
 enum {
@@ -178,10 +178,10 @@ typedef struct assay_description {
   int32_t start;         /* ASSAY_START_... */
   double start_distance; /* user's units; above 0 with ASSAY_START_APART, else 0 */
   /* The sizes that the detector takes, user's units. No coordinate has a magnitude above largest,
-   * because rounding goes by coordinates. No edge and no extent that has a length at all is shorter
-   * than least_nonzero, because thresholds go by lengths; a length is the greatest difference along
-   * an axis. Single coordinates may be as small as they like. Both 0: every finite number. Else 0
-   * <= least_nonzero <= largest and largest is above 0. Meshes beyond the range are left out. */
+   * because rounding depends on coordinates. Edges and extents are 0 long, or least_nonzero or
+   * more, because thresholds depend on lengths; a length is the greatest difference along an axis.
+   * Single coordinates may be as small as they like. Both 0: every finite number. Else 0 <=
+   * least_nonzero <= largest and largest is above 0. Meshes beyond the range are left out. */
   double least_nonzero;
   double largest;
   int32_t features;      /* ASSAY_FEATURES_... */
@@ -195,11 +195,11 @@ typedef struct assay_description {
                         separation` wherever a claim says `in contact`. It wants
                         ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
                         elementary query is asked the same of two features. */
-  /* What the detector leaves out, besides neighbours. The mesh at rest is that given to create. */
+  /* The pairs left out, besides neighbours. The mesh at rest is that given to create. */
   int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
-  int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops who is told a share alone */
+  int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if it is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
   /* How much it holds; 0: any amount. Beyond one of these it may answer ASSAY_BEYOND_CAPACITY. */
@@ -252,7 +252,7 @@ typedef struct assay_counted_pairs {
    * a triangle are of one body. */
   const int32_t* body;
   uint64_t apart_count;
-  const int32_t* apart; /* apart_count x 2: bodies that do not meet, or one that meets not itself */
+  const int32_t* apart; /* apart_count x 2: bodies a, b do not meet; a, a: a does not meet itself */
   int32_t rings;        /* the two are joined by a path of fewer edges; 0: none */
   double rest_distance; /* the two are nearer to each other at rest; 0: none */
   const double* rest;   /* vertex_count x 3 places at rest; NULL if rest_distance is 0 */
@@ -292,7 +292,7 @@ typedef struct assay_limit {
 typedef struct assay_detector_api {
   uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
 
-  /* What the detector is and claims: the same at every call, valid while the library is loaded. */
+  /* Describes the detector: the same at every call, valid while the library is loaded. */
   const assay_description* (*describe)(void);
 
   /* Makes a handle for a mesh. triangles: triangle_count x 3 vertex indices, counter-clockwise seen
@@ -346,7 +346,7 @@ typedef struct assay_detector_api {
    * pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);
 
-  /* Says how far the step may be gone. A part of its own (PARTS), without a state between steps. */
+  /* Says how far the step may be taken. A part of its own (PARTS), without state between steps. */
   int32_t (*limit)(assay_handle* handle, const double* x_t0, const double* x_t1,
                    assay_limit* limit);
 } assay_detector_api;

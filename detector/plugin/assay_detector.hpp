@@ -17,7 +17,7 @@
 //   four points, given as four rows at t=0 and at t=1; pairs in its result are not read;
 // - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase;
 // - void count(const CountedPairs& counted): which pairs count, called before the first step;
-// - Limit limit(Positions x_t0, Positions x_t1): how far the step may be gone.
+// - Limit limit(Positions x_t0, Positions x_t1): how far the step may be taken.
 //
 // A library may hold a query, a broad phase or a limiter alone. Such a class has no evaluate(), and
 // one with a query alone needs no constructor either.
@@ -128,7 +128,7 @@ struct Result {
   }
 };
 
-// How far a step may be gone: a share of it, positions, or both (assay_limit).
+// How far a step may be taken: a share of it, positions, or both (assay_limit).
 struct Limit {
   double share = -1;
   std::vector<double> positions;  // three for each vertex, or none

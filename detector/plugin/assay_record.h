@@ -48,9 +48,8 @@ enum {
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
   ASSAY_RECORD_NOT_WRITTEN = 21,    /* this record or an earlier one could not be written wholly */
-  ASSAY_RECORD_NO_ANSWER = 23       /* refused: result or limit can be the answer of no detector, as
-                                       a time outside of [0, 1] cannot; its judge would find nothing
-                                       to judge */
+  ASSAY_RECORD_NO_ANSWER = 23       /* refused: no detector can give this result or limit, such as a
+                                       time outside of [0, 1]; there would be nothing to judge */
 };
 
 /* Where a log goes, and how much of it is kept. */
@@ -84,7 +83,7 @@ typedef struct assay_recorder {
   unsigned char staged[256]; /* small pieces, until a large one or the end of the record */
   size_t staged_size;
   uint64_t body_size, keys;
-  int32_t is_counted; /* it is gone through a first time, to learn body_size and keys */
+  int32_t is_counted; /* the first pass over the body, to learn body_size and keys */
   int32_t has_failed; /* something could not be written, for this reason (errno) */
   int32_t reason;
   uint32_t crc;
@@ -129,7 +128,7 @@ static inline int32_t assay_record_end(assay_recorder* recorder);
 /* One line about the call that failed last, or "". Valid until the next call. */
 static inline const char* assay_record_error(const assay_recorder* recorder);
 
-/* What follows is the recorder's own; its names end with an underscore. */
+/* The rest is the recorder's own; its names end with an underscore. */
 
 static inline int32_t assay_record_fail_(assay_recorder* r, int32_t code, const char* what,
                                          const char* name, int32_t reason) {
@@ -176,10 +175,11 @@ static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char*
   r->crc = c;
 }
 
-/* The sum is the remainder of the bytes, taken as a polynomial, by a polynomial of degree 32. Their
+/* The sum is the remainder of the bytes, taken as a polynomial, by a polynomial of degree 32. The
  * remainder by any multiple of that polynomial has the same sum; one such multiple has the powers
- * 300, 155, 117, 89 and 0 of x^64. To divide by that one takes four additions a word of 64 bits,
- * whatever the order of its bytes, and leaves 300 words. It is several times as fast as tables. */
+ * 300, 155, 117, 89 and 0 of x^64. Division by this multiple takes four additions a word of 64
+ * bits, whatever the order of its bytes, and leaves 300 words. It is several times as fast as
+ * tables. */
 enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* words */
 
 /* The next words of the quotient, behind the last 300 ones. */
@@ -212,7 +212,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
       assay_record_divide_(quotient, p + 8 * i, part);
     memmove(quotient, quotient + part, 8 * left);
   }
-  /* What is left: behind the last word of the quotient there are none. */
+  /* The remainder: no words follow the last one of the quotient. */
   memset(quotient + left, 0, 8 * left);
   p += 8 * words;
   n -= 8 * words;
@@ -246,7 +246,7 @@ static inline void assay_record_flush_(assay_recorder* r) {
   r->staged_size = 0;
 }
 
-/* Bytes outside of a body, or whose sum is taken. */
+/* Bytes outside of a body, or bytes that are in the sum already. */
 static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t n) {
   if (n > sizeof r->staged - r->staged_size) assay_record_flush_(r);
   if (n > sizeof r->staged) {
@@ -257,7 +257,7 @@ static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t
   }
 }
 
-/* Bytes of a body. File systems are quickest with few large pieces, so an array is one. */
+/* Bytes of a body. File systems are quickest with few large pieces, so an array is one piece. */
 static inline void assay_record_put_(assay_recorder* r, const void* data, uint64_t size) {
   if (r->is_counted) {
     r->body_size += size;
@@ -392,7 +392,7 @@ static inline void assay_record_counted_(assay_recorder* r, const assay_counted_
   r->keys = outside;
 }
 
-/* What the bodies of records are made of. */
+/* The parts of the bodies of records. */
 typedef struct assay_record_content_ {
   const assay_description* description;
   const int32_t* triangles;

@@ -68,7 +68,7 @@ double CandidateSearch::share_of_edges(bool open_alone) const {
   return pairs == 0 ? 0 : static_cast<double>(candidates) / static_cast<double>(pairs);
 }
 
-// Fans cost what a few hundred of the pairs cost that they leave out of a thousand triangles.
+// For a thousand triangles, fans cost as much as a few hundred of the pairs that they leave out.
 void CandidateSearch::prove_apart() {
   constexpr double least_asked = 0.125;
   if (std::exchange(has_proved_apart_, true) || asked_share() < least_asked) return;
@@ -96,8 +96,8 @@ void CandidateSearch::take_earliest() {
 bool CandidateSearch::tighten() {
   auto& [bound, tree, asked_until, fitted] = *first_;
   take_earliest();
-  // If times are not unique, what is found depends on which pairs are tested: those that doubles
-  // cannot tell from a contact. So it must not depend on which contact was found before.
+  // If times are not unique, a pair that doubles cannot tell from a contact is found only if it is
+  // tested. So the tested pairs must not depend on which contact was found before.
   const double useful = bound.has_unique_times ? bound.until : asked_until;
   // A refit costs a few percent of the search, so it has to save about as much.
   if (useful > fitted / 2 || useful == fitted) return true;
@@ -112,7 +112,7 @@ bool CandidateSearch::tighten() {
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
   const auto& types = memory_.marks.types;
   if (!contacts_.find_few()) {
-    memory_.is_whole = false;  // nor is it if memory ends
+    memory_.is_whole = false;  // it stays false if memory runs out
     if (!memory_.representatives.make(mesh_, types, &pace_)) return false;
     memory_.is_whole = true;
   }

@@ -64,7 +64,7 @@ class CandidateSearch {
   // Estimates, from a few hundred edges spread over the mesh, the share of pairs of triangles at an
   // edge that the rule asks for. REQUIRES that types are marked.
   double asked_share() const { return share_of_edges(false); }
-  // The same for the pairs that fans and sheets, which are looked for now, do not prove apart.
+  // The same for the pairs that neither fans nor sheets prove apart. It finds fans and sheets now.
   double open_share() {
     prove_apart();
     return share_of_edges(true);
@@ -101,7 +101,7 @@ class CandidateSearch {
   // The same, and fits boxes to the rest of the step. Returns false if it was stopped.
   bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
-  // Brings the representatives up to the marks.
+  // Updates the representatives to the types that the marks hold.
   bool follow_marks();
   bool same_component(std::int32_t a, std::int32_t b) const;
 

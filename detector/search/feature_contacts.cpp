@@ -10,7 +10,7 @@
 namespace assay::detector {
 namespace {
 
-// Tests are made so many at a time, because then each phase keeps its code and data in the caches.
+// Tests are made in batches of this size, so that each phase keeps its code and data in the caches.
 constexpr std::size_t tests_at_once = 2048;
 
 }  // namespace
@@ -167,7 +167,8 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
 }
 
 // Copies those contacts of the feature pair that count. A pair of features counts for all pairs of
-// triangles that hold it. A piercing counts for those of which some feature pair does.
+// triangles that hold it. A piercing counts for the pairs of triangles that have a counted feature
+// pair.
 void FeatureContacts::sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const {
   const auto first = first_of(key), second = second_of(key);
   const auto found = std::span(lane.found).subspan(found_before);
@@ -280,7 +281,7 @@ void FeatureContacts::settle_in_lanes(const QueryKernels& kernels, Lane& lane) c
       settled.filter += lane.rungs[i] == LaneRung::filter;
       if (lane.rungs[i] == LaneRung::open) lane.open.push_back(lane.keys[i]);
     }
-    if (kind == FeatureKind::piercing) continue;  // of these nothing is counted
+    if (kind == FeatureKind::piercing) continue;  // piercing tests are not counted
     lane.counts.rungs += settled;
     lane.counts.elementary_tests += settled.filter;
   }
@@ -368,7 +369,8 @@ bool is_before(const PairContact& x, const PairContact& y) {
   return x.feature.vertices < y.feature.vertices;
 }
 
-// The features of a pair come one soon after the other. So what is added is mostly there already.
+// The contacts of a triangle pair come soon after each other, so an added pair is mostly held
+// already.
 constexpr std::size_t recent_places = 4096;
 
 std::size_t place_of(TrianglePair pair) {
@@ -398,7 +400,7 @@ void PairContacts::add(const PairContact& contact) {
 
 bool PairContacts::make_room(const StopFunction& stop) {
   settle();
-  // If less than a fifth of it is free the list grows. Else it would be sorted too often.
+  // The list grows if less than a fifth of it is free; otherwise it would be sorted too often.
   const std::size_t capacity = with_room(all_.size());
   if (all_.capacity() >= capacity) return true;
   constexpr std::size_t at_once = 16'384;  // 768 KB

@@ -100,7 +100,7 @@ class FeatureContacts {
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
 
-  // Sets the types that the search asks for whose candidates come next.
+  // Sets the types that the next search asks for. Its candidates come next.
   void ask(const AskedTypes& relations) { pairs_.ask(relations); }
 
   // Sorts the contacts by this relation, which must outlive this object; null: everything counts.
@@ -112,7 +112,7 @@ class FeatureContacts {
   // Returns the least upper end of the times of all contacts that count and were found under a
   // bound; infinity if there is none. REQUIRES that no lane works.
   double least_end() const;
-  // Takes, from now on, pairs of features that come within the separation and the slack in this
+  // Takes, from now on, pairs of features that come within the separation plus the slack in this
   // motion of the same vertices. They are tested over the whole step. The second constructor calls
   // this; after the first one it is REQUIRED before candidates come.
   void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
@@ -131,7 +131,8 @@ class FeatureContacts {
     return pairs_.are_proved_apart(a, b);
   }
 
-  // Sets how many lanes candidates come in (parallel/workers.h). Before this is called it is one.
+  // Sets how many lanes candidates come in (parallel/workers.h). Before this is called there is one
+  // lane.
   void make_lanes(std::size_t count);
 
   // Takes the feature pairs of a candidate pair, and tests those of its lane whenever enough have
@@ -168,8 +169,8 @@ class FeatureContacts {
   // Want::yes_no every time is {0, 0}.
   std::vector<PairContact> take() { return contacts_.take(); }
 
-  // Returns whether a contact within one component was found that does not count; nothing if `stop`
-  // asked for an end. REQUIRES that run() has tested all candidates.
+  // Returns whether some contact found within one component does not count; nothing if `stop` asked
+  // for an end. REQUIRES that run() has tested all candidates.
   std::optional<bool> found_ignored(const StopFunction& stop) const;
   // Appends to `counted` the contacts that count. `contacts` are those that take() gave. With a
   // relation of features it appends the first contact of each pair that counts. REQUIRES a
@@ -197,7 +198,7 @@ class FeatureContacts {
     double test_time = 0;
   };
   bool run(Lane& lane, const StopFunction& stop);
-  // Lists the untested feature pairs whose kind lists(kind) takes.
+  // Lists the untested feature pairs for whose kind lists(kind) is true.
   template <class Lists>
   void list(Lane& lane, Lists lists);
   // Drops the untested feature pairs that the first rungs settle.

@@ -8,8 +8,8 @@
 namespace assay::detector {
 namespace {
 
-// The work, in box tests, of choosing for a vertex (some six triangles lie around it), for an edge
-// (two do), and for all vertices and edges of a triangle.
+// The work of choosing, in box tests: for all vertices and edges of a triangle, for a vertex (of
+// some six triangles), and for an edge (of two triangles).
 constexpr std::uint64_t work_of_triangle = 24, work_of_vertex = 6, work_of_edge = 3;
 
 using Triangle = std::array<std::int32_t, 3>;
@@ -86,8 +86,9 @@ RepresentedFeatures Representatives::lowest_of(std::int32_t t, const Topology& m
   return static_cast<RepresentedFeatures>(features);
 }
 
-// Most features lie between triangles of one type, and the lowest of these represents them. Each
-// triangle finds out for itself whether it does, so the workers share the triangles out.
+// Most features lie between triangles of one type, and the lowest of these triangles represents
+// them. Each triangle finds out by itself whether it is the lowest, so the workers share the
+// triangles.
 bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,
                                  PacedStop* pace) {
   const bool one_type = are_of_one_type(types);
@@ -120,7 +121,8 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
   return is_done;
 }
 
-// The few features between triangles of several types: one thread chooses for one after the other.
+// For the few features between triangles of several types, one thread chooses, one feature after
+// the other.
 bool Representatives::choose_between_types(const Topology& mesh,
                                            const std::vector<TriangleType>& types,
                                            PacedStop* pace) {
@@ -142,8 +144,8 @@ bool Representatives::choose_between_types(const Topology& mesh,
 bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
                              std::span<const std::int32_t> changed, PacedStop* pace) {
   if (features_.empty()) return are_of_one_type(types) || choose_all(mesh, types, pace);
-  // A vertex or an edge is chosen for once for each changed triangle that holds it. If many have
-  // changed it is cheaper to choose everything anew, once.
+  // Each changed triangle makes all its vertices and edges choose anew. If many triangles have
+  // changed, it is cheaper to choose everything anew, once.
   if (changed.size() > mesh.triangles.size() / 4) return choose_all(mesh, types, pace);
   are_lowest_ = are_lowest_ && changed.empty();
   return for_each_paced(changed.size(), work_of_triangle, pace, [&](std::size_t i) {
@@ -175,7 +177,7 @@ TypeSet Representatives::choose(const std::vector<std::array<std::int32_t, 3>>& 
 
 void FeaturePairs::ask(const AskedTypes& relations) {
   relations_ = relations;
-  // In a first search triangles of one type are all asked for, and each of their features has one
+  // If all triangles have one type, a first search asks for all of them, and each feature has one
   // representative. In a closure types change from round to round.
   asks_by_types_ = !are_of_one_type(types_) || !relations.within_before.is_empty();
 }

@@ -4,7 +4,8 @@
 //   each triangle represents its feature (Representatives);
 //   the two share no vertex, and their boxes are not apart;
 //   no earlier search has asked for them;
-//   of all triangles that hold these features, the two have the first types that it asks for.
+//   this search asks for the types of the two before those of other triangles that hold the
+//   features.
 // Over the candidates of all searches this takes each feature pair once. Types are enough to decide
 // it: if the boxes of two features meet, so do those of triangles that hold them. So every pair of
 // such triangles whose types are asked for is a candidate (or was proved apart, L14).
@@ -50,8 +51,9 @@ namespace assay::detector {
 // so the edges come up twice, at (0,5) and at (1,5). They are tested at (0,5) alone, because
 // positive comes before zero in the order of types.
 //
-// Memory: 5 bytes a triangle. A search that compares few feature pairs does without: as long as all
-// triangles have one type, an object that is not made yet looks up what a triangle represents.
+// Memory: 5 bytes a triangle. A search that compares few feature pairs does without this memory: as
+// long as all triangles have one type, an object that is not made yet looks up what a triangle
+// represents.
 
 // The features that a triangle represents: bit i stands for its corner i, bit 3 + i for its edge
 // opposite to corner i.
@@ -174,7 +176,7 @@ class FeaturePoints {
   const FloatGrid& grid() const { return grid_; }
   const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }
   const FeaturePoint& end(std::int32_t vertex) const { return (&start(vertex))[ends_ - 1]; }
-  // Returns how many floats after its place at t=0 a vertex's place at t=1 stands.
+  // Returns the distance, in floats, from a vertex's place at t=0 to its place at t=1.
   std::size_t floats_to_end() const { return (ends_ - 1) * floats_of_corner; }
 
  private:

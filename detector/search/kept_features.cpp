@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t work_to_compare = 2;
 
-// Parts of growing sizes, as a search for the first contact has them (search_lanes.h): of 64
-// shares, 1, then 3, 12, 16 and 32.
+// The parts grow like the rounds of a search for the first contact (search_lanes.h): they hold 1,
+// 3, 12, 16 and 32 of 64 shares.
 std::size_t part_of(FeatureKey key) {
   constexpr std::uint64_t mixer = 0x9e3779b97f4a7c15;
   const std::uint64_t share = key * mixer >> 58;
@@ -32,7 +32,7 @@ void KeptFeatures::keep(const SteppedMesh& step, double until, const FloatGrid& 
   until_ = pace.after(work_to_compare * static_cast<std::uint64_t>(x_t0_.rows())) ? 0 : until;
 }
 
-// False if it was stopped; the next question then makes them.
+// Returns false if it was stopped; the next question then makes the parts.
 bool KeptFeatures::make_parts(PacedStop& pace) {
   constexpr std::uint64_t work_of_key = 1;
   std::array<std::size_t, parts + 1> begins{};
@@ -59,7 +59,8 @@ bool KeptFeatures::cover(const SteppedMesh& other, double until, PacedStop& pace
   return begins_.back() == found_.size() || make_parts(pace);
 }
 
-// Whether it begins at the same places, and ends where the kept step was after this share of it.
+// Whether the other step begins at the same places and ends where the kept step was after this
+// share.
 bool KeptFeatures::follows(const SteppedMesh& other, double share, PacedStop& pace) const {
   std::atomic<bool> is_near = true;
   const auto compare = [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -26,9 +26,10 @@
 // If features within a distance are asked for, the same holds, because margins go beyond that
 // distance.
 //
-// The ends are compared in doubles, with s as computed: s is any number, so only the place after
-// that share is rounded, and the distance to it. For coordinates up to M both are off by less than
-// 2^-50 M + 2^-1073, as in moving_box.h. FloatGrid::tolerance() is r less four times as much.
+// The ends are compared in doubles. Any s will do, so its own rounding does not matter: only the
+// place after this share, and the distance to it, are rounded. For coordinates up to M both are off
+// by less than 2^-50 M + 2^-1073, as in moving_box.h. FloatGrid::tolerance() is r less four times
+// as much.
 #pragma once
 
 #include <array>
@@ -46,8 +47,8 @@ namespace assay::detector {
 
 class KeptFeatures {
  public:
-  // Searches that find more feature pairs are not kept. With what the lanes of the search list
-  // them in, 550 bytes a triangle at most, and 300 afterwards.
+  // Searches that find more feature pairs are not kept. Memory: 550 bytes a triangle at most while
+  // the lanes of the search list them, 300 afterwards.
   static std::size_t most_features(const Topology& mesh) { return 16 * mesh.triangles.size(); }
 
   // Drops all that is kept.

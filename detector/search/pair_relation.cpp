@@ -25,7 +25,7 @@ TwoEdges in_order(TwoEdges pair) {
   return pair;
 }
 
-// The vertices that at most `steps` edges join to some of these, ascending.
+// The vertices that a path of at most `steps` edges joins to one of these, ascending.
 std::vector<std::int32_t> reached(const Topology& mesh, std::span<const std::int32_t> from,
                                   std::int32_t steps) {
   std::vector<std::int32_t> all(from.begin(), from.end()), last = all, next;
@@ -104,8 +104,8 @@ bool PairRelation::may_count(const Topology& mesh, Vertices a, Vertices b) const
 }
 
 // Whether a path of fewer than `rings` edges joins a vertex of one to a vertex of the other. No
-// path joins two components. It is looked for from both, because the vertices reached grow with the
-// square of the steps.
+// path joins two components. The path is looked for from both ends, because the number of vertices
+// reached grows with the square of the steps.
 bool PairRelation::are_joined(const Topology& mesh, Vertices a, Vertices b) const {
   const std::int32_t steps = counted_->rings - 1;
   if (steps == 0) return share_vertex(a, b);

@@ -64,7 +64,7 @@ class PairRelation {
 
   std::unique_ptr<const CountedPairs> counted_;  // null: everything counts
   std::vector<std::int32_t> body_of_component_;
-  // Ascending, each once and its pair in order.
+  // Ascending, each pair once, with its lower body first.
   std::vector<std::array<std::int32_t, 2>> apart_;
   std::vector<TrianglePair> triangle_pairs_;
   std::vector<VertexAndFace> vertex_faces_;

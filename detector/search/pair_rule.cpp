@@ -78,8 +78,8 @@ void Marking::bring_to(std::span<const TriangleType> types, const BoundingVolume
     marks.types[t] = types[t];
     marks.changed.push_back(static_cast<std::int32_t>(t));
   }
-  // In a mesh of so many triangles, of which a quarter has changed, one pass over all nodes takes a
-  // fifth of the time of a walk upward from each changed leaf.
+  // In a mesh of at least this many triangles, if a quarter of them has changed, one pass over all
+  // nodes takes a fifth of the time of a walk upward from each changed leaf.
   constexpr std::size_t large_mesh = 1024;
   if (types.size() >= large_mesh && marks.changed.size() > types.size() / 4) {
     mark_anew(tree, marks, counts);
@@ -114,7 +114,7 @@ void Marking::update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts
   }
 }
 
-// Counts what update() would: there a node is met once for each flag that it gets or loses.
+// Gives the counts of update(), which meets a node once for each flag that the node gets or loses.
 void Marking::mark_anew(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) {
   // In a step without views all nodes have the flag of all triangles.
   const std::uint8_t now = marks.flags(0), of_all = marks.node_flags[BoundingVolumeTree::root];

@@ -78,7 +78,7 @@ class EveryPair : public PairRule {
   PairTables candidates() const override;
 };
 
-// What a search knows of a triangle. The type determines the triangle's flags, and it tells apart
+// The type of a triangle in a search. It determines the triangle's flags, and it tells apart
 // triangles that have the same flags.
 //
 // The first search of a step knows five types. The closure (L7) searches again, round by round, for
@@ -147,9 +147,9 @@ constexpr std::uint8_t flags_of(TriangleType type) {
 //   a new flag is set on each ancestor until one has it already;
 //   a lost flag is cleared on each ancestor until one has it from its other child.
 // All new flags are set before any is cleared, so no flag is taken away and given back. The flags
-// do not depend on the order in which triangles change. The work is the number of nodes whose
-// flags change, for each changed triangle at most the depth of the tree. Where a quarter of a
-// large mesh has changed, as in the first step with views, one pass over all nodes takes less.
+// do not depend on the order in which triangles change. The work is the number of nodes whose flags
+// change: at most the depth of the tree for each changed triangle. Where a quarter of a large mesh
+// has changed, as in the first step with views, one pass over all nodes takes less.
 struct Marks {
   // At first all triangles are V+: every node has the flag P and no other.
   explicit Marks(const BoundingVolumeTree& tree);

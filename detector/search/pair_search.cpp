@@ -93,7 +93,7 @@ class Descent {
     }
   }
 
-  // For nodes that hold several components, and for pairs of which one is such a node.
+  // For nodes that hold several components, and for pairs with such a node.
   void split_mixed(const NodePair& p) {
     if (p.a == p.b) {
       const auto child = tree_.child(p.a);
@@ -148,7 +148,7 @@ class Descent {
     }
   }
 
-  // Puts a node that may hold a pair onto the stack, unless no two triangles below it meet.
+  // Puts a node that may hold a pair onto the stack, unless it is proved free.
   void enter_alone(std::int32_t node, const PairTable& table) {
     if (tree_.is_leaf(node) || !table.asks(flags(node), flags(node))) return;
     if (proofs_ && proofs_->is_free(node)) return;
@@ -227,7 +227,7 @@ bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCo
                          const PairSink& sink) const {
   SearchInput joined = input;
   const auto join = [&] { return input.tree.join_boxes(input.pace); };
-  // What is done between two rounds may fit the boxes to a shorter step.
+  // input.between() may fit the boxes to a shorter step, so they are joined again after it.
   if (input.between) joined.between = [&] { return input.between() && join(); };
   if (!join()) return false;
   Hunt hunt(joined, sink);

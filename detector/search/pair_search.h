@@ -22,7 +22,7 @@ class PatchProofs {
   virtual ~PatchProofs() = default;
   // True only if no two triangles below the node are in contact during the step.
   virtual bool is_free(std::int32_t node) = 0;
-  // True only if no two triangles of all those below a and b are in contact during the step.
+  // True only if no two triangles below a or b are in contact during the step.
   // It is asked if the boxes of a and b meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
   // Returns whether the search has to end; the two functions above then return false.
@@ -33,8 +33,8 @@ class PatchProofs {
                                                PacedStop& pace) const = 0;
 };
 
-// The shares of patches that are proved free over the step: of patches of a dozen triangles, of
-// three dozen and of a hundred.
+// The shares of patches of a dozen, three dozen and a hundred triangles that are proved free over
+// the step.
 struct ProvableShares {
   double of_small = 0, of_medium = 0, of_large = 0;
 };
@@ -120,14 +120,15 @@ class PairSearch {
                    PacedStop& pace) const {
     return tree.fit_once(mesh, motion, pace);
   }
-  // Hands out all pairs that may be in contact and that the tables ask for. It may leave out those
-  // whose grown boxes are apart, those that the input names, and those that it has proved apart if
-  // proofs are wanted. Without proofs it leaves out no others: later questions rest on that (L20).
+  // Hands out all pairs that may be in contact and that the tables ask for. It may leave out the
+  // pairs whose grown boxes are apart, the pairs that the input names and, if proofs are wanted,
+  // the pairs that it has proved apart. It leaves out no other pairs: later questions rest on that
+  // (L20).
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
 };
 
-// A search for one mesh, with the data that it keeps. Each detector has its own. This one keeps
+// A search for one mesh, with the data that it keeps. Each detector has its own. This class keeps
 // nothing: it does what its PairSearch does. A search derives from it if it makes something once
 // for the mesh, or if it keeps something from `fit` for the searches of that step. For example, the
 // search by normal cones keeps the contours of the mesh, and where its vertices are during the
@@ -156,9 +157,8 @@ class MeshSearch {
   const PairSearch& by_;
 };
 
-// Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0)
-// and (U,Vv) in one pass, because a table says for the flags of two nodes whether they may hold a
-// pair.
+// Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0) and
+// (U,Vv) in one pass. A table says whether two nodes with given flags may hold a pair.
 //
 // If only one child of a node may hold a partner of the other node, the search goes on with that
 // child before it tests any box. The child's box lies inside the node's box, so a test of the
@@ -203,9 +203,9 @@ bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCoun
 // The broad phase on wide nodes (WideTree): the same candidates as TreeSearch, in less time.
 //
 // Descends the wide tree against itself. The flags of two nodes say which pairs of their children
-// may hold a pair that is asked for; of these, vector instructions compare the boxes of one child
-// with up to eight others at once. No single-child node is passed over: a comparison costs less
-// than finding out which nodes these are.
+// may hold a pair that is asked for. For these pairs, vector instructions compare the box of one
+// child with up to eight others at once. No single-child node is passed over: a comparison costs
+// less than finding out which nodes these are.
 //
 // If the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
 // takes one of these after the other (TreeSearch). Candidates and counts are the same for any

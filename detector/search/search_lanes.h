@@ -3,11 +3,11 @@
 // A descent is cut into pairs of nodes near the root, and each worker takes one of these after the
 // other. The work for a pair of nodes does not depend on other pairs.
 //
-// The contacts of one round bound the next: those later than the earliest one so far are of no
-// interest, so boxes need to cover only the time up to that one. A round is a share of the pairs of
-// nodes that the descent was cut into. They are taken in an order that spreads each round over the
-// whole mesh, because contacts mostly lie side by side. Neither rounds nor order depend on the
-// number of workers, so neither do candidates and counts.
+// The contacts of one round bound the next: contacts later than the earliest one so far are of no
+// interest, so boxes need to cover only the time up to that contact. A round is a share of the
+// pairs of nodes that the descent was cut into. These pairs are taken in an order that spreads each
+// round over the whole mesh, because contacts mostly lie side by side. Neither rounds nor order
+// depend on the number of workers, so neither do candidates and counts.
 #pragma once
 
 #include <algorithm>
@@ -89,7 +89,7 @@ std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, S
   }
 }
 
-// How many pairs of nodes a search in rounds is cut into, if it does not end before that.
+// A search in rounds is cut into this many pairs of nodes, or fewer if it ends before that.
 inline constexpr std::size_t pairs_in_rounds = 512;
 
 // Returns the numbers below `count`, ordered by their reversed bits.

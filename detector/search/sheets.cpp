@@ -10,8 +10,8 @@
 namespace assay::detector {
 namespace {
 
-// An edge of a contour, in the plane of its projection: from its left end to its right one, or
-// upright from below.
+// An edge of a contour, in the plane of its projection: from its left end to its right end, or
+// upward if it is upright.
 struct ContourEdge {
   Point left, right;  // the third coordinate is 0
   std::int32_t left_vertex, right_vertex;
@@ -24,7 +24,7 @@ struct ContourEdge {
     if (vertex == left_vertex || vertex == right_vertex) return own_end;
     return sure_side(left, right, point, 2);
   }
-  // The same for another edge; 0 for one that is on both sides, or has both ends in common.
+  // The same for another edge; 0 for an edge that is on both sides, or has both ends in common.
   int side_of(const ContourEdge& edge) const {
     const int l = side_of(edge.left, edge.left_vertex), r = side_of(edge.right, edge.right_vertex);
     return l == own_end ? r % own_end : r == own_end || r == l ? l : 0;
@@ -50,15 +50,15 @@ struct Sheets::Builder {
   const PositionsView& x;
   PacedStop* pace;
   std::vector<Places>& places;
-  // By triangle: from which sides it is seen, if no sheet of it is proved yet.
+  // By triangle: the sides from which it is seen and for which it is in no proved sheet yet.
   std::vector<std::uint8_t> open_sides;
   std::size_t comparisons;  // that may still be made
   int level = 0;
   std::size_t most_edges = 0;                           // of a contour
   std::vector<std::vector<ContourEdge>> contours = {};  // of this level, by region and direction
 
-  // A triangle is seen from a side if its normal is no small one there, beside its greatest. So
-  // sheets end where others go on.
+  // A triangle is seen from a side if that component of its normal is not small beside the greatest
+  // one. So where a sheet ends, a sheet of another side goes on.
   void look(std::size_t t) {
     const auto& [u, v, w] = mesh.triangles[t];
     const Point a = point_of(x, u), b = point_of(x, v), c = point_of(x, w);
@@ -172,7 +172,7 @@ Sheets::Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& 
       mesh, x, pace, of_triangle_, std::vector<std::uint8_t>(count), few_comparisons + 2 * count};
   if (!for_all_paced(count, work_of_look, pace, [&](std::size_t t) { builder.look(t); })) return;
   builder.place(tree, WideTree::root, 0, 0);
-  // Two triangles that pass an edge the same way do not end each other's contour.
+  // Triangles at an edge that two triangles pass the same way are left out of all sheets.
   for (const auto& [edge, surplus] : mesh.unmatched) {
     const auto holders = mesh.edge_triangles.row(edge);
     for (const auto t : holders) builder.open_sides[at(t)] &= holders.size() == 1 ? 0xff : 0;

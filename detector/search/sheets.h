@@ -14,18 +14,20 @@
 // is 0 or 1 on both sides of each edge of the contour. Every bounded region between edges has some
 // of them beside it, so the number is 0 or 1 everywhere: no two projected triangles overlap. Now
 // let a point of one triangle of S and a point of another be projected to one place.
-//   If the one point is inside its triangle, inside an edge that two of S share, or at a vertex
-//   that is not of the contour, the triangles of S around it cover all places nearby. The other
-//   triangle covers some of these, so it is one of those around it, and projects one to one: the
-//   two points are one, in a feature that both triangles have.
-//   Else both are on the contour. Two edges of it then meet, so they have a vertex in common there,
-//   or it is one edge, and again the points are one, in a feature that both triangles have.
+//   Suppose that the first point is inside its triangle, inside an edge that two of S share, or at
+//   a vertex off the contour. Then the triangles of S around it cover all places nearby. The other
+//   triangle covers some of these places, so it is one of the triangles around the first point. It
+//   projects one to one, so the two points are the same, in a feature that both triangles have.
+//   Otherwise both points are on the contour: on one edge of it, or on two edges that meet and so
+//   have a vertex in common there. Again the points are the same, in a feature that both triangles
+//   have.
 // So faces, edges and vertices of S that share no vertex do not meet.
 //
 // The number beside an edge is counted below its left end, a little to the right of it: among the
 // edges of the contour that pass below, each that runs right adds one, each that runs left takes
-// one away. An edge that runs right has to have 0 below, one that runs left 1. Vertical edges pass
-// below nothing and need no check: each bounded region has other edges beside it.
+// one away. An edge that runs right has to have the number 0 below it, an edge that runs left the
+// number 1. Vertical edges pass below nothing and need no check: each bounded region has other
+// edges beside it.
 //
 // Sides are those of sure_side: where doubles cannot tell, nothing is proved.
 #pragma once
@@ -41,10 +43,10 @@ namespace assay::detector {
 
 class Sheets {
  public:
-  // Looks for sheets in the whole mesh, then in each of the regions below the root of the tree,
-  // then in those below these: six in each, one for either side along each axis. 25 ns a triangle,
-  // if the whole mesh has sheets. If `pace` was stopped, the object must not be used. Memory: 5
-  // bytes a triangle.
+  // Looks for sheets in the whole mesh, then in the region of each child of the root of the tree,
+  // then in the regions of their children. There are six in each region, one for either side along
+  // each axis. 25 ns a triangle, if the whole mesh has sheets. If `pace` was stopped, the object
+  // must not be used. Memory: 5 bytes a triangle.
   Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& x, PacedStop* pace);
 
   // Returns whether nearly all triangles lie in some sheet.

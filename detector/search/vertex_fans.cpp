@@ -84,7 +84,7 @@ void VertexFans::prove(const Topology& mesh, const FeaturePoints& points, PacedS
       twice |= once & counted;
       once |= counted;
     }
-    // Along each axis the triangles are counted by the next one.
+    // A fan that is seen along an axis is counted by the next axis.
     const unsigned around_once = once & ~twice;
     is_proved[number] = ((fan | fan >> 3) & (around_once >> 1 | around_once << 2) & axes) != 0;
   };

@@ -20,8 +20,8 @@
 // theirs without a common vertex do not meet there.
 //
 // The number is found by counting the triangles whose p is below v along another axis, and whose q
-// is not. These cover the level direction on one side (on the other side none ends so, because all
-// turn in one sense).
+// is not. These triangles cover the level direction on one side. On the other side triangles go
+// from above to below, because all turn in one sense.
 //
 // Positions are the floats of FeaturePoint, each off by e = 2^-23 at most (moving_box.h). Let S_k
 // be the greatest size of an edge along axis k, at most 4, as computed. An edge is off by twice e

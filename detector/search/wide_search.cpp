@@ -110,7 +110,7 @@ class WideDescent {
     }
   }
 
-  // A node of nodes with one of triangles.
+  // Splits a pair of a node that holds nodes and a node that holds triangles.
   void split_one(std::int32_t n, const WideTree::Node& node, std::int32_t other) {
     counts_.box_tests += node.count;
     std::uint32_t meet = hunt_.kernels.compare_one(tree_.box(other), tree_.children(n));
@@ -130,7 +130,7 @@ class WideDescent {
     if (found_.are_enough()) found_.hand_over(is_ended());
   }
 
-  // The children each against itself. A single triangle holds no pair.
+  // Enters each child paired with itself. A single triangle holds no pair.
   void enter_each(const WideTree::Node& node) {
     for (std::size_t i = 0; i < node.count; ++i) {
       const auto slot = node.first_slot + i;
@@ -141,8 +141,8 @@ class WideDescent {
     }
   }
 
-  // Sets, for each child of a, the children of b that it is asked about. Of a node with itself each
-  // pair is asked for once.
+  // Sets, for each child of a, the children of b that it is to be compared with. If a and b are the
+  // same node, each pair comes up once.
   void ask(const WidePair& p, const WideTree::Node& a, const WideTree::Node& b,
            LaneSets& sets) const {
     if (hunt_.asks_everything) {

@@ -138,7 +138,7 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
   {
     Flood flood(at_instant, is_seen, clean);
     for (const auto seed : in_doubt) {
-      // What a flood has released has been seen, and so has all that is linked to it.
+      // Triangles that a flood has released are seen already, and so is all that is linked to them.
       if (!flood.is_new(seed)) continue;
       Piece piece = flood.from(seed);
       if (piece.holds_clean) {

@@ -43,8 +43,8 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 //
 // `is_seen` is working memory by triangle of the mesh, 0 for triangles of the component. The cost
 // is that of the triangles in doubt and, if some piece holds no clean triangle, a few passes over
-// the component for the winding numbers of all such pieces together. Returns how many winding
-// numbers that were.
+// the component for the winding numbers of all such pieces together. Returns the number of these
+// winding numbers.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              const std::vector<std::int32_t>& witnesses,

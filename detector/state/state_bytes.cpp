@@ -135,7 +135,7 @@ void rows(Archive& archive, Positions& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) field(archive, x.data()[i]);
 }
 
-// Whether there is a value, written or read as a flag before it. A reader makes room for it.
+// Writes or reads a flag that says whether there is a value. A reader makes room for the value.
 template <class T>
 bool there_is(Writer& out, const T& value) {
   out.byte(value ? 1 : 0);

@@ -86,8 +86,8 @@ struct StateFields {
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
 // Returns whether all sizes and indices of the state fit a detector of this surface that has
-// `anchors` anchors of its own. REQUIRES as many apex rules as that detector has. Whether the
-// triangles that the state calls clean are so is not checked. O(M).
+// `anchors` anchors of its own. REQUIRES as many apex rules as that detector has. It does not check
+// that the triangles that the state calls clean are clean. O(M).
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
 
 // A saved state as bytes, to be kept in a file or handed to another program.
@@ -108,9 +108,9 @@ std::size_t state_size(const StateFields& state);
 // O(M).
 void write_state(const StateFields& state, std::span<std::uint8_t> bytes);
 
-// Reads a state from its bytes. Errors: damaged_state, other_state_version. It is Detector::restore
-// that checks whether the state is of the right mesh. Reading takes no more memory than a few times
-// the size of `bytes`, whatever lengths the bytes claim. O(M).
+// Reads a state from its bytes. Errors: damaged_state, other_state_version. Detector::restore
+// checks whether the state is of the right mesh. Reading takes no more memory than a few times the
+// size of `bytes`, whatever lengths the bytes claim. O(M).
 Expected<StateFields> read_state(std::span<const std::uint8_t> bytes);
 
 }  // namespace assay::detector

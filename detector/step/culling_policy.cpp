@@ -36,7 +36,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
 }
 
 // By triangle: 1 if it was in no contact with its own component in the step before.
-// REQUIRES that the step goes on from one.
+// REQUIRES that the step goes on from a committed one.
 std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
   std::vector<std::uint8_t> untouched(step.surface.mesh.triangles.size(), 1);
   for (const auto& [a, b] : step.last_state->contacts) untouched[at(a)] = untouched[at(b)] = 0;
@@ -77,8 +77,8 @@ SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
   if (!step.tree.join_boxes(&pace)) return true;
-  // The workers add up the pairs of their ghosts. None of them goes on when the sum is too large,
-  // and whether it is depends on no order, although the sum that is then reached does.
+  // The workers add up the pairs of their ghosts. Each stops when the sum is too large. The sum at
+  // which they stop depends on their order, but not whether they stop.
   std::atomic<double> pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
   constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
@@ -107,15 +107,15 @@ bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double 
 // still tested (measured on meshes whose V+ and V- lie upon each other).
 constexpr double worth_of_saved = 1.0 / 3;
 
-// View test, marking and closure cost 1 to 4 % of a step. An eighth of the pairs left out pays
-// them.
+// View test, marking and closure cost 1 to 4 % of a step. Leaving out an eighth of the pairs pays
+// for them.
 constexpr double least_share = 0.125;
 
 // A pair of a ghost's box and a triangle's box takes up to six elementary tests, each of which
 // costs as much as 1.5 candidates. A winding number looks at each triangle, for 20 ns.
 constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 0.1;
 
-// A sample costs about what 500 triangles cost the view test, and an eighth of it suffices if
+// A sample costs about as much as the view test of 500 triangles, and an eighth of it suffices if
 // doubles tell nearly all of these signs. It is drawn from all but the smallest components. A
 // triangle whose sign doubles leave open takes integers, for 3 us.
 constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 256;
@@ -139,16 +139,16 @@ constexpr double worth_beside_views = 0.4;
 constexpr std::uint64_t longest_pause = 32;
 
 // The work of steps, in box tests of 5 ns, fitted to steps of bvh and of views. Box tests
-// themselves are not counted, because they depend on the tree, and so on where the detector was
-// made: a candidate of bvh stands for the boxes above it and for its share of the triangle. Beside
-// views the triangle counts apart, and a candidate stands for more boxes, because those left lie
-// apart.
+// themselves are not counted, because they depend on the tree, and thus on the positions that the
+// detector was made from. So a candidate of bvh stands for the boxes above it and for its share of
+// the triangle. In steps with views the triangles are counted by themselves, and a candidate stands
+// for more boxes, because the candidates left lie scattered.
 constexpr double work_of_candidate = 4.4, work_of_triangle = 5, work_beside_views = 22,
                  work_of_test = 48, work_of_contact = 155;
 
-// A look at what is near a ghost, and its sweep; the view test of a point and of a line, a
-// triangle; a sign that takes integers; the release of a triangle in doubt; a winding number, a
-// triangle.
+// The work of a ghost (a look at what is near it, and its sweep); of the view test of a point and
+// of a line, for each triangle; of a sign that takes integers; of the release of a triangle in
+// doubt; of a winding number, for each triangle.
 constexpr double work_of_ghost = 40, work_of_point = 2, work_of_line = 3, work_of_integers = 600,
                  work_of_doubt = 20, work_of_crossing = 4;
 
@@ -156,12 +156,13 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
   return static_cast<double>(GhostCounts{0, pairs, tests, 0}.work());
 }
 
-// The least that views take to be made: a search among this many triangles of a component, a look
-// at the others, and, of an unclosed mesh, a tree of boxes.
+// The least work of making views: a search among this many triangles of a component, a look at the
+// others, and, for an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// Part of the saving that a glance hopes for is left to chance. Holes, and places that are not in
-// the middle, take several times as much, and work on views that are too dear is lost.
+// Only this share of the saving estimated at a glance is counted on. With holes, or without such a
+// saving, this many times the least work has to be affordable: work on views that turn out too dear
+// is lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {
@@ -386,7 +387,8 @@ void CostModel::record_cost(const StepCounts& counts, std::uint64_t candidates_o
   of_k_ = candidates_of_k;
   const auto k = static_cast<double>(candidates_of_k);
   const double all = share_ < 1 ? k / (1 - share_) : k;
-  // How much proofs leave out depends on the tree, and so on where the detector was made.
+  // How much proofs leave out depends on the tree, and thus on the positions that the detector was
+  // made from.
   const double saved = proves_ ? share_ * static_cast<double>(expected_candidates())
                                : std::max(all, static_cast<double>(adjacent_)) - k;
   const double closure = static_cast<double>(counts.search.candidate_pairs) - k;

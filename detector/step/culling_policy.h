@@ -118,7 +118,7 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 //   views are due  views do not pay    a pause of next_pause steps; that doubles, to 32 at most
 //   pause          its last step ends  views are due
 //
-// When views are due, anchors are chosen again first if they have worn: they have served for
+// When views are due, anchors are chosen again first if they are worn: they have served for
 // least_anchor_age steps, and either views did not pay or the share of pairs that they save has
 // fallen by an eighth from its best.
 //
@@ -140,7 +140,7 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // between these are of 1, 2, 4 and 8 steps.
 class CostModel : public CullingPolicy {
  public:
-  // The share of the work of a step without views that may be lost later. A tenth is promised.
+  // A step without views earns this share of its work; it may be lost later. A tenth is promised.
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
@@ -170,7 +170,7 @@ class CostModel : public CullingPolicy {
   // Leaves out layers, which cost about a step of culling bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
   // Returns whether the signs save enough among the triangles that are clean. If nothing was known
-  // of the start, a no begins no pause.
+  // of the start, the answer false begins no pause.
   bool worth_using(const GivenStep& step, const StepMarks& marks,
                    const StepCounts& counts) override;
 
@@ -198,7 +198,7 @@ class CostModel : public CullingPolicy {
   // Estimates what views save at once in a step that is seen from the middle of its components.
   double hoped_at_a_glance(const SteppedMesh& motion) const;
   // Returns whether the counts of the search tell what bvh takes. They do not if proofs, or the
-  // sheets of a mesh at rest, leave out pairs: these depend on the tree, and so on the positions
+  // sheets of a mesh at rest, leave out pairs: these depend on the tree, and thus on the positions
   // that the detector was made from.
   bool counts_tell() const { return !proves_ && !is_at_rest_; }
   // Returns how much may be spent after this step.

@@ -16,7 +16,7 @@ namespace {
 // Work in box tests: of marking one triangle, and of one component at least.
 constexpr std::uint64_t work_of_mark = 4, work_of_component = 200;
 
-// Sets touched[t] for triangles of the components that meet another one of their own at t=0.
+// Sets touched[t] for triangles of these components that meet another triangle of their own at t=0.
 bool find_static_contacts(const GivenStep& step, StepCost& cost,
                           const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {

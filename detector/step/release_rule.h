@@ -55,8 +55,8 @@ class ReleaseRule {
   virtual bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                        const std::vector<std::int32_t>& components) const;
 
-  // Sets the clean triangles and the pairs in contact of `state`, which is that at the end of the
-  // step (L8). They follow from marks.clean at its start and from `pairs`, the contacts found.
+  // Sets the clean triangles and the pairs in contact of `state`, the state at the end of the step
+  // (L8). They follow from marks.clean at its start and from `pairs`, the contacts found.
   // `complete` says that these are all contacts. If they are not, no triangle is clean after a
   // collision.
   virtual void settle(const GivenStep& step, const StepMarks& marks,
@@ -68,7 +68,7 @@ class ReleaseRule {
                                               std::size_t component) const;
 
   // Returns, after a step without views (L15), whether the triangles of the component that settle
-  // called clean are known to be so. They are if the component has no ghosts. If it has ghosts,
+  // called clean are known to be clean. They are if the component has no ghosts. If it has ghosts,
   // nobody swept these, and none of its triangles is clean, whatever the pairs were.
   virtual bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                            std::size_t component) const;

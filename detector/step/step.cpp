@@ -80,8 +80,8 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   return anchors;
 }
 
-// Whether check_positions would find nothing. The workers share the rows, because no row has to be
-// named here.
+// Whether check_positions would find no problem. The workers share the rows, because no row has to
+// be named here.
 bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop& pace) {
   if (x.rows() != vertex_count) return false;
   std::atomic<bool> found_nothing = true;
@@ -223,7 +223,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& s
                          const SteppedMesh& input, const StepQuestion& question,
                          std::span<const ViewPrimitive> primitives, const StopFunction& callers,
                          std::optional<StepState>& next) {
-  // Equal ends are one array from here on, so what is computed of one need not be of the other.
+  // From here on equal ends are one array, so later stages compute everything once.
   const bool rests = input.vertices_t0.rows() == input.vertices_t1.rows() &&
                      (input.is_at_rest() || input.vertices_t0 == input.vertices_t1);
   const SteppedMesh mesh = rests ? input.at_start() : input;

@@ -30,7 +30,7 @@ class FirstViews {
   // other positions. The result is too_dear if they take more than `most` work, in box tests,
   // whether or not they were made before. If they are not made, nothing of them is kept.
   Making make(StepContext& context, PacedStop& pace, double most);
-  // Puts others in their place, from a saved state.
+  // Replaces them by those of a saved state.
   void replace(std::vector<ViewAnchor> anchors, std::vector<ApexRule> rules, double work);
   // Returns the work that making them took, once they are made. It is counted in one thread.
   double work() const { return work_; }
@@ -44,7 +44,7 @@ class FirstViews {
   std::optional<Positions> x_;  // nothing once they are made
   std::vector<ViewAnchor> anchors_;
   std::vector<ApexRule> apex_rules_;
-  double work_ = 0;  // until they are made, less than they take
+  double work_ = 0;  // until they are made, a lower bound of what they take
 };
 
 // The data that a detector keeps for its mesh: the results of preprocessing, and the working memory

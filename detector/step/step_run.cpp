@@ -15,7 +15,7 @@ namespace {
 TriangleType type_of(const StepMarks& marks, std::size_t t) {
   if (!marks.clean[t]) return TriangleType::dirty;
   // A type that is tested against everything, but, unlike `dirty`, not for piercing its own
-  // component at t=0: what is clean pierces nothing there.
+  // component at t=0: clean triangles pierce nothing there.
   if (!marks.has_views()) return TriangleType::violated;
   if (marks.touched[t]) return TriangleType::violated;
   return marks.signs[t] == ViewSign::positive   ? TriangleType::positive
@@ -83,7 +83,7 @@ bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost
     std::fill(marks.clean.begin(), marks.clean.end(), 1);
     return true;
   }
-  // What L5 takes for the smallest component, in box tests.
+  // The work of L5 on the smallest component, in box tests.
   constexpr std::uint64_t work_of_asking = 200;
   std::vector<std::int32_t> to_release, to_verify;
   for (std::size_t c = 0; c < marks.free.size(); ++c) {
@@ -182,7 +182,7 @@ bool StepRun::classify_components() {
       marks_.free[c] = 1;
       continue;
     }
-    // The classifier counts the work of signs itself; this is what the component takes besides.
+    // The classifier counts the work of signs itself; this is the other work on a component.
     constexpr std::uint64_t work_beside_signs = 200;
     const bool is_classified = context_.stages.classifier->classify(
         step_.surface.all(), step_.component(c), step_.motion, marks_.primitives[c], marks_.signs,
@@ -206,9 +206,9 @@ bool StepRun::pays_to_use() {
 }
 
 void StepRun::drop_views() {
-  // What is known already is taken, and nothing is looked at. Without a committed state or the
-  // caller's word (Start::clean) all triangles are dirty. Nothing is lost by that: the step tests
-  // every pair anyway, and from its pairs the next step releases what is clean (L15).
+  // Uses only what is known already. Without a committed state or the caller's word (Start::clean)
+  // all triangles are dirty. Nothing is lost by that: the step tests every pair anyway, and from
+  // its pairs the next step releases what is clean (L15).
   const Start start = context_.options.start;
   if (step_.last_state) {
     marks_.clean = step_.last_state->clean;

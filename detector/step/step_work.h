@@ -47,7 +47,7 @@ struct GivenStep {
   }
 };
 
-// What the stages have found out so far, by component and by triangle. Later stages rely on it.
+// The findings of the stages so far, by component and by triangle. Later stages rely on it.
 struct StepMarks {
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface
@@ -68,7 +68,7 @@ struct StepMarks {
   }
 };
 
-// What the stages have cost so far. No stage decides by it which pairs are in contact.
+// The cost of the stages so far. No stage decides by it which pairs are in contact.
 struct StepCost {
   StepCounts counts = {};  // for the result, and for the culling of later steps
   // Counts the work since the stop function was last asked, over all components together, because

@@ -135,7 +135,7 @@ class PatchMaker {
   }
 
  private:
-  // At most `most` triangles, found from `seed` across edges. They are taken afterwards.
+  // At most `most` triangles, found from `seed` across edges. Marks them as taken.
   std::vector<std::int32_t> triangles_around(std::int32_t seed, std::size_t most) {
     std::vector<std::int32_t> patch = {seed};
     is_taken_[at(seed)] = 1;

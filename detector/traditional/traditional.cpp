@@ -26,7 +26,7 @@
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
-// What the classical form gets wrong (each is a planted fault, except the last):
+// Errors of the classical form (each is a planted fault, except the last):
 // - It looks at normals and contours only when the step is over. So it does not see a triangle
 //   that turns over and back, or an end of the sheet that passes through another in between.
 // - It leaves the contour test out, as too dear and almost never needed. But a ramp that winds
@@ -47,7 +47,7 @@ namespace assay::detector {
 namespace {
 
 // In box tests: the work at a node (half of all nodes are leaves, with the cone of a triangle), on
-// a vertex of a contour that is tested, and on one of a contour that is joined.
+// a vertex of a contour that is tested, and on a vertex of a contour that is joined.
 constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
 
 // The data that a search by normal cones keeps for its mesh.
@@ -179,8 +179,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   bool has_proofs() const override { return true; }
 
-  // A large patch that is free keeps all patches within it free. If all large ones are, the others
-  // are not looked at.
+  // If a large patch is free, so are all patches within it. If all large patches are free, the
+  // others are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {
     MovingContour moving(*motion_);
     const double of_large = share_of(samples_.large, mesh, moving);

@@ -27,13 +27,13 @@ class NormalConeSearch : public TreeSearch {
   explicit NormalConeSearch(Scope scope = Scope::all) : scope_(scope) {}
   Scope scope() const { return scope_; }
 
-  // The result proves patches apart; without it this is a TreeSearch. Its first search that uses
-  // proofs finds the contours of all nodes, 0.3 us a triangle. Contours depend on the mesh and the
-  // tree alone, so all searches of one result must be given the same mesh and tree. A search takes
-  // 0.1 us a triangle for the cones, beside the descent, unless the input says that proofs are not
-  // used. For provable_shares 1 to 8 patches of 96 triangles are tried, 7 us each, and if some of
-  // them are not free, up to 16 of 36 triangles and 32 of 12 (moving_contour.h), 3 us and 1 us
-  // each.
+  // The result proves patches apart; this object itself searches like a TreeSearch. The result's
+  // first search that uses proofs finds the contours of all nodes, 0.3 us a triangle. Contours
+  // depend on the mesh and the tree alone, so all searches of one result must be given the same
+  // mesh and tree. A search takes 0.1 us a triangle for the cones, beside the descent, unless the
+  // input says that proofs are not used. For provable_shares 1 to 8 patches of 96 triangles are
+  // tried, 7 us each, and if some of them are not free, up to 16 of 36 triangles and 32 of 12
+  // (moving_contour.h), 3 us and 1 us each.
   std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                       PacedStop& pace) const override;
 

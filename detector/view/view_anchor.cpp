@@ -117,8 +117,8 @@ void correct(const std::vector<Neighbour>& around, std::vector<double>& weights)
   weights = std::move(corrected);
 }
 
-// A search looks at some of the planes only: for points at a half, for lines at an eighth, but at
-// least at `least`. The best places that it finds are then scored among all planes. If the search
+// A search looks at some of the planes only: for points at a half, for lines at an eighth, but no
+// fewer than `least`. The best places that it finds are then scored among all planes. If the search
 // looked at all planes, lines alone would take as long as three to ten steps of culling bvh.
 struct Thinning {
   std::size_t divisor, least;
@@ -173,9 +173,8 @@ class AnchorChoice {
   }
 
  private:
-  // A place from which all triangles are positive makes steps free (L5). If one was found for the
-  // few planes but it misses some of the others, all planes are searched for a place that sees
-  // all.
+  // A place from which all triangles are positive makes steps free (L5). If such a place was found
+  // for the few planes but not for all planes, the search is repeated with all planes.
   std::vector<ScoredPoint> find_points() const {
     auto points = search_points(few_, pace_);
     const bool is_promised = points.front().score == perfect(few_);
@@ -220,7 +219,7 @@ class AnchorChoice {
     });
   }
 
-  // The score as a line, for points too. Only so the scores of points and lines are comparable.
+  // The score as a line, for points too. This makes the scores of points and lines comparable.
   std::int64_t score_as_line(const ViewAnchor& anchor) const {
     const int last = anchor.kind == ViewKind::line ? 1 : 0;
     return planes_.score(placed(anchor, 0), placed(anchor, last));
@@ -237,7 +236,7 @@ class AnchorChoice {
                           q);
   }
 
-  // Where the anchor really is. It may not be the place that was asked for if the anchor's
+  // The actual place of the anchor. It may differ from the place that was asked for if the anchor's
   // vertices do not span all directions.
   Point placed(const ViewAnchor& anchor, int end) const {
     return planes_.to_unit(combine(anchor.ends[end], x_));
@@ -250,8 +249,8 @@ class AnchorChoice {
   // Counts the work of one look at each triangle and each vertex.
   bool has_to_end() const { return pace_ && pace_->after(8 * component_.triangles.size()); }
 
-  // The best of the first few, scored where they are really placed. If one that is nearly as good
-  // is inside the mesh, that one.
+  // Returns the best of the first few, scored at their actual places, or one that is inside the
+  // mesh and nearly as good.
   template <class Scored, class Make>
   ViewAnchor choose(const std::vector<Scored>& ranked, Make make) {
     constexpr std::size_t most_placed = 4;
@@ -320,8 +319,8 @@ AffineWeights affine_weights(std::span<const std::int32_t> vertices, std::span<c
 }
 
 Point combine(const AffineWeights& affine, const PositionsView& x) {
-  // The sum is one of offsets from one vertex, so that translating all vertices translates the
-  // point, as far as doubles go.
+  // It sums offsets from one vertex, so that translating all vertices translates the point, up to
+  // rounding.
   const Point base = point_of(x, affine.vertices[0]);
   Point q = base;
   for (std::size_t k = 0; k < 3; ++k) {

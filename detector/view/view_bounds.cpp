@@ -25,7 +25,7 @@
 // and of the products here.
 //
 // The ratio s = a / l of a coefficient a of (p-q0).d and the same coefficient l of d.d, with l >=
-// l_min > 0 (of the middle ones both a and l are taken times 2):
+// l_min > 0 (both middle coefficients are taken times 2):
 //
 //   quantity      | operations                      | error in u                     | size
 //   a             | x . y, middle                   | 6 G                            | G

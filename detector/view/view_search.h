@@ -43,7 +43,7 @@ class ViewPlanes {
   // Returns the score of the line q0 q1. It is counted in the same way, and triangles without a
   // sign are subtracted, because they cost most.
   std::int64_t score(const Point& q0, const Point& q1) const;
-  // What one triangle adds to a score.
+  // The contribution of one triangle to a score.
   static constexpr std::int64_t for_positive = 8, for_margin = 1, for_negative = 6, for_zero = -4;
   static constexpr double margin = 1.0 / 64;
 

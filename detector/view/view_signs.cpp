@@ -324,8 +324,8 @@ class ExactView {
     return false;
   }
 
-  // True only if f surely has that sign nowhere in (0,1), and so, because it is continuous, not at
-  // 0 or 1 either.
+  // True only if f surely has this sign nowhere in (0,1), and thus, being continuous, nowhere in
+  // [0,1].
   static bool is_never(int sign, const Polynomial& f) {
     if (f.is_zero()) return true;
     const SignChanges changes = sign_changes_over_unit(f);

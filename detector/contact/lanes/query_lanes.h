@@ -1,8 +1,8 @@
 // The first rungs of the elementary test for many feature pairs at once, one in each lane: order
-// along an axis, and doubles with proved bounds over the whole step, as contact/rungs.h looks at
-// it before it halves. Most feature pairs of a mesh are settled here. The others are left to the
-// elementary test, so answers do not depend on lanes. A lane makes the same roundings whatever the
-// instruction set is, so counts do not depend on it either.
+// along an axis, and doubles with proved bounds over the whole step (contact/rungs.h, without
+// halving). Most feature pairs of a mesh are settled here. The others are left to the elementary
+// test, so answers do not depend on lanes. A lane makes the same roundings whatever the instruction
+// set is, so counts do not depend on it either.
 #pragma once
 
 #include <cstddef>
