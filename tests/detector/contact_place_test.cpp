@@ -95,7 +95,7 @@ TEST(ContactPlace, OfTheSameTriangleTwiceIsACorner) {
 }
 
 TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
-  const auto steps = tests::asked("ASSAY_CASES", 4000);
+  const auto steps = tests::asked("ASSAY_CASES", tests::usual(4000));
   std::mt19937_64 random(tests::asked("ASSAY_SEED", 5203));
   std::map<FeatureKind, int> of_kind;
   int with_normal = 0, rough = 0, contacts = 0;
@@ -145,9 +145,9 @@ TEST(ContactPlace, IsWithinItsErrorOfBothTriangles) {
     }
   }
   for (const auto kind : {FeatureKind::vertex_face, FeatureKind::edge_edge, FeatureKind::piercing})
-    EXPECT_GT(of_kind[kind], 50) << name_of(kind);
+    EXPECT_GT(of_kind[kind], tests::usual(50)) << name_of(kind);
   RecordProperty("contacts", contacts);
-  EXPECT_GT(with_normal, 1000);
+  EXPECT_GT(with_normal, tests::usual(1000));
   EXPECT_LE(rough, contacts / 1000) << contacts;
 }
 

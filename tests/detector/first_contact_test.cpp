@@ -2,6 +2,7 @@
 // gives the first time and the pairs at it, as all pairs have them.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
+#include "tests/asked.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::detector {
@@ -39,7 +40,7 @@ TEST_P(FirstContact, L6_IsThatOfAllPairs) {
   tests::SearchMeshes random(23);
   const bool sees_all = !uses_views(GetParam());
   int collisions = 0, inside = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < tests::usual(24); ++i) {
     const int size = 3 + i % 12;
     const Moving mesh(random.sheets(2 + i % 2, size, i % 3 == 0), size, i % 4 == 0 ? 0 : 9);
     const auto all = mesh.detector({GetParam()}).evaluate(mesh.x_t0, mesh.x_t1);
@@ -56,14 +57,14 @@ TEST_P(FirstContact, L6_IsThatOfAllPairs) {
       EXPECT_EQ(first.pairs.size(), at_first(all).size());
     }
   }
-  EXPECT_GT(collisions, 12);
-  EXPECT_GT(inside, 10);
+  EXPECT_GT(collisions, tests::usual(12));
+  EXPECT_GT(inside, tests::usual(10));
 }
 
 TEST_P(FirstContact, L6_ByABoundIsThereJustIfItIsNotLater) {
   tests::SearchMeshes random(29);
   int bounded = 0, between = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < tests::usual(24); ++i) {
     const int size = 3 + i % 6;
     const Moving mesh(random.sheets(2, size, i % 3 == 0), size, i % 4 == 0 ? .5 : 9);
     auto detector = mesh.detector({GetParam()});
@@ -89,8 +90,8 @@ TEST_P(FirstContact, L6_ByABoundIsThereJustIfItIsNotLater) {
     for (const double until : {std::nextafter(all.first.hi, 0.), all.first.hi / 2, 0.})
       EXPECT_EQ(by(until).answer, Answer::free) << until << " of " << all.first.hi;
   }
-  EXPECT_GT(bounded, 5);
-  EXPECT_GT(between, 3);
+  EXPECT_GT(bounded, tests::usual(5));
+  EXPECT_GT(between, tests::usual(3));
 }
 
 TEST_P(FirstContact, DoesNotDependOnThreads) {

@@ -2,6 +2,7 @@
 // against distances in rational numbers.
 #include "detector/distance/nearness.h"
 
+#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/points.h"
@@ -190,7 +191,7 @@ void expect_first(const FourPoints& q, double d, const std::optional<TimeEnclosu
 TEST(Near, L16_RandomStepsAgainstRationalDistances) {
   NearSteps steps(351);
   int near = 0, later = 0, inside_a_gap = 0, by_integers = 0;
-  for (int i = 0; i < 1600; ++i) {
+  for (int i = 0; i < tests::usual(1600); ++i) {
     const FourPoints q = steps.query(i % 4 == 1);
     const double d = steps.between(1, 8) / 4.0;
     const ContactResult result = test_near(q, d, Want::first_time);
@@ -206,16 +207,16 @@ TEST(Near, L16_RandomStepsAgainstRationalDistances) {
   std::printf(
       "%d near, %d of them later than at the start, %d between two doubles; %d by integers\n", near,
       later, inside_a_gap, by_integers);
-  EXPECT_GT(near, 500);
-  EXPECT_GT(inside_a_gap, 200);
-  EXPECT_GT(by_integers, 10);
+  EXPECT_GT(near, tests::usual(500));
+  EXPECT_GT(inside_a_gap, tests::usual(200));
+  EXPECT_GT(by_integers, tests::usual(10));
 }
 
 // With d = 0 the regions are those of a contact.
 TEST(Near, L16_WithinZeroIsAContact) {
   NearSteps steps(352);
   int contacts = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < tests::usual(3000); ++i) {
     const FourPoints q = steps.query(i % 4 == 1);
     const ContactResult contact = test_contact(q, Want::first_time);
     const auto near = exact_near_time(q, 0);
@@ -225,7 +226,7 @@ TEST(Near, L16_WithinZeroIsAContact) {
     }
     contacts += contact.contact;
   }
-  EXPECT_GT(contacts, 300);
+  EXPECT_GT(contacts, tests::usual(300));
 }
 
 TEST(Near, L16_ScaledByPowersOfTwoNothingChanges) {
@@ -250,7 +251,7 @@ TEST(Near, L16_ScaledByPowersOfTwoNothingChanges) {
 // The bounds of the filter hold: what it computes in doubles, against the same in exact binary
 // fractions. Prints the largest error beside what is allowed.
 
-constexpr int cases = 2000;
+constexpr int cases = tests::usual(2000);
 
 // The four points of a query seen from the first, at a time.
 struct Seen {

@@ -3,6 +3,7 @@
 #include "detector/detector.h"
 #include "detector/distance/nearness.h"
 #include "detector/search/feature_pairs.h"
+#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/search/search_meshes.h"
 
@@ -91,7 +92,7 @@ TEST(SeparationStep, L16_RandomStepsAgainstEveryPair) {
   std::mt19937_64 engine(41);
   const auto below = [&](int n) { return static_cast<int>(engine() % static_cast<unsigned>(n)); };
   std::size_t near = 0, at_start = 0, apart = 0;
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < tests::usual(150); ++round) {
     // A closed strip of triangles in tatters, on small integers, and some triangles beside it.
     constexpr Eigen::Index vertices = 12;
     Positions from(vertices, 3), to(vertices, 3);
@@ -115,9 +116,9 @@ TEST(SeparationStep, L16_RandomStepsAgainstEveryPair) {
     apart += pairs_without_a_common_vertex - expected.size();
   }
   std::printf("%zu near pairs, %zu of them at the start; %zu pairs apart\n", near, at_start, apart);
-  EXPECT_GT(at_start, 100u);
-  EXPECT_GT(near - at_start, 100u);
-  EXPECT_GT(apart, 100u);
+  EXPECT_GT(at_start, tests::usual(100));
+  EXPECT_GT(near - at_start, tests::usual(100));
+  EXPECT_GT(apart, tests::usual(100));
 }
 
 // Triangle 1 goes through triangle 0, and all features are far from each other. The longer ones are

@@ -1,6 +1,7 @@
 // Winding numbers, and distances of features at rest.
 #include "detector/geometry/near_regions.h"
 #include "detector/geometry/winding.h"
+#include "tests/asked.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"
 
@@ -89,7 +90,7 @@ TEST(Winding, RaysMeetWhatEveryTriangleSays) {
   };
   int compared = 0;
   for (const Place place : {Place{1, 0}, {0x1p-3, 0x1p48}, {0x1p-1074, 0}, {0x1p1014, 0}}) {
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < tests::usual(40); ++i) {
       Positions x(6 * tests::sides + 2, 3);
       for (Eigen::Index k = 0; k < x.size(); ++k)
         x.data()[k] = place.scale * noise(engine) + place.offset;
@@ -111,7 +112,7 @@ TEST(Winding, RaysMeetWhatEveryTriangleSays) {
     }
   }
   std::printf("winding numbers compared: %d\n", compared);
-  EXPECT_GT(compared, 12000);
+  EXPECT_GT(compared, tests::usual(12000));
 }
 
 // What is asked beside a triangle does not change its number.

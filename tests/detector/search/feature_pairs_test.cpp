@@ -7,6 +7,7 @@
 #include "detector/detector.h"
 #include "detector/search/candidate_search.h"
 #include "detector/search/search_lanes.h"
+#include "tests/asked.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::tests {
@@ -238,7 +239,7 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
   FeatureMargin of_diagonals;
   of_diagonals.axes = beyond_all_lanes;
   std::size_t told_apart = 0, close = 0;
-  for (int round = 0; round < 30000; ++round) {
+  for (int round = 0; round < tests::usual(30000); ++round) {
     const int family = round % 6;
     Positions x[2] = {Positions(4, 3), Positions(4, 3)};
     for (auto& frame : x) {
@@ -260,8 +261,8 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
     told_apart += is_apart;
     close += is_ordered && !is_apart;
   }
-  EXPECT_GT(told_apart, 5000u);
-  EXPECT_GT(close, 100u);
+  EXPECT_GT(told_apart, tests::usual(5000));
+  EXPECT_GT(close, tests::usual(100));
 }
 
 // A vertex touches the middle of an edge of a face; all lie in one plane x + y + z = s. Doubles

@@ -3,6 +3,7 @@
 
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
+#include "tests/asked.h"
 #include "tests/detector/search/search_meshes.h"
 
 namespace assay::detector {
@@ -59,7 +60,7 @@ class AskedAgain : public testing::TestWithParam<Culling> {
 
 TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
   int kept_steps = 0, collisions = 0, inside = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < tests::usual(60); ++i) {
     make(i);
     Options options{GetParam(), Start::verified, i % 5 < 2 ? Pairs::first : Pairs::all};
     options.threads = i % 7 == 0 ? 3 : 1;
@@ -88,9 +89,9 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
       EXPECT_EQ(older.state().bytes(), fresh.state().bytes());
     }
   }
-  EXPECT_GT(kept_steps, 100);
-  EXPECT_GT(collisions, 30);
-  EXPECT_GT(inside, 20);
+  EXPECT_GT(kept_steps, tests::usual(100));
+  EXPECT_GT(collisions, tests::usual(30));
+  EXPECT_GT(inside, tests::usual(20));
 }
 
 TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
@@ -179,7 +180,7 @@ TEST_P(AskedAgain, L20_APartOfTheStepIsAnsweredAsIfItWereTheFirst) {
 
 // What changes the state, or the mesh's place, between two questions.
 TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < tests::usual(60); ++i) {
     make(i);
     Detector older = detector({GetParam(), Start::verified, Pairs::all});
     const auto before = older.state();

@@ -4,6 +4,7 @@
 
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
+#include "tests/asked.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -352,7 +353,7 @@ TEST(SavedStateScales, AreTakenBackForAnyExtents) {
   const auto below = [&engine](int n) { return static_cast<int>(engine() % std::uint64_t(n)); };
   const double places[] = {0, 0, 1, -0x1p-1022, 0x1p1023, -1.7e308};
   constexpr double unit = 0x1p-1074;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < tests::usual(10); ++round) {
     for (const auto& mesh : scaled_meshes()) {
       Positions x = mesh.x, next = mesh.x;
       for (Eigen::Index k = 0; k < 3; ++k) {

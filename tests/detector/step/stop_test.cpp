@@ -1,6 +1,7 @@
 // A step that is stopped, at each asking in turn: undecided, and as if it had not been.
 #include "detector/detector.h"
 #include "detector/mesh/paced_stop.h"
+#include "tests/asked.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -158,7 +159,7 @@ TEST_P(StopInAStep, OfALargeMeshIsAsked) {
   // Boxes, marks and representatives alone.
   EXPECT_GE(calls, 40 * triangle_count / PacedStop::usual_interval);
   const std::uint64_t all = calls;
-  const std::uint64_t apart = std::max<std::uint64_t>(all / 24, 1);
+  const std::uint64_t apart = std::max<std::uint64_t>(all / tests::usual(24), 1);
   for (std::uint64_t n = 1; n <= all; n += apart) {
     SCOPED_TRACE(n);
     auto other = make(bent_sheet, x_t0, options);

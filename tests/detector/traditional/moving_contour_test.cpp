@@ -1,6 +1,7 @@
 // Contours of patches while they move, the directions that they face, and samples of patches.
 #include "detector/traditional/moving_contour.h"
 
+#include "tests/asked.h"
 #include "tests/detector/exact/exact_numbers.h"
 #include "tests/detector/traditional/patch_meshes.h"
 
@@ -45,7 +46,7 @@ std::vector<std::int32_t> from_least(Contour contour) {
 TEST(ContourUnion, IsTheContourOfBothTogether) {
   std::mt19937_64 engine(77);
   int joined = 0, apart = 0;
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < tests::usual(20000); ++round) {
     // Two sets of triangles of a sheet, closed to a tube now and then.
     const std::int32_t n = 2 + static_cast<std::int32_t>(engine() % 3);
     const Sheet whole = sheet(n, n, flat);
@@ -129,7 +130,7 @@ TEST(MovingContour, L13_SeesWhatHappensBetweenTheEnds) {
 TEST(MovingContour, L13_SimpleIsNeverSaidOfACrossing) {
   std::mt19937_64 engine(4711);
   int simple = 0, crossing = 0;
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < tests::usual(20000); ++round) {
     const int n = 3 + static_cast<int>(engine() % 6);
     const int bit = static_cast<int>(engine() % facing_directions);
     const bool is_round = engine() % 2 != 0;  // nearly convex, seen from above
@@ -194,7 +195,7 @@ Exact along(const ExactVector& n, int bit) {
 TEST(Facing, L13_WhatIsFacedIsFacedAtEveryTime) {
   std::mt19937_64 engine(1309);
   int faced = 0, unfaced = 0;
-  for (int round = 0; round < 1500; ++round) {
+  for (int round = 0; round < tests::usual(1500); ++round) {
     // From steps so short that little turns to long ones, with flat and far-off triangles.
     const double move = std::ldexp(1.0, -static_cast<int>(engine() % 40));
     const double offset = engine() % 3 ? 0 : 1e6;
@@ -233,8 +234,8 @@ TEST(Facing, L13_WhatIsFacedIsFacedAtEveryTime) {
       (is_faced ? faced : unfaced)++;
     }
   }
-  EXPECT_GT(faced, 5000);
-  EXPECT_GT(unfaced, 5000);
+  EXPECT_GT(faced, tests::usual(5000));
+  EXPECT_GT(unfaced, tests::usual(5000));
 }
 
 TEST(Facing, DirectionsAreDistinctAndLeaveNoGap) {

@@ -2,6 +2,7 @@
 #include "detector/traditional/traditional.h"
 
 #include "detector/detector.h"
+#include "tests/asked.h"
 #include "tests/detector/search/search_meshes.h"
 #include "tests/detector/traditional/patch_meshes.h"
 
@@ -47,7 +48,7 @@ DirectionSet faced(const Sheet& mesh, const SteppedMesh& motion, std::int32_t t)
 // What bvh finds is what this finds, from fewer candidates.
 TEST(Traditional, L13_AgreesWithBvhOnRandomSheets) {
   int collisions = 0, fewer = 0;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < tests::usual(200); ++seed) {
     tests::SearchMeshes random(seed);
     const auto mesh = random.sheets(1 + random.below(3), 1 + random.below(5), seed % 2 == 0);
     const Triangles rows = mesh.rows();
@@ -60,8 +61,8 @@ TEST(Traditional, L13_AgreesWithBvhOnRandomSheets) {
     EXPECT_TRUE(std::includes(all.begin(), all.end(), some.begin(), some.end()));
     fewer += some.size() < all.size();
   }
-  EXPECT_GT(collisions, 50);
-  EXPECT_GT(fewer, 100);
+  EXPECT_GT(collisions, tests::usual(50));
+  EXPECT_GT(fewer, tests::usual(100));
 }
 
 // Quarter, half and three-quarter turns: the last has no cone as a whole.

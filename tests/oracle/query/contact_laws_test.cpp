@@ -5,6 +5,7 @@
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
 #include "oracle/query/times/times.h"
+#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 
 #if defined(__SSE2__)
@@ -17,7 +18,7 @@ namespace {
 using detector::EdgeEdge, detector::MovingPoint, detector::TimeEnclosure, detector::VertexFace,
     detector::Want, test::Coordinates, test::Random, test::rest;
 
-constexpr int queries_per_kind = 300;
+constexpr int queries_per_kind = tests::usual(300);
 
 struct FeatureQuery {
   FourPoints q;

@@ -1,5 +1,6 @@
 // The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
 #include "oracle/query/rungs.h"
+#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
@@ -168,7 +169,7 @@ FourPoints random_query(Random& random, Coordinates kind, Shape shape) {
 
 TEST(QuadraticRung, AgreesWithTheAlgebraicKernel) {
   Random random(32);
-  constexpr int queries_of_a_kind = 120;
+  constexpr int queries_of_a_kind = tests::usual(120);
   for (int shape = 0; shape < shapes; ++shape) {
     int queries = 0, contacts = 0;
     for (int kind = 0; kind < test::coordinate_kinds; ++kind) {

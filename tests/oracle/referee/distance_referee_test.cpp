@@ -2,6 +2,7 @@
 // says against distances sampled exactly.
 #include "oracle/referee/distance_referee.h"
 
+#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/oracle/query/query_kinds.h"
 
@@ -186,7 +187,7 @@ TEST(DistanceReferee, LessWorkOnlyLeavesMoreOpen) {
 TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
   Random random(72);
   int near = 0, apart = 0, doubtful = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < tests::usual(6000); ++i) {
     const auto kind = static_cast<test::Coordinates>(random.below(test::coordinate_kinds));
     std::array<MovingPoint, 4> x;
     for (auto& p : x) p = test::random_point(random, kind);
@@ -221,9 +222,9 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
     EXPECT_EQ(near_in_integers(exact, {k, std::int64_t{1} << depth}), at_s <= limit) << i;
   }
   std::printf("%d near, %d apart, %d doubtful\n", near, apart, doubtful);
-  EXPECT_GT(near, 200);
-  EXPECT_GT(apart, 200);
-  EXPECT_GT(doubtful, 200);
+  EXPECT_GT(near, tests::usual(200));
+  EXPECT_GT(apart, tests::usual(200));
+  EXPECT_GT(doubtful, tests::usual(200));
 }
 
 // A direction that turns with the face keeps the vertex away over the whole step.
@@ -241,7 +242,7 @@ TEST(DistanceProofs, OneDirectionThatTurns) {
 TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
   Random random(73);
   int near = 0, far = 0, open = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < tests::usual(20'000); ++i) {
     SCOPED_TRACE(i);
     const int first_group = 1 + i % 2;
     const test::Points x = random_query(random, test::QueryKind::small_integers, first_group);
@@ -271,8 +272,8 @@ TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
     }
   }
   std::printf("%d near, %d far, %d open\n", near, far, open);
-  EXPECT_GT(near, 4'000);
-  EXPECT_GT(far, 2'000);
+  EXPECT_GT(near, tests::usual(4'000));
+  EXPECT_GT(far, tests::usual(2'000));
   EXPECT_LT(open, 200);
 }
 

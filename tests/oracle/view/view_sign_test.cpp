@@ -1,6 +1,7 @@
 // Exact view signs; L1 and L2 are the laws of view points and view lines.
 #include "oracle/view/view_sign.h"
 
+#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
@@ -123,7 +124,7 @@ TEST(ViewLineSign, IdenticallyZeroPolynomials) {
 TEST(ViewSigns, RungsAgreeAndSymmetriesHold) {
   Random random(42);
   int decided = 0, signs = 0, total = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < tests::usual(1500); ++i) {
     const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     MovingTriangle t;
     for (MovingPoint& p : t) p = test::random_point(random, kind);
