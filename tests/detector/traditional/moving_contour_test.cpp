@@ -79,8 +79,8 @@ TEST(ContourUnion, IsTheContourOfBothTogether) {
     }
     (found.empty() ? apart : joined)++;
   }
-  EXPECT_GT(joined, 100);
-  EXPECT_GT(apart, 100);
+  EXPECT_GT(joined, tests::usual(100));
+  EXPECT_GT(apart, tests::usual(100));
 }
 
 constexpr int up = 4;  // +z
