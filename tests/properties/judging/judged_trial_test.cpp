@@ -111,7 +111,7 @@ TEST_F(JudgedTrials, AHangIsUndecided) {
   EXPECT_EQ(judge(ended(RunEnd::not_run, "no worker"), plugin).outcome, Outcome::error);
 }
 
-TEST_F(JudgedTrials, AMissingPair) {
+TEST_F(JudgedTrials, AMissingPairAndFreeAgainstAContact) {
   auto wrong = right;
   wrong.steps[0].pairs.erase(wrong.steps[0].pairs.begin());
   // The stage is found by running the built-in again, which has no fault here: the last one.
@@ -120,15 +120,10 @@ TEST_F(JudgedTrials, AMissingPair) {
       "all-pairs: missing pair at " +
           stage_that_lost(c.triangles, c.frames[0], c.frames[1], truth[0].pairs[0].pair) + ", " +
           feature_of_first());
-  expect_failure(wrong, plugin, judge(wrong, plugin).failure->claim,
-                 std::string(name_of(judge(wrong, plugin).failure->claim)) + ": missing pair, " +
-                     feature_of_first());
-  const auto judged = judge(wrong, plugin);
-  EXPECT_EQ(judged.failure->pair, truth[0].pairs[0].pair);
-}
-
-TEST_F(JudgedTrials, FreeAgainstAContact) {
-  auto wrong = right;
+  const auto failure = *judge(wrong, plugin).failure;
+  expect_failure(wrong, plugin, failure.claim,
+                 std::string(name_of(failure.claim)) + ": missing pair, " + feature_of_first());
+  EXPECT_EQ(failure.pair, truth[0].pairs[0].pair);
   wrong.steps[0].answer = Answer::free;
   wrong.steps[0].pairs.clear();
   expect_failure(wrong, plugin, Claim::free_sound,
@@ -144,26 +139,20 @@ TEST_F(JudgedTrials, ALatePair) {
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->kind, failure->claim == Claim::all_pairs ? "late pair" : "late");
   EXPECT_EQ(failure->pair, contact.pair);
-  EXPECT_NE(failure->explanation.find("exact"), std::string::npos);
+  EXPECT_TRUE(says(failure->explanation, "exact"));
   EXPECT_TRUE(failure->signature().starts_with(std::string(name_of(failure->claim)) + ": late"));
 }
 
 TEST_F(JudgedTrials, ASpuriousPair) {
-  corpus::Case quiet;
-  for (std::uint64_t i = 0;; ++i) {
-    quiet = test::small_case(9, i);
-    if (judge_case(quiet)[0].pairs.empty() && quiet.triangles.rows() > 1) break;
+  for (std::uint64_t i = 0; !truth[0].pairs.empty() || c.triangles.rows() < 2; ++i) {
+    c = test::small_case(9, i);
+    truth = judge_case(c);
   }
-  c = quiet;
-  truth = judge_case(c);
   auto wrong = run_case(c, configuration);
   ASSERT_EQ(judge(wrong, plugin).outcome, Outcome::holds);
   wrong.steps[0].answer = Answer::collision;
   wrong.steps[0].first = {0, 1};
-  detector::PairContact contact;
-  contact.pair = {0, 1};
-  contact.time = {0, 1};
-  wrong.steps[0].pairs = {contact};
+  wrong.steps[0].pairs = {{{0, 1}, {0, 1}, {}}};
   const auto failure = judge(wrong, plugin).failure;
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->kind, "answered collision");
@@ -231,7 +220,7 @@ TEST_F(JudgedTrials, TheCaseOfAFailureSaysWhatItIs) {
   const auto failing = failing_case(c, configuration, built_in, *failure);
   EXPECT_EQ(failing.id, "test-1-broken-7");
   EXPECT_EQ(failing.source, "campaign case test:1:broken:7, detector built-in, bvh");
-  EXPECT_NE(failing.about.find(failure->signature()), std::string::npos);
+  EXPECT_TRUE(says(failing.about, failure->signature()));
   EXPECT_EQ(options_of(failing).culling, Culling::bvh);
   EXPECT_EQ(options_of(failing).pairs, Pairs::all);
   const auto again = corpus::parse_case(corpus::case_text(failing), "again");

@@ -12,9 +12,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Decision;
-using oracle::DistanceVerdict;
-using tests::Rational;
+using detector::Decision, oracle::DistanceVerdict, tests::Rational;
 
 constexpr std::uint64_t seed = 3;
 
@@ -39,11 +37,11 @@ TEST(DistanceFamilies, EveryQueryCanBeMadeAlone) {
     int differ = 0;
     for (std::uint64_t index = 0; index < 20; ++index) {
       const std::string text = exact_text(family.query(5, index));
-      const auto again =
-          self_test_case(all, std::string(family.name) + ":5:" + std::to_string(index));
+      differ += exact_text(family.query(6, index)) != text;
+      if (index >= 4) continue;  // the whole text asks the referee
+      const auto again = self_test_case(all, fmt::format("{}:5:{}", family.name, index));
       ASSERT_TRUE(again.has_value());
       EXPECT_TRUE(again->family->text(again->seed, again->index).starts_with(text));
-      differ += exact_text(family.query(6, index)) != text;
     }
     EXPECT_GE(differ, 19) << family.name;
   }
@@ -63,10 +61,9 @@ TEST(DistanceFamilies, ConstructedOnesKeepTheirPromises) {
     }
     fmt::print("{:<22} {:3} of 300 are known to be near, {:3} of them exactly at d\n", family.name,
                promised, exactly);
-    const auto name = family.name;
-    if (name == "distance-tangent" || name == "distance-no-normal" || name == "distance-ends") {
-      EXPECT_EQ(exactly, 300);
-    }
+    const std::set<std::string_view> exact = {"distance-tangent", "distance-no-normal",
+                                              "distance-ends"};
+    EXPECT_TRUE(exactly == 300 || !exact.contains(family.name)) << family.name;
   }
 }
 
@@ -76,8 +73,7 @@ TEST(DistanceFamilies, TheRefereeIsRightAndLeavesFewOpen) {
     int near = 0, open = 0;
     const int queries = family.one_in == 1 ? 250 : family.one_in < 100 ? 100 : 50;
     for (int index = 0; index < queries; ++index) {
-      SCOPED_TRACE(std::string(family.name) + ":" + std::to_string(seed) + ":" +
-                   std::to_string(index));
+      SCOPED_TRACE(fmt::format("{}:{}:{}", family.name, seed, index));
       const QueryTask q = family.query(seed, static_cast<std::uint64_t>(index));
       const DistanceVerdict verdict = verdict_of(q);
       EXPECT_FALSE(contradicts({.decision = verdict.within, .proof = verdict}, {}, q));
@@ -87,13 +83,10 @@ TEST(DistanceFamilies, TheRefereeIsRightAndLeavesFewOpen) {
       for (int k = 0; k <= 6; ++k) {
         const Rational t = Rational(k) / 6;
         const bool is_near = squared_at(q, t) <= limit;
-        if (verdict.within == Decision::no) {
-          EXPECT_FALSE(is_near) << k;
-        } else if (verdict.within == Decision::yes && verdict.by.numerator == 0) {
-          EXPECT_TRUE(is_near || k > 0);
-        } else if (t <= after) {
-          EXPECT_FALSE(is_near) << k;
-        }
+        const bool starts_near = verdict.within == Decision::yes && verdict.by.numerator == 0;
+        EXPECT_TRUE(is_near || k > 0 || !starts_near);
+        const bool is_far = verdict.within == Decision::no || (!starts_near && t <= after);
+        EXPECT_FALSE(is_near && is_far) << k;
       }
     }
     const double open_share = static_cast<double>(open) / queries;
@@ -135,54 +128,22 @@ bool is_contradicted(const QueryTask& q, const MethodAnswer& answer,
          contradicts(answer, answer, q);
 }
 
-// A method that is right where the referee is sure, and what is wrong with it on purpose.
-TEST(DistanceChecks, WrongAnswersAreFound) {
-  int checked = 0;
-  for (const Family& family : distance_families()) {
-    for (std::uint64_t index = 0; index < 40; ++index) {
-      QueryTask q = family.query(seed, index);
-      q.met_at.reset();
-      const DistanceVerdict verdict = verdict_of(q);
-      if (verdict.within == Decision::open) continue;
-      ++checked;
-      const bool is_near = verdict.within == Decision::yes;
-      const bool is_at_start = is_near && verdict.by.numerator == 0;
-      const auto after = static_cast<double>(fraction(verdict.after)),
-                 by = static_cast<double>(fraction(verdict.by));
-      const auto found = [&](const MethodAnswer& answer) {
-        return is_contradicted(q, answer, verdict);
-      };
-      if (!is_near) {
-        EXPECT_FALSE(found(never));
-        EXPECT_TRUE(found(at(.5, .5)));
-        continue;
-      }
-      EXPECT_TRUE(found(never));  // a near pair that is missed
-      if (is_at_start) {
-        EXPECT_FALSE(found(at(0, 0)));
-        EXPECT_TRUE(found(at(0, 0x1p-1074)));
-        EXPECT_TRUE(found(at(0x1p-1074, 0x1p-1074)));
-        continue;
-      }
-      const double middle = after / 2 + by / 2;
-      EXPECT_FALSE(found(at(middle, std::nextafter(middle, 1))));
-      EXPECT_TRUE(found(at(0, 0)));
-      EXPECT_TRUE(after == 0 || found(at(after / 2, after / 2)));
-      EXPECT_TRUE(by == 1 || found(at(std::nextafter(by, 1), 1)));
-    }
-  }
-  EXPECT_GT(checked, 400);
-}
-
 TEST(DistanceChecks, EndsOfBrackets) {
   const QueryTask q = {{}, {}, detector::Separation{}};
   const DistanceVerdict yes = {Decision::yes, {1, 4}, {1, 2}, 0};
   // The first time is in (1/4, 1/2].
-  EXPECT_TRUE(is_contradicted(q, at(.25, .25), yes));
-  EXPECT_TRUE(is_contradicted(q, at(.125, .25), yes));
-  EXPECT_FALSE(is_contradicted(q, at(.25, .375), yes));
-  EXPECT_FALSE(is_contradicted(q, at(.5, .5), yes));
-  EXPECT_TRUE(is_contradicted(q, at(.5, .625), yes));
+  for (const auto& answer : {at(0, 0), at(.25, .25), at(.125, .25), at(.5, .625)})
+    EXPECT_TRUE(is_contradicted(q, answer, yes)) << answer.first->lo;
+  for (const auto& answer : {at(.25, .375), at(.5, .5)})
+    EXPECT_FALSE(is_contradicted(q, answer, yes)) << answer.first->lo;
+  EXPECT_TRUE(is_contradicted(q, never, yes));
+  const DistanceVerdict no = {Decision::no, {1, 1}, {1, 1}, 0};
+  EXPECT_FALSE(is_contradicted(q, never, no));
+  EXPECT_TRUE(is_contradicted(q, at(.5, .5), no));
+  const DistanceVerdict at_start = {Decision::yes, {0, 1}, {0, 1}, 0};
+  EXPECT_FALSE(is_contradicted(q, at(0, 0), at_start));
+  EXPECT_TRUE(is_contradicted(q, at(0, 0x1p-1074), at_start));
+  EXPECT_TRUE(is_contradicted(q, at(0x1p-1074, 0x1p-1074), at_start));
   const DistanceVerdict open = {Decision::open, {1, 4}, {1, 1}, 0};
   EXPECT_TRUE(is_contradicted(q, at(.25, .25), open));
   EXPECT_FALSE(is_contradicted(q, at(.75, .75), open));
@@ -193,8 +154,8 @@ TEST(DistanceChecks, EndsOfBrackets) {
   EXPECT_TRUE(is_contradicted(known, at(.5, .5), open));
   EXPECT_TRUE(is_contradicted(known, never, open));
   EXPECT_TRUE(is_contradicted(known, {}, yes));
-  EXPECT_TRUE(is_contradicted(known, {}, {Decision::no, {1, 1}, {1, 1}, 0}));
-  EXPECT_FALSE(is_contradicted(known, {}, {Decision::yes, {0, 1}, {0, 1}, 0}));
+  EXPECT_TRUE(is_contradicted(known, {}, no));
+  EXPECT_FALSE(is_contradicted(known, {}, at_start));
   EXPECT_FALSE(is_contradicted(known, {}, {Decision::open, {1, 8}, {1, 1}, 0}));
 }
 

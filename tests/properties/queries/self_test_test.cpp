@@ -1,13 +1,15 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "corpus/cases/case_file.h"
 #include "corpus/files.h"
+#include "properties/changes/changes.h"
 #include "properties/queries/query_families.h"
 #include "properties/queries/self_check.h"
-#include "tests/oracle/query/query_kinds.h"
+#include "properties/random.h"
+#include "tests/asked.h"
+#include "tests/reports/program.h"
 #include "tests/test.h"
 
 namespace assay::properties {
@@ -45,9 +47,8 @@ Form least_form(const Form& f, int first_group, int dimensions, double mirror_su
 
 Form form_of(const Query& q) {
   Form f;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i)
     f[i] = {q.points[i].t0[0], q.points[i].t0[1], q.points[i].t1[0], q.points[i].t1[1]};
-  }
   return f;
 }
 
@@ -68,14 +69,14 @@ std::set<std::pair<int, Form>> all_classes(int side, int dimensions, bool one_mo
       p = {double(from % side + least), double(y(from)), double(to % side + least), double(y(to))};
     }
     if (one_moves && moving > 1) continue;
-    for (const int first_group : {1, 2}) {
+    for (const int first_group : {1, 2})
       classes.emplace(first_group, least_form(f, first_group, dimensions, side - 1 + 2 * least));
-    }
   }
   return classes;
 }
 
 void expect_complete(int side, int dimensions, WorldMotion motion) {
+  SCOPED_TRACE(fmt::format("side {}, {} dimensions, {}", side, dimensions, int(motion)));
   const SmallWorld world(side, dimensions, motion);
   std::set<std::pair<int, Form>> found;
   std::size_t queries = 0;
@@ -91,12 +92,10 @@ void expect_complete(int side, int dimensions, WorldMotion motion) {
   EXPECT_EQ(found, all_classes(side, dimensions, motion == WorldMotion::one_point_moves));
 }
 
-TEST(SmallWorld, LineIsComplete) { expect_complete(3, 1, WorldMotion::every_point_moves); }
-TEST(SmallWorld, PlaneIsComplete) { expect_complete(2, 2, WorldMotion::every_point_moves); }
-TEST(SmallWorld, LineWithOneMoverIsComplete) {
+TEST(SmallWorld, LinesAndPlanesAreComplete) {
+  expect_complete(3, 1, WorldMotion::every_point_moves);
+  expect_complete(2, 2, WorldMotion::every_point_moves);
   expect_complete(4, 1, WorldMotion::one_point_moves);
-}
-TEST(SmallWorld, PlaneWithOneMoverIsComplete) {
   expect_complete(2, 2, WorldMotion::one_point_moves);
 }
 
@@ -105,9 +104,8 @@ TEST(SmallWorld, PlaneWithOneMoverIsComplete) {
 TEST(SmallWorld, CubeHoldsAsManyAsBurnsideSays) {
   const SmallWorld world(2, 3, WorldMotion::every_point_moves);
   std::uint64_t faces = 0, edges = 0;
-  for (std::uint64_t place = 0; place < world.places(); ++place) {
+  for (std::uint64_t place = 0; place < world.places(); ++place)
     if (const auto query = world.at(place)) ++(query->first_group == 1 ? faces : edges);
-  }
   std::array<std::size_t, 3> axes = {0, 1, 2};
   std::uint64_t fixed_faces = 0, fixed_edges = 0;
   do {
@@ -143,9 +141,10 @@ TEST(SmallWorld, CubeHoldsAsManyAsBurnsideSays) {
 TEST(Generators, EveryQueryCanBeMadeAlone) {
   for (const Family& family : query_families()) {
     for (std::uint64_t index = 0; index < 20; ++index) {
-      EXPECT_EQ(exact_text(family.query(5, index)), exact_text(family.query(5, index)));
-      EXPECT_NE(exact_text(family.query(5, index)), exact_text(family.query(6, index)));
-      EXPECT_EQ(family.query(5, index).query.first_group, index % 2 == 0 ? 1 : 2);
+      const auto q = family.query(5, index);
+      EXPECT_EQ(exact_text(q), exact_text(family.query(5, index)));
+      EXPECT_NE(exact_text(q), exact_text(family.query(6, index)));
+      EXPECT_EQ(q.query.first_group, index % 2 == 0 ? 1 : 2);
     }
   }
 }
@@ -166,11 +165,9 @@ TEST(SelfTest, NamedQueriesAreCasesInTheirCanonicalForm) {
     EXPECT_EQ(corpus::read_bytes(file).value(), corpus::case_text(c));
   }
   EXPECT_FALSE(named_queries("no such folder"));
-  const auto empty =
-      std::filesystem::temp_directory_path() / ("assay-no-queries-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(empty / "queries" / "named");
-  EXPECT_FALSE(named_queries(empty)) << "none of them would be asked, and all would seem well";
-  std::filesystem::remove_all(empty);
+  const tests::Scratch empty;
+  std::filesystem::create_directories(empty / "queries/named");
+  EXPECT_FALSE(named_queries(empty / "")) << "none of them would be asked, and all would seem well";
 }
 
 // An answer or a rung that is not the oracle's own is told.
@@ -210,43 +207,87 @@ TEST(SelfTest, CasesHaveNames) {
   EXPECT_EQ(named->seed, 7u);
   EXPECT_EQ(named->index, 123u);
   for (const char* wrong : {"", "small-int", "small-int:7", "small-int:7:", "small-int:x:1",
-                            "small-int:7:-1", "no-family:1:1", ":1:1", "small-int:7:1 "}) {
+                            "small-int:7:-1", "no-family:1:1", ":1:1", "small-int:7:1 "})
     EXPECT_FALSE(self_test_case(all_families(), wrong)) << wrong;
-  }
 }
 
-// Three methods that share no arithmetic answer the same queries: the oracle's rungs, the referee,
-// and the detector's elementary test.
+// Two changes of a query under which the oracle's answer and first time are known; those that only
+// exchange, mirror, scale or reverse are laws of tests/oracle/query. Each says what is wrong, or
+// nothing if the law holds; no text if the change rounds in this query.
+using Broken = std::optional<std::string>;
+using detector::TimeEnclosure, detector::Want;
 
-using oracle::test::QueryKind;
+Broken translation(const Query& query, const MethodAnswer& answer, std::uint64_t pick) {
+  constexpr std::array steps = {1.0, -3.0, 0x1p-3, 0x1p20, -0x1p45, 0x1p-60};
+  detector::Point by;
+  for (double& c : by) {
+    c = steps[pick % steps.size()];
+    pick /= steps.size();
+  }
+  Query q = query;
+  const auto numbers = numbers_of(q);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!adds_exactly(*numbers[i], by[i % 3], *numbers[i])) return {};
+  const auto moved = oracle_answer({q}, Want::first_time);
+  return moved.decision != answer.decision ? "another answer"
+         : moved.first != answer.first     ? "another first time"
+                                           : "";
+}
 
-TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
-  constexpr int queries_of_a_kind = 3000;
-  const QueryMethod methods[] = {
-      *std::ranges::find(query_methods(), std::string_view("detector, timed"), &QueryMethod::name),
-      {"referee", method_of("referee")->answer, QueryChecks::contacts, 1, true}};
-  for (int k = 0; k < oracle::test::query_kinds; ++k) {
-    const auto kind = static_cast<QueryKind>(k);
-    const std::uint64_t of_kind = 71 + static_cast<std::uint64_t>(k);
-    oracle::test::Random random(of_kind);
-    QueryTally tally;
-    for (int i = 0; i < queries_of_a_kind; ++i) {
-      const int first_group = 1 + i % 2;
-      const QueryTask asked{{random_query(random, kind, first_group), first_group}};
-      ASSERT_EQ(check_query(asked, static_cast<std::uint64_t>(i), tally, methods).value_or(""), "")
-          << name_of(kind) << ", seed " << of_kind << ", query " << i;
-    }
-    const double share = static_cast<double>(tally.open) / queries_of_a_kind;
-    fmt::print("{:22} seed {}: {} queries, {} contact, open {:.2f} %\n", name_of(kind), of_kind,
-               queries_of_a_kind, tally.contacts, 100 * share);
-    EXPECT_GT(tally.contacts, 0u) << name_of(kind);
-    if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
-      EXPECT_LE(share, 0.05);
-    }
-    if (is_near_degenerate(kind)) {
-      EXPECT_LE(share, 0.5);
+// A time t of the second half is 2 t - 1 in the half, which is exact for doubles t in [1/2, 1].
+bool same_in_second_half(const TimeEnclosure& whole, const TimeEnclosure& half) {
+  const double lo = 2 * whole.lo - 1, hi = 2 * whole.hi - 1;
+  if (whole.lo == whole.hi) return half.lo == lo && half.hi == lo;
+  // The time lies strictly between two doubles. The enclosure in the half is finer, so it lies
+  // within.
+  return lo <= half.lo && half.hi <= hi;
+}
+
+Broken halves(const Query& query, const MethodAnswer& answer) {
+  Query first = query, second = query;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& p = query.points[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      double middle = 0;
+      if (!adds_exactly(p.t0[k], p.t1[k], middle)) return {};
+      if (std::ldexp(std::ldexp(middle, -1), 1) != middle) return {};
+      first.points[i].t1[k] = second.points[i].t0[k] = std::ldexp(middle, -1);
     }
   }
+  const MethodAnswer early = oracle_answer({first}, Want::first_time);
+  const MethodAnswer late = early.first ? early : oracle_answer({second}, Want::first_time);
+  if (late.decision != answer.decision) return "the halves answer otherwise";
+  if (!answer.first) return "";
+  const TimeEnclosure& t = *answer.first;
+  if (early.first) {
+    constexpr double doubling_is_exact_from = 0x1p-1000;
+    if (t.lo < doubling_is_exact_from && t.lo != t.hi) return "";
+    const bool is_same = early.first->lo == 2 * t.lo && early.first->hi == 2 * t.hi;
+    return is_same ? "" : "another time in the first half";
+  }
+  const bool is_same = t.lo >= 0.5 && same_in_second_half(t, *late.first);
+  return is_same ? "" : "another time in the second half";
+}
+
+TEST(Invariances, OfTheOracleHoldOnTheFamiliesOfTheSelfTest) {
+  const auto queries = tests::asked("ASSAY_CASES", 10'000), seed = tests::asked("ASSAY_SEED", 1);
+  std::uint64_t translated = 0, halved = 0;
+  for (const auto& family : all_families()) {
+    if (!family.query) continue;
+    for (std::uint64_t index = 0; index < family.indices(queries); ++index) {
+      const auto asked = family.query(seed, index);
+      if (!asked || asked->within) continue;
+      const auto answer = oracle_answer(*asked, Want::first_time);
+      const std::uint64_t pick = Random(~seed, index).next();
+      auto broken = pick % 2 == 0 ? translation(asked->query, answer, pick / 2) : Broken();
+      auto& count = broken ? translated : halved;
+      if (!broken) broken = halves(asked->query, answer);
+      count += broken ? 1 : 0;
+      EXPECT_EQ(broken.value_or(""), "") << family.name << ":" << seed << ":" << index;
+    }
+  }
+  fmt::print("{} translated, {} halved\n", translated, halved);
+  EXPECT_GT(std::min(translated, halved), 1000u);
 }
 
 }  // namespace

@@ -14,15 +14,13 @@
 #include "oracle/referee/second_opinion.h"
 #include "properties/queries/query_methods.h"
 #include "properties/random.h"
+#include "tests/meshes.h"
 #include "tests/test.h"
 
 namespace assay::properties {
 namespace {
 
-using corpus::Json;
-using detector::FeatureKind;
-using detector::FourPoints;
-using detector::TimeEnclosure;
+using corpus::Json, detector::FeatureKind, detector::FourPoints, detector::TimeEnclosure;
 
 const std::string folder = ASSAY_SOURCE_DIR "/corpus/vectors/";
 
@@ -30,11 +28,7 @@ std::string text_of(const std::string& name) { return corpus::read_bytes(folder 
 Json json_of(const std::string& name) { return corpus::parse_json(text_of(name), name).value(); }
 
 detector::Positions positions_of(const Json& points) {
-  detector::Positions x(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = points[i][k];
-  return x;
+  return tests::matrix_of<detector::Positions>(points.get<std::vector<detector::Point>>());
 }
 
 std::optional<TimeEnclosure> first_time(const Json& facts) {
@@ -120,10 +114,7 @@ PairTimes pair_times(const std::vector<detector::PairContact>& contacts) {
 }
 
 void prove_mesh(const Json& one, const std::string& question) {
-  detector::Triangles triangles(static_cast<Eigen::Index>(one["triangles"].size()), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      triangles(t, k) = one["triangles"][static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
+  const auto triangles = tests::triangles(one["triangles"].get<std::vector<tests::Corners>>());
   std::vector<detector::Positions> frames;
   for (const auto& frame : one["frames"]) frames.push_back(positions_of(frame));
   auto built_in = detector::Detector::create(triangles, frames[0], {}).value();
