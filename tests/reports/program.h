@@ -107,8 +107,14 @@ inline Outcome run_assay(const std::string& arguments, const std::string& prefix
   return {code, read_text(scratch / "out"), read_text(scratch / "err")};
 }
 
-// Expects this exit code, and each of these words in what is printed. A failure names the line that
-// calls.
+// Expects each of these words in a text. A failure names the line that calls.
+inline void expect_says(const std::string& text, const std::vector<std::string>& words,
+                        const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  const testing::ScopedTrace trace(file, line, "");
+  for (const auto& word : words) EXPECT_TRUE(says(text, word));
+}
+
+// Expects this exit code, and each of these words in what is printed.
 inline Outcome expect_ended(const Outcome& outcome, int code,
                             const std::vector<std::string>& said = {},
                             const char* file = __builtin_FILE(), int line = __builtin_LINE()) {

@@ -17,8 +17,7 @@ class Power : public testing::Test {
     shared = std::make_unique<Scratch>();
     const auto plan = shared->write("proof.json", faults_text("proof", 20, 1));
     const auto made =
-        run_assay("run --seed 7 --jobs 2 --campaign " + plan + " --out " + proof_folder());
-    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+        expect_ended("run --seed 7 --jobs 2 --campaign " + plan + " --out " + proof_folder(), 0);
     ASSERT_TRUE(contains(made.out, " by their curated case alone\n")) << made.out;
   }
   static void TearDownTestSuite() { shared.reset(); }
@@ -119,15 +118,12 @@ class Power : public testing::Test {
 };
 
 TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
-  const auto made = run(out, with_proof);
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made = expect_ended(run(out, with_proof), 0);
   EXPECT_TRUE(says(made.out,
                    "; planted faults as campaign proof, seed 7, of this build found "
                    "them; "));
   const auto proved = rows_of(proof_folder() + "/run.sqlite", "fault");
-  EXPECT_TRUE(
-      contains(made.out, " by their curated case alone; campaign proof, seed 7, of this build\n"))
-      << made.out;
+  expect_says(made.out, {" by their curated case alone; campaign proof, seed 7, of this build\n"});
   EXPECT_TRUE(
       contains(read_text(out + "/summary.md"),
                " by their curated case alone. Their proof is taken from campaign proof, seed 7, "
@@ -174,8 +170,7 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
   EXPECT_GT(before.size(), 0u);
   EXPECT_LT(before.size(), 3600u);
 
-  const auto made = certify("");
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made = expect_ended(certify(""), 0);
   EXPECT_TRUE(says(made.out, " (" + std::to_string(before.size()) + " are stored, "));
   EXPECT_TRUE(contains(made.out, "; until done\n")) << made.out;
   const auto after = trials_of(out);
@@ -260,8 +255,7 @@ TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
   std::string folders;
   for (const std::string seed : {"1", "2"}) {
     const auto folder = scratch / ("share" + seed);
-    const auto part = run(folder, with_proof + " --share 1/2 --seed " + seed);
-    ASSERT_EQ(part.exit_code, 3) << part.out << part.err;
+    const auto part = expect_ended(run(folder, with_proof + " --share 1/2 --seed " + seed), 3);
     folders += folder + " ";
   }
   const auto both = [&](const std::string& name) {

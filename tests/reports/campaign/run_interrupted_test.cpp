@@ -48,8 +48,7 @@ class Interrupted : public testing::Test {
 
 TEST_F(Interrupted, KilledAtAnyMomentItComesToTheSame) {
   library = plugin("always_free");
-  const auto reference = run(undisturbed);
-  ASSERT_EQ(reference.exit_code, 1) << reference.out << reference.err;
+  const auto reference = expect_ended(run(undisturbed), 1);
   int killed = 0;
   for (const int milliseconds : {5, 40, 90, 150, 230, 60, 310, 20}) {
     Started started(words(out), text);
@@ -154,8 +153,7 @@ TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
 TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
   library = plugin("always_free");
   plan = scratch.write("plan.json", plan_text(24, R"(, "shrink_share": 0)"));
-  const auto whole = run(out);
-  ASSERT_EQ(whole.exit_code, 1) << whole.out << whole.err;
+  const auto whole = expect_ended(run(out), 1);
   const auto lines = replay_lines(whole.out);
   ASSERT_FALSE(lines.empty());
   const std::string file = lines[0].substr(7, lines[0].find(' ', 7) - 7);

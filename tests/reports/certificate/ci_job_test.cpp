@@ -57,10 +57,9 @@ TEST_F(CiJob, EndsWithTheVerdict) {
 
   copy_example();
   EXPECT_EQ(run("2"), 0) << printed;
-  EXPECT_TRUE(contains(printed, "\nown cases ")) << printed;
-  EXPECT_TRUE(
-      contains(printed, " by their curated case alone; campaign few, seed 1, of this build\n"));
-  EXPECT_TRUE(contains(printed, "\nverdict: certified in ")) << printed;
+  expect_says(printed, {"\nown cases ",
+                        " by their curated case alone; campaign few, seed 1, of this build\n",
+                        "\nverdict: certified in "});
   EXPECT_TRUE(contains(report("junit.xml"), "name=\"corpus\"/>"));
   EXPECT_TRUE(contains(report("summary.md"), "certified"));
   const auto certificate = read_text(scratch / "mine/certified-2/certificate.json");

@@ -31,8 +31,7 @@ class Tampering : public testing::Test {
 
   void SetUp() override {
     store_and_issue(good_run(), good, {good, ""});
-    const auto verified = run_assay("verify " + good + "/certificate.json");
-    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    const auto verified = expect_ended("verify " + good + "/certificate.json", 0);
   }
 
   // A copy of the folder, changed by `change`, does not verify.

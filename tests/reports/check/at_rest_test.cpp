@@ -82,8 +82,7 @@ TEST_F(AtRest, BodiesAreNamed) {
   EXPECT_TRUE(std::regex_search(
       crossing.out, std::regex("\nbody 0 meets body 1: [0-9]+ pairs; detector and oracle agree")))
       << crossing.out;
-  EXPECT_TRUE(contains(crossing.out, " (triangle 2 of body 0 and triangle ")) << crossing.out;
-  EXPECT_TRUE(contains(crossing.out, ", crossing\n")) << crossing.out;
+  expect_says(crossing.out, {" (triangle 2 of body 0 and triangle ", ", crossing\n"});
   const auto contact = report()["steps"][0]["contacts"][0];
   EXPECT_EQ(contact["bodies"][1]["body"], 1);
   EXPECT_EQ(contact["bodies"][1]["triangle"], contact["triangles"][1].get<int>() - 12);
@@ -91,16 +90,14 @@ TEST_F(AtRest, BodiesAreNamed) {
 
   const auto apart =
       check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("far.obj", {9, 9, 9}, 1));
-  EXPECT_TRUE(contains(apart.out, "no body meets another or itself; detector and oracle agree"))
-      << apart.out;
+  expect_says(apart.out, {"no body meets another or itself; detector and oracle agree"});
 }
 
 TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
   const auto bodies = "--body " + box("small.obj", {1, 1, 1}, 1) + " --body " +
                       box("big.obj", {0, 0, 0}, 4) + " --body " + box("far.obj", {5, 0, 0}, 1);
   const auto nested = check(bodies);
-  EXPECT_TRUE(contains(nested.out, "body 0 lies inside body 1; their surfaces do not meet\n"))
-      << nested.out;
+  expect_says(nested.out, {"body 0 lies inside body 1; their surfaces do not meet\n"});
   EXPECT_EQ(report()["inside"], json::parse(R"([{"body": 0, "of": 1}])"));
   EXPECT_FALSE(contains(nested.out, "body 2 lies")) << nested.out;
   // Of one file the components are told, too.
@@ -139,8 +136,7 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
   const auto touched =
       check("--body " + box("small.obj", {0, 1, 1}, 1) + " --body " + box("big.obj", {0, 0, 0}, 4));
   EXPECT_FALSE(contains(touched.out, "lies inside")) << touched.out;
-  EXPECT_TRUE(contains(touched.out, ", touching\n")) << touched.out;
-  EXPECT_TRUE(contains(touched.out, "  crossing: 0, touching: ")) << touched.out;
+  expect_says(touched.out, {", touching\n", "  crossing: 0, touching: "});
   // A box without a lid holds nothing.
   auto open = read_text(scratch / "big.obj");
   open.resize(open.rfind("f "));
@@ -150,8 +146,7 @@ TEST_F(AtRest, ABodyInsideOfAnotherIsTold) {
   // One that moves about inside.
   const auto moving = check("--body " + box("big.obj", {0, 0, 0}, 4) + " --body " +
                             box("m0.obj", {1, 1, 1}, 1) + " " + box("m1.obj", {2, 2, 1}, 1));
-  EXPECT_TRUE(contains(moving.out, "body 1 lies inside body 0 during this step; their"))
-      << moving.out;
+  expect_says(moving.out, {"body 1 lies inside body 0 during this step; their"});
 }
 
 TEST_F(AtRest, WithinADistance) {
@@ -196,8 +191,7 @@ TEST_F(AtRest, TenContactsAreNamed) {
       check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {0, 0, 2}, 2));
   EXPECT_EQ(count_of(all.out, "  contact: "), 10u) << all.out;
   const auto count = report()["steps"][0]["contacts"].size();
-  EXPECT_TRUE(contains(all.out, "  ... " + std::to_string(count - 10) + " more in contact"))
-      << all.out;
+  expect_says(all.out, {"  ... " + std::to_string(count - 10) + " more in contact"});
 }
 
 TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {

@@ -16,9 +16,8 @@ void prepare(const Scratch& scratch) {
   const auto read = corpus::parse_case(read_text(curated("A4_endpoints_only")), "A4");
   ASSERT_TRUE(read);
   const auto& c = read.value();
-  const auto export_case =
-      run_assay("replay " + curated("A4_endpoints_only") + " --export " + (scratch / "export"));
-  ASSERT_EQ(export_case.exit_code, 0) << export_case.err;
+  const auto export_case = expect_ended(
+      "replay " + curated("A4_endpoints_only") + " --export " + (scratch / "export"), 0);
   fs::copy_file(scratch / "export/frame_0000.obj", scratch / "frame_0.obj");
   fs::copy_file(scratch / "export/frame_0001.obj", scratch / "frame_1.obj");
   fs::copy_file(std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv",

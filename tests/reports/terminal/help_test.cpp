@@ -56,8 +56,7 @@ TEST(Help, OfEachVerbIsWholeAndFitsOnATerminal) {
       const bool is_empty = contains(help.out, part) && !contains(help.out, part + "  ");
       EXPECT_FALSE(is_empty) << part << help.out;
     }
-    EXPECT_TRUE(contains(help.out, "\nExamples:\n  assay " + verb)) << help.out;
-    EXPECT_TRUE(contains(help.out, "\nExit codes:\n  0  ")) << help.out;
+    expect_says(help.out, {"\nExamples:\n  assay " + verb, "\nExit codes:\n  0  "});
     for (const std::string word : {"TEXT", "UINT", "FLOAT", "INT ", "REQUIRED", "OPTIONS"})
       EXPECT_FALSE(contains(help.out, word)) << word << help.out;
     for (const auto& line : lines_of(help.out)) {
@@ -80,13 +79,10 @@ TEST(Help, SaysTheExitCodesOfTheDesign) {
 
 TEST(Help, ShowsWordsAndDefaults) {
   const auto check = run_assay("help check").out;
-  EXPECT_TRUE(contains(check, "Usage: assay check [INPUT...] [OPTION...]\n")) << check;
-  EXPECT_TRUE(contains(check, "--pairs WORD")) << check;
-  EXPECT_TRUE(contains(check, "(default all): all, first")) << check;
-  EXPECT_TRUE(contains(check, "--apart A,B...  ")) << check;
+  expect_says(check, {"Usage: assay check [INPUT...] [OPTION...]\n", "--pairs WORD",
+                      "(default all): all, first", "--apart A,B...  "});
   const auto run = run_assay("help run").out;
-  EXPECT_TRUE(contains(run, "Usage: assay run --out DIR [OPTION...]\n")) << run;
-  EXPECT_TRUE(contains(run, "(default quick)")) << run;
+  expect_says(run, {"Usage: assay run --out DIR [OPTION...]\n", "(default quick)"});
 }
 
 TEST(Help, WordsThatAreMisspeltMeanOthers) {
@@ -116,8 +112,7 @@ TEST(Help, ListAloneSaysWhichListsThereAre) {
     EXPECT_TRUE(contains(lists.out, "\n" + list + " ") || lists.out.rfind(list, 0) == 0) << list;
     EXPECT_EQ(run_assay("list " + list).exit_code, 0);
   }
-  EXPECT_TRUE(contains(lists.out, "\nfailures DIR "));
-  EXPECT_TRUE(contains(lists.out, "\nslow DIR "));
+  expect_says(lists.out, {"\nfailures DIR ", "\nslow DIR "});
 }
 
 }  // namespace

@@ -84,13 +84,10 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   for (const char* question : {"limits", "within"})
     campaign["strata"].push_back({{"family", question}, {"cases", 12}});
   plan = scratch.write("plan.json", campaign.dump());
-  const auto made = certify();
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-  for (const std::string word :
-       {"breathing-sphere   each of 10 ", "speed (a ratio)",
-        "self-test of the oracle: 0 contradictions", "verdict: certified in ", "/assay verify "}) {
-    EXPECT_TRUE(contains(made.out, word)) << word << "\n" << made.out;
-  }
+  const auto made = expect_ended(
+      certify(), 0,
+      {"breathing-sphere   each of 10 ", "speed (a ratio)",
+       "self-test of the oracle: 0 contradictions", "verdict: certified in ", "/assay verify "});
   // The row that the top README shows is this one.
   const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/README.md");
   const auto row = made.out.find("curated cases      each of 6 ");
@@ -178,8 +175,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   expect_ended("verify --again 1 " + certificate, 0, {"again: 48 of 48 trials, seed "});
 
   // The same again: the same but for times.
-  const auto again = certify();
-  ASSERT_EQ(again.exit_code, 0) << again.out << again.err;
+  const auto again = expect_ended(certify(), 0);
   Json first = statement, second = read();
   EXPECT_NE(first, second);
   for (Json* s : {&first, &second}) (*s)["predicate"].erase("times");
@@ -237,10 +233,8 @@ TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
 
 // Some faults show in a curated case alone: that one is shrunk and shown as a trial's mesh is.
 TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
-  const auto made = certify("--detector " + plugin("fault_view-line_one-corner"));
-  ASSERT_EQ(made.exit_code, 1) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "\nDEFECT ")) << made.out;
-  EXPECT_TRUE(contains(made.out, "  case corpus/M_Leither: ")) << made.out;
+  const auto made = expect_ended(certify("--detector " + plugin("fault_view-line_one-corner")), 1,
+                                 {"\nDEFECT ", "  case corpus/M_Leither: "});
   const Json statement = read(), &p = statement["predicate"];
   expect_certificate_schema(statement);
   EXPECT_EQ(p["failed_gate"], "corpus");
@@ -259,8 +253,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   const auto page = scratch / "page.html";
   ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
   const auto text = read_text(page);
-  EXPECT_TRUE(contains(text, failure["signature"].get<std::string>()));
-  EXPECT_TRUE(contains(text, "\"scene\":{"));
+  expect_says(text, {failure["signature"].get<std::string>(), "\"scene\":{"});
 
   // Once more: what is shrunk already stays as it is.
   ASSERT_EQ(certify("--detector " + plugin("fault_view-line_one-corner")).exit_code, 1);

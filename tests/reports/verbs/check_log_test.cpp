@@ -165,11 +165,10 @@ TEST_F(CheckLog, ThePageShowsVerdictClaimsAndKeptSteps) {
   std::filesystem::rename(record(with_a_miss()), wrong);
   expect_ended("check '" + wrong + "' --keep " + out, 1);
   const auto page = read_text(out + "/page.html");
-  EXPECT_TRUE(contains(page, "<h1>defect: " + (scratch_ / "a &amp; b &lt;i&gt;.log"))) << page;
-  EXPECT_TRUE(contains(
-      page, fmt::format("<td>free-sound</td><td>broken</td><td>first in step {}", collision_ + 1)));
-  EXPECT_TRUE(contains(page, "<td>not-late</td><td>holds</td>")) << page;
-  EXPECT_TRUE(contains(page, fmt::format("<h2>Step {}</h2>", collision_ + 1)));
+  expect_says(
+      page, {"<h1>defect: " + (scratch_ / "a &amp; b &lt;i&gt;.log"),
+             fmt::format("<td>free-sound</td><td>broken</td><td>first in step {}", collision_ + 1),
+             "<td>not-late</td><td>holds</td>", fmt::format("<h2>Step {}</h2>", collision_ + 1)});
   EXPECT_TRUE(contains(page, "<svg ")) << "the picture";
   EXPECT_TRUE(contains(page, fmt::format("#{}'</pre>", collision_ + 1))) << "the line to replay";
   EXPECT_FALSE(contains(page, "<script"));
@@ -200,9 +199,9 @@ TEST_F(CheckLog, JUnitHasEachClaim) {
   const auto file = scratch_ / "junit.xml";
   EXPECT_EQ(run_assay("check " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
   const auto xml = read_text(file);
-  EXPECT_TRUE(says(xml, fmt::format("name=\"free-sound\"><failure message=\"first in step {}\"/>",
-                                    collision_ + 1)));
-  EXPECT_TRUE(says(xml, "name=\"no-spurious\"/>"));
+  expect_says(xml, {fmt::format("name=\"free-sound\"><failure message=\"first in step {}\"/>",
+                                collision_ + 1),
+                    "name=\"no-spurious\"/>"});
 }
 
 TEST_F(CheckLog, TenOfAKindAreKept) {
@@ -397,8 +396,7 @@ TEST(CheckLogOfSimulators, TheSlipOfAClothComesHomeAsTwoTriangles) {
     ASSERT_EQ(exit_code_of(cloth.string() + " " + log + slip + " >/dev/null"), 0);
     const auto judged = expect_ended("check " + log + " --keep " + out, slip.empty() ? 0 : 1);
     if (slip.empty()) continue;
-    EXPECT_TRUE(says(judged.out, "114 of 500 steps judged"));
-    EXPECT_TRUE(says(judged.out, "386 steps left out by the contract"));
+    expect_says(judged.out, {"114 of 500 steps judged", "386 steps left out by the contract"});
     EXPECT_EQ(pair_of_first_failure(out)["triangles"].size(), 2u);
   }
 }

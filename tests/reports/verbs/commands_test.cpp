@@ -61,9 +61,8 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
 
 TEST_F(Commands, ReportHoldsWhatGhostsAndReleaseCost) {
   const auto frames = make_scene("arm-in-box", 800, 31);
-  const auto outcome = run_assay("check " + frames + " --culling view-auto --no-oracle --json " +
-                                 (scratch / "r.json"));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto outcome = expect_ended(
+      "check " + frames + " --culling view-auto --no-oracle --json " + (scratch / "r.json"), 0);
   const auto report = json::parse(read_text(scratch / "r.json"));
   int in_doubt = 0, released = 0, pairs = 0;
   for (const auto& step : report["steps"]) {
@@ -83,8 +82,7 @@ TEST_F(Commands, ReportHoldsWhatGhostsAndReleaseCost) {
 
 TEST_F(Commands, ReportHoldsTheContactsAndTimes) {
   const auto frames = make_scene("folding-sheet", 200, 6);
-  const auto outcome = run_assay("check " + frames + " --json " + (scratch / "r.json"));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto outcome = expect_ended("check " + frames + " --json " + (scratch / "r.json"), 0);
   const auto report = json::parse(read_text(scratch / "r.json"));
   EXPECT_GT(report["times_ms"]["create"], 0);
   EXPECT_NE(outcome.out.find("  ms:   create "), std::string::npos);

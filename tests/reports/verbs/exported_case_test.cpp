@@ -15,8 +15,8 @@ class ExportedCase : public testing::Test {
   // Exports the case, compiles its test and runs it: what it prints, or nothing.
   void expect_passes(const std::string& id_or_file) const {
     SCOPED_TRACE(id_or_file);
-    const auto exported = run_assay("replay " + id_or_file + " --export " + (scratch / "case"));
-    ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+    const auto exported =
+        expect_ended("replay " + id_or_file + " --export " + (scratch / "case"), 0);
     ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
     EXPECT_EQ(exit_code_of((scratch / "test >") + (scratch / "printed")), 0)
         << read_text(scratch / "printed");
@@ -124,17 +124,15 @@ class ExportedPlugIn : public testing::Test {
 };
 
 TEST_F(ExportedPlugIn, IsPlainArrays) {
-  const auto exported =
-      export_case("slow:1:closed-generic:19", "by_contract", "ASSAY_BY_CONTRACT=miss-inside");
-  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  const auto exported = expect_ended(
+      export_case("slow:1:closed-generic:19", "by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
   EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
   EXPECT_FALSE(contains(read_text(scratch / "case/case.json"), "\"answer\""))
       << "nobody stated what is expected";
   compile("case.cpp");
   EXPECT_EQ(exit_code_of(scratch / "program >/dev/null"), 2);
   EXPECT_EQ(filled_in(""), 1);
-  EXPECT_TRUE(contains(printed(), "breaks free-sound\n")) << printed();
-  EXPECT_TRUE(contains(printed(), "answered free, exact collision at ")) << printed();
+  expect_says(printed(), {"breaks free-sound\n", "answered free, exact collision at "});
   compile_plugin();
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=claims=255"), 0) << printed();
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
@@ -143,9 +141,9 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
 }
 
 TEST_F(ExportedPlugIn, IsToldWhichPairsCount) {
-  const auto exported =
-      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores");
-  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  const auto exported = expect_ended(
+      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores"),
+      1);
   compile_plugin();
   EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS="), 0) << printed();
   EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS=ignores"), 1) << printed();
@@ -232,11 +230,10 @@ TEST_F(ExportedPlugIn, AsksForEachClaim) {
       return "ASSAY_BY_CONTRACT='" + given + "' ASSAY_TEST_WRONG='" + given +
              "' ASSAY_CANDIDATES=" + given.substr(0, given.find(' '));
     };
-    const auto exported = export_case(curated("D6_fast_passage"), name, words(wrong));
-    ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+    const auto exported =
+        expect_ended(export_case(curated("D6_fast_passage"), name, words(wrong)), 1);
     EXPECT_TRUE(contains(exported.out, std::string("DEFECT ") + claim)) << exported.out;
-    EXPECT_TRUE(
-        contains(read_text(scratch / "case/case.cpp"), std::string(", \"") + claim + "\"}},\n"));
+    expect_says(read_text(scratch / "case/case.cpp"), {std::string(", \"") + claim + "\"}},\n"});
     compile_plugin();
     EXPECT_EQ(judged(name, words(wrong)), 1) << printed();
     EXPECT_TRUE(contains(printed(), std::string("breaks ") + claim)) << printed();
@@ -246,8 +243,8 @@ TEST_F(ExportedPlugIn, AsksForEachClaim) {
 
 TEST_F(ExportedPlugIn, WhoClaimsLittleDoesNotFailByItsOwnTest) {
   const std::string words = "ASSAY_BY_CONTRACT='claims=1 whenever'";
-  const auto exported = export_case(curated("A4_endpoints_only"), "by_contract", words);
-  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+  const auto exported =
+      expect_ended(export_case(curated("A4_endpoints_only"), "by_contract", words), 0);
   EXPECT_EQ(filled_in("  found.collision = true;"), 0) << printed();
   compile_plugin();
   EXPECT_EQ(judged("by_contract", words), 0) << printed();
@@ -273,8 +270,8 @@ TEST_F(ExportedPlugIn, MayReportWhatComesWithinItsSlack) {
 
 TEST_F(ExportedPlugIn, LeavesOutWhatTheContractDoes) {
   const std::string words = "ASSAY_BY_CONTRACT=strangers";
-  const auto exported = export_case(curated("A1_winding2_allpositive"), "by_contract", words);
-  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+  const auto exported =
+      expect_ended(export_case(curated("A1_winding2_allpositive"), "by_contract", words), 0);
   EXPECT_TRUE(says(exported.out, " left out by the contract, the first at t = "));
   compile_plugin();
   EXPECT_EQ(judged("by_contract", words), 0) << printed();

@@ -27,8 +27,8 @@ class ForeignDetector : public testing::Test {
 constexpr const char* modest = "claims=131 ";
 
 TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
-  const auto made = judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made =
+      expect_ended(judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120)), 0);
   std::uint64_t alarms = 0, free_steps = 0;
   const Json stated = predicate();
   for (const auto& stratum : stated["strata"]) {
@@ -65,8 +65,7 @@ void expect_no_empty_table(const std::string& text) {
 TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
   for (const std::string words : {"claims=128 no-pairs", "claims=1 no-pairs start=free"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", words, plan_text(6));
-    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+    const auto made = expect_ended(judge("run", words, plan_text(6)), 0);
     expect_no_empty_table(made.out);
     const auto checked = run_assay("check " + curated("D6_fast_passage") + " --detector " + library,
                                    "ASSAY_BY_CONTRACT='" + words + "' ");
@@ -77,9 +76,9 @@ TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
       expect_no_empty_table(run_assay("list " + list + " " + out).out);
   }
   const auto made =
-      run_assay("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +
-                (scratch / "certified") + " --detector " + plugin("misses_on_97"));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+      expect_ended("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +
+                       (scratch / "certified") + " --detector " + plugin("misses_on_97"),
+                   0);
   expect_no_empty_table(made.out);
   EXPECT_FALSE(contains(read_text(scratch / "certified/junit.xml"), "tests=\"0\""));
   const auto stated = Json::parse(read_text(scratch / "certified/certificate.json"))["predicate"];
@@ -128,9 +127,7 @@ TEST_F(ForeignDetector, CheckTellsTheExactTimeBesideItsOwn) {
   const auto exact = step["oracle"]["first_time"][0].get<double>();
   EXPECT_GT(exact, 0);
   EXPECT_EQ(step["diff"]["first"]["early_by"].get<double>(), exact) << "by the lower end";
-  EXPECT_TRUE(contains(wide, "  first time [0, 1], exact ")) << wide;
-  EXPECT_TRUE(contains(wide, ": early by ")) << wide;
-  EXPECT_TRUE(contains(wide, "early in 1 step, by ")) << wide;
+  expect_says(wide, {"  first time [0, 1], exact ", ": early by ", "early in 1 step, by "});
   const auto right = check("");
   EXPECT_TRUE(contains(right, "  first time 0.") && contains(right, ", exact 0.")) << right;
   EXPECT_FALSE(contains(right, "early") || contains(right, "late")) << right;
@@ -154,10 +151,10 @@ TEST_F(ForeignDetector, CheckObeysTheContract) {
 
 TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   // It always answers collision at [0, 1], under the widest contract that loads.
-  const auto made =
+  const auto made = expect_ended(
       judge("certify", "claims=255 whenever no-pairs margin=1e300 tolerance=1e-3 start=free",
-            plan_text(12));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+            plan_text(12)),
+      0);
   std::vector<std::string> not_judged;
   const Json stated = predicate();
   for (const auto& one : stated["not_judged"])

@@ -82,14 +82,11 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   const auto lines = replay_lines(wrong.out);
   ASSERT_FALSE(lines.empty());
   expect_ended(lines[0], 1, {"DEFECT candidates: missing candidate"});
-  const auto page =
-      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page"));
-  ASSERT_EQ(page.exit_code, 0) << page.err;
+  const auto page = expect_ended(
+      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page")), 0);
   // The page tells what is no candidate, and never that a pair is missing.
   const auto text = read_text(out("page"));
-  EXPECT_TRUE(contains(text, R"("reports_pairs":false)"));
-  EXPECT_TRUE(contains(text, R"("candidates":[)"));
-  EXPECT_TRUE(contains(text, R"("over_least":)"));
+  expect_says(text, {R"("reports_pairs":false)", R"("candidates":[)", R"("over_least":)"});
 }
 
 // A library with whole steps and a query that is wrong in its query alone.
@@ -194,8 +191,7 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
     return asked(words, "replay " + scratch.write("query.json", case_text(query_with_a_contact())) +
                             " --export " + out("case"));
   };
-  const auto missed = replayed("miss-inside");
-  ASSERT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  const auto missed = expect_ended(replayed("miss-inside"), 1);
   const auto compiles = [&](const std::string& file, const std::string& more) {
     EXPECT_EQ(exit_code_of(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") +
                            file + more + " -o " + out("program") + " 2>" + out("compiler")),

@@ -195,8 +195,7 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
                                "tiny:1:broken:1", "tiny:1:closed-far-large-step:2"}) {
     SCOPED_TRACE(id);
     const std::string folder = scratch / id;
-    const auto outcome = run_assay("replay " + id + " --export " + folder);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    const auto outcome = expect_ended("replay " + id + " --export " + folder, 0);
     EXPECT_TRUE(contains(outcome.out, "exported to " + folder)) << outcome.out;
     const auto c = corpus::read_case(folder + "/case.json");
     ASSERT_TRUE(c) << c.error().message;

@@ -20,8 +20,7 @@ TEST_F(Report, OnePageOfTwoRunsAndNothingElse) {
   const auto page = scratch / "page.html";
   const auto outcome = expect_ended("report " + tiny("a") + " " + tiny("b") + " --out " + page, 0);
   EXPECT_EQ(outcome.err, "");
-  EXPECT_TRUE(contains(outcome.out, "a: defect")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "page " + page)) << outcome.out;
+  expect_says(outcome.out, {"a: defect", "page " + page});
   const auto text = read_text(page);
   EXPECT_TRUE(text.starts_with("<!doctype html>"));
   EXPECT_EQ(count_of(text, "\"signature\":\"all-pairs: missing\""), 2u);

@@ -29,16 +29,14 @@ std::vector<int> sizes_told(const std::string& text) {
 TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   const auto first = expect_ended(run("--seed 5 --jobs 2"), 0);
   EXPECT_EQ(first.err, "");
-  for (const std::string word :
-       {"campaign tiny, seed 5: 32 trials of 3 families, 12 configurations; 2 jobs; "
-        "until",
-        "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
-        "closed-generic           each of 10              16      16       0         0",
-        "L3_FirstContactIsACandidate",
-        "\nholds: 0 trials with a defect, 0 undecided, 0 laws broken"}) {
-    EXPECT_TRUE(contains(first.out, word)) << word << "\n" << first.out;
-  }
-  EXPECT_TRUE(contains(first.out, "writes " + out + "\n"));
+  expect_says(
+      first.out,
+      {"campaign tiny, seed 5: 32 trials of 3 families, 12 configurations; 2 jobs; "
+       "until",
+       "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
+       "closed-generic           each of 10              16      16       0         0",
+       "L3_FirstContactIsACandidate", "\nholds: 0 trials with a defect, 0 undecided, 0 laws broken",
+       "writes " + out + "\n"});
   const auto summary = read_text(out + "/summary.md");
   EXPECT_TRUE(contains(summary, "## Assay: holds\n"));
   EXPECT_TRUE(std::regex_search(summary, std::regex(" Begun 20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z\\.")))
@@ -78,8 +76,7 @@ TEST_F(Run, AnotherRunInTheSameFolderIsToldByWhatDiffers) {
   expect_refused(run(detector),
                  "holds another run: another build of the detector's library" + go_on);
   std::string err = run("--seed 7 " + detector).err;
-  EXPECT_TRUE(contains(err, "seed ")) << err;
-  EXPECT_TRUE(contains(err, "another build of the detector's library")) << err;
+  expect_says(err, {"seed ", "another build of the detector's library"});
   err = run("--detector " + plugin("always_free")).err;
   EXPECT_TRUE(contains(err, "detector \"")) << err;
 }
@@ -176,8 +173,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   EXPECT_EQ(count_of(outcome.out, "\nDEFECT "), 10u) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, fmt::format("\nand {} more kinds, met ", lines.size() - 10)));
   for (const auto& line : lines) {
-    EXPECT_TRUE(contains(line, "/failures/tiny-1-")) << line;
-    EXPECT_TRUE(contains(line, "-smallest.json")) << line;
+    expect_says(line, {"/failures/tiny-1-", "-smallest.json"});
     expect_ended(line, 1, {"DEFECT free-sound: answered free"});
   }
   std::size_t originals = 0, smallest = 0;
@@ -264,9 +260,7 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(took.count(), 20);  // a loaded machine
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "\nincomplete: ")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "planted faults")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
+  expect_says(outcome.out, {"\nincomplete: ", "planted faults", "next: run the same again"});
   const auto before = trials_of(out).size();
   EXPECT_LT(before, 6000u);
   expect_ended(run("--time 1.5"), 3);
@@ -366,8 +360,7 @@ TEST_F(Run, AFullDiskKeepsWhatIsStored) {
   // No file may grow beyond 100 KiB.
   const auto full = expect_ended(run("--jobs 1", "trap '' XFSZ; ulimit -f 200; "), 2);
   EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
-  EXPECT_TRUE(contains(full.err, "run.sqlite: ")) << full.err;
-  EXPECT_TRUE(contains(full.err, "run the same again to go on")) << full.err;
+  expect_says(full.err, {"run.sqlite: ", "run the same again to go on"});
   const auto stored = trials_of(out);
   EXPECT_GT(stored.size(), 0u);
   EXPECT_LT(stored.size(), 200u);

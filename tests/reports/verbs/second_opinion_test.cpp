@@ -140,10 +140,9 @@ TEST(SecondOpinionText, NamesTheContradictions) {
                              false,
                              true}};
   const std::string text = reports::second_opinion_text(opinion, 2);
-  EXPECT_TRUE(
-      says(text, "9 queries (3 contact, 5 no contact, 1 open), 20 static checks, 2 contra"));
-  EXPECT_TRUE(says(text, "vertices 7 0 1 2; oracle: no contact, referee: contact"));
-  EXPECT_NE(text.find("triangles 4 and 6 at t = 1/3"), std::string::npos) << text;
+  expect_says(text, {"9 queries (3 contact, 5 no contact, 1 open), 20 static checks, 2 contra",
+                     "vertices 7 0 1 2; oracle: no contact, referee: contact",
+                     "triangles 4 and 6 at t = 1/3"});
   const auto report = reports::second_opinion_json(opinion, .25, 2);
   EXPECT_EQ(report["contradictions"].size(), 2u);
   EXPECT_EQ(report["contradictions"][0]["kind"], "query");
