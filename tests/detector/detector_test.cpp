@@ -270,14 +270,6 @@ TEST(Detector, EvaluateWithoutCommitChangesNothing) {
   EXPECT_EQ(detector.commit()->error, InputError::nothing_to_commit);
 }
 
-TEST(Detector, StopMeansUndecidedAndNoState) {
-  Detector detector = make(octahedron(), octahedron_positions(2));
-  const auto result =
-      detector.step(octahedron_positions(2), pushed_octahedron(), {}, [] { return true; });
-  EXPECT_EQ(result.answer, Answer::undecided);
-  EXPECT_TRUE(detector.commit().has_value());
-}
-
 TEST(Detector, PairsFirstHasTheFirstTime) {
   const auto all = make(octahedron(), octahedron_positions(2))
                        .evaluate(octahedron_positions(2), pushed_octahedron());
@@ -306,14 +298,6 @@ TEST(Detector, L8_AFreeStepByFirstPairsLeavesNothingInDoubt) {
   EXPECT_EQ(next.counts.free_components, 0u);
   EXPECT_EQ(next.counts.release.in_doubt, 0u);
   EXPECT_EQ(next.dirty, 0u);
-}
-
-TEST(Detector, WrongNumberOfPrimitivesIsRefused) {
-  Detector detector = make(octahedron(), octahedron_positions(2));
-  const std::vector<ViewPrimitive> two(2);
-  const auto result = detector.evaluate(octahedron_positions(2), octahedron_positions(2), two);
-  EXPECT_EQ(result.answer, Answer::error);
-  EXPECT_EQ(result.problem->error, InputError::wrong_primitive_count);
 }
 
 TEST(Detector, PositionsMayHaveAnyRowStride) {
@@ -345,9 +329,8 @@ TEST(Detector, GreatestCoordinatesAreAnswered) {
   }
   x.row(sides) << std::numeric_limits<double>::max(), 1, -1;
   x.row(sides + 1) << std::numeric_limits<double>::max(), 2, 100;
-  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line})
     EXPECT_NE(make(t, x, culling).evaluate(x, x).answer, Answer::error);
-  }
 }
 
 TEST(Detector, SeparateComponentsAreTestedAgainstEachOther) {

@@ -12,48 +12,39 @@ using tests::BuiltinDetector, tests::octahedron, tests::octahedron_positions, te
 // ASSAY_CULLING_VIEW_AUTO for view-auto, and so on: the numbers of the C interface are those of the
 // lists in C++.
 template <class Enum>
-void expect_numbers(const std::vector<std::pair<const char*, int>>& in_c) {
-  EXPECT_EQ(in_c.size(), all_values<Enum>.size());
-  for (const auto& [name, number] : in_c) {
-    ASSERT_TRUE(from_name<Enum>(name)) << name;
-    EXPECT_EQ(static_cast<int>(*from_name<Enum>(name)), number) << name;
+void expect_numbers(const std::string& names, const std::vector<int>& numbers) {
+  const auto list = tests::words(names);
+  ASSERT_EQ(list.size(), numbers.size());
+  EXPECT_EQ(list.size(), all_values<Enum>.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ASSERT_TRUE(from_name<Enum>(list[i])) << list[i];
+    EXPECT_EQ(static_cast<int>(*from_name<Enum>(list[i])), numbers[i]) << list[i];
   }
 }
 
 TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
-  expect_numbers<Culling>({{"view-auto", ASSAY_CULLING_VIEW_AUTO},
-                           {"view-point", ASSAY_CULLING_VIEW_POINT},
-                           {"view-line", ASSAY_CULLING_VIEW_LINE},
-                           {"normal-cone", ASSAY_CULLING_NORMAL_CONE},
-                           {"bvh", ASSAY_CULLING_BVH},
-                           {"none", ASSAY_CULLING_NONE},
-                           {"auto", ASSAY_CULLING_AUTO}});
-  expect_numbers<Start>({{"verified", ASSAY_START_VERIFIED},
-                         {"clean", ASSAY_START_CLEAN},
-                         {"unknown", ASSAY_START_UNKNOWN}});
-  expect_numbers<Pairs>({{"all", ASSAY_PAIRS_ALL}, {"first", ASSAY_PAIRS_FIRST}});
-  expect_numbers<Arithmetic>({{"exact", ASSAY_ARITHMETIC_EXACT},
-                              {"bounded", ASSAY_ARITHMETIC_BOUNDED},
-                              {"double", ASSAY_ARITHMETIC_DOUBLE},
-                              {"float", ASSAY_ARITHMETIC_FLOAT}});
-  expect_numbers<InputError>({{"no_triangles", ASSAY_BUILTIN_NO_TRIANGLES},
-                              {"index_out_of_range", ASSAY_BUILTIN_INDEX_OUT_OF_RANGE},
-                              {"repeated_index", ASSAY_BUILTIN_REPEATED_INDEX},
-                              {"same_vertices_twice", ASSAY_BUILTIN_SAME_VERTICES_TWICE},
-                              {"wrong_frame_size", ASSAY_BUILTIN_WRONG_FRAME_SIZE},
-                              {"non_finite_coordinate", ASSAY_BUILTIN_NON_FINITE_COORDINATE},
-                              {"wrong_primitive_count", ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT},
-                              {"nothing_to_commit", ASSAY_BUILTIN_NOTHING_TO_COMMIT},
-                              {"foreign_state", ASSAY_BUILTIN_FOREIGN_STATE},
-                              {"damaged_state", ASSAY_BUILTIN_DAMAGED_STATE},
-                              {"other_state_version", ASSAY_BUILTIN_OTHER_STATE_VERSION},
-                              {"mesh_too_large", ASSAY_BUILTIN_MESH_TOO_LARGE},
-                              {"stopped", ASSAY_BUILTIN_STOPPED},
-                              {"triangle_of_two_bodies", ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES},
-                              {"wrong_relation", ASSAY_BUILTIN_WRONG_RELATION},
-                              {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION},
-                              {"proves_nothing", ASSAY_BUILTIN_PROVES_NOTHING},
-                              {"wrong_bound", ASSAY_BUILTIN_WRONG_BOUND}});
+  expect_numbers<Culling>(
+      "view-auto view-point view-line normal-cone bvh none auto",
+      {ASSAY_CULLING_VIEW_AUTO, ASSAY_CULLING_VIEW_POINT, ASSAY_CULLING_VIEW_LINE,
+       ASSAY_CULLING_NORMAL_CONE, ASSAY_CULLING_BVH, ASSAY_CULLING_NONE, ASSAY_CULLING_AUTO});
+  expect_numbers<Start>("verified clean unknown",
+                        {ASSAY_START_VERIFIED, ASSAY_START_CLEAN, ASSAY_START_UNKNOWN});
+  expect_numbers<Pairs>("all first", {ASSAY_PAIRS_ALL, ASSAY_PAIRS_FIRST});
+  expect_numbers<Arithmetic>("exact bounded double float",
+                             {ASSAY_ARITHMETIC_EXACT, ASSAY_ARITHMETIC_BOUNDED,
+                              ASSAY_ARITHMETIC_DOUBLE, ASSAY_ARITHMETIC_FLOAT});
+  expect_numbers<InputError>(
+      "no_triangles index_out_of_range repeated_index same_vertices_twice wrong_frame_size "
+      "non_finite_coordinate wrong_primitive_count nothing_to_commit foreign_state damaged_state "
+      "other_state_version mesh_too_large stopped triangle_of_two_bodies wrong_relation "
+      "wrong_separation proves_nothing wrong_bound",
+      {ASSAY_BUILTIN_NO_TRIANGLES, ASSAY_BUILTIN_INDEX_OUT_OF_RANGE, ASSAY_BUILTIN_REPEATED_INDEX,
+       ASSAY_BUILTIN_SAME_VERTICES_TWICE, ASSAY_BUILTIN_WRONG_FRAME_SIZE,
+       ASSAY_BUILTIN_NON_FINITE_COORDINATE, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
+       ASSAY_BUILTIN_NOTHING_TO_COMMIT, ASSAY_BUILTIN_FOREIGN_STATE, ASSAY_BUILTIN_DAMAGED_STATE,
+       ASSAY_BUILTIN_OTHER_STATE_VERSION, ASSAY_BUILTIN_MESH_TOO_LARGE, ASSAY_BUILTIN_STOPPED,
+       ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES, ASSAY_BUILTIN_WRONG_RELATION,
+       ASSAY_BUILTIN_WRONG_SEPARATION, ASSAY_BUILTIN_PROVES_NOTHING, ASSAY_BUILTIN_WRONG_BOUND});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
@@ -73,17 +64,14 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
         std::uint64_t{r.against_all}, std::uint64_t{r.dirty});
   };
   const auto number = [](auto value) { return static_cast<std::int32_t>(value); };
-  for (const auto culling : all_values<Culling>) {
-    for (const auto start : all_values<Start>) {
-      for (const auto pairs : all_values<Pairs>) {
+  for (const auto culling : all_values<Culling>)
+    for (const auto start : all_values<Start>)
+      for (const auto pairs : all_values<Pairs>)
         for (const auto arithmetic : all_values<Arithmetic>) {
           const assay_builtin_options c = {
               sizeof c, number(culling), number(start), number(pairs), number(arithmetic), 1, 0};
           EXPECT_EQ(in_c(c), in_cpp({culling, start, pairs, arithmetic}));
         }
-      }
-    }
-  }
   const assay_builtin_options defaults = ASSAY_BUILTIN_DEFAULTS;
   EXPECT_EQ(in_c(defaults), in_cpp({}));
   assay_builtin_options within = ASSAY_BUILTIN_DEFAULTS;
@@ -217,12 +205,8 @@ TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
   const auto handle = make(Culling::view_point);
   const auto view_positive = [&](const Point& q0, const Point& q1) {
     assay_view_primitive view;
-    for (int k = 0; k < 3; ++k) {
-      view.q0_t0[k] = q0[static_cast<std::size_t>(k)];
-      view.q0_t1[k] = q1[static_cast<std::size_t>(k)];
-      view.q1_t0[k] = view.q0_t0[k];
-      view.q1_t1[k] = view.q0_t1[k];
-    }
+    std::ranges::copy(q0, view.q0_t0), std::ranges::copy(q0, view.q1_t0);
+    std::ranges::copy(q1, view.q0_t1), std::ranges::copy(q1, view.q1_t1);
     EXPECT_EQ(assay_builtin_evaluate(handle.get(), in.data(), in.data(), &view, 1, nullptr, nullptr,
                                      &error),
               ASSAY_OK);
@@ -317,9 +301,7 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
 }
 
 TEST_F(BuiltinDetector, StopsWhenToldTo) {
-  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
-  options.culling = ASSAY_CULLING_NONE;
-  const auto handle = make(&options);
+  const auto handle = make(Culling::none);
   int calls = 0;
   const auto stop = [](void* data) -> std::int32_t { return ++*static_cast<int*>(data) > 0; };
   ASSERT_EQ(
@@ -433,9 +415,7 @@ TEST_F(BuiltinDetector, ASmallBufferIsRefusedAndLeftAlone) {
 
 TEST_F(BuiltinDetector, AWrongStateIsRefusedAndNothingChanges) {
   const auto handle = make(Culling::view_point), line = make(Culling::view_line);
-  assay_builtin_options points = ASSAY_BUILTIN_DEFAULTS;
-  points.culling = ASSAY_CULLING_VIEW_POINT;
-  const auto open = make(&points, 7);
+  const auto open = make(Culling::view_point, 7);
   evaluate(handle, in, hit);
   assay_builtin_commit(handle.get(), &error);
   const auto mine = save(handle);

@@ -34,10 +34,10 @@ class BuiltinDetector : public testing::Test {
     EXPECT_EQ(error.message[0] == 0, handle != nullptr);
     return Handle(handle);
   }
-  Handle make(detector::Culling culling) {
+  Handle make(detector::Culling culling, Eigen::Index rows = 8) {
     assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
     options.culling = static_cast<std::int32_t>(culling);
-    return make(&options);
+    return make(&options, rows);
   }
   assay_result evaluate(const Handle& handle, const detector::Positions& x_t0,
                         const detector::Positions& x_t1) {

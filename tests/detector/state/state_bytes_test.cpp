@@ -85,18 +85,12 @@ TEST(StateBytes, AreTheSameStateAgain) {
   EXPECT_TRUE(std::signbit((*a.inside[0])[0][1]));
   ASSERT_TRUE(a.policy.anchors);
   expect_equal(*a.policy.anchors, *b.policy.anchors);
-  EXPECT_EQ(a.policy.anchors_are_due, b.policy.anchors_are_due);
-  EXPECT_EQ(a.policy.anchor_age, b.policy.anchor_age);
-  EXPECT_EQ(a.policy.least_anchor_age, b.policy.least_anchor_age);
-  EXPECT_EQ(a.policy.best_share, b.policy.best_share);
-  EXPECT_EQ(a.policy.replaced_at, b.policy.replaced_at);
-  EXPECT_EQ(a.policy.pause, b.policy.pause);
-  EXPECT_EQ(a.policy.next_pause, b.policy.next_pause);
-  EXPECT_EQ(a.policy.candidates, b.policy.candidates);
-  EXPECT_EQ(a.policy.overhead, b.policy.overhead);
-  EXPECT_EQ(a.policy.credit, b.policy.credit);
-  EXPECT_EQ(a.policy.tried, b.policy.tried);
-  EXPECT_EQ(a.policy.has_views, b.policy.has_views);
+  const auto numbers_of = [](const PolicyState& p) {
+    return std::tuple(p.anchors_are_due, p.anchor_age, p.least_anchor_age, p.best_share,
+                      p.replaced_at, p.pause, p.next_pause, p.candidates, p.overhead, p.credit,
+                      p.tried, p.has_views);
+  };
+  EXPECT_EQ(numbers_of(a.policy), numbers_of(b.policy));
   EXPECT_EQ(again.view_work, state.view_work);
   EXPECT_EQ(bytes_of(again), bytes_of(state));
 }

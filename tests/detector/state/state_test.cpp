@@ -69,24 +69,16 @@ TEST(StepState, HoldsAtNoOtherPositionsWhicheverPieceEndsLast) {
   }
 }
 
-TEST(Topology, OctahedronIsOneCycle) {
+TEST(Topology, AnOctahedronIsOneCycleAsItIsAlone) {
   const Topology mesh = make_topology(octahedron(), 6);
   EXPECT_EQ(mesh.edges.size(), 12u);
   ASSERT_EQ(mesh.components.size(), 1u);
   EXPECT_TRUE(mesh.components[0].is_cycle);
   for (std::int32_t e = 0; e < 12; ++e) EXPECT_EQ(mesh.edge_triangles.row(e).size(), 2u);
-}
-
-TEST(Topology, OneTriangleLessIsNoCycle) {
-  const Triangles all = octahedron();
-  const Topology mesh = make_topology(all.topRows(7), 6);
-  EXPECT_FALSE(mesh.components[0].is_cycle);
-}
-
-TEST(Topology, OneTriangleFlippedIsNoCycle) {
   Triangles all = octahedron();
+  EXPECT_FALSE(make_topology(all.topRows(7), 6).components[0].is_cycle) << "one less";
   std::swap(all(0, 1), all(0, 2));
-  EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle);
+  EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle) << "one flipped";
 }
 
 // Two outward tetrahedra that share an edge, one inside the other: connected, embedded, but two
@@ -199,11 +191,7 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
   for (const bool closed_first : {true, false}) {
     const Triangles closed = octahedron(), open = octahedron().bottomRows(7);
     Triangles both(15, 3);
-    if (closed_first) {
-      both << closed, open.array() + 6;
-    } else {
-      both << open, closed.array() + 6;
-    }
+    both << (closed_first ? closed : open), (closed_first ? open : closed).array() + 6;
     const Positions one = octahedron_positions(1), x = tests::side_by_side(one, one, 9);
     auto detector = Detector::create(both, x, {Culling::view_auto, Start::clean});
     ASSERT_TRUE(detector);

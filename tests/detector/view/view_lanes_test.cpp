@@ -22,6 +22,10 @@ constexpr std::array<InstructionSet, 3> all_sets = {InstructionSet::baseline, In
 struct Found {
   std::vector<ViewSign> signs;
   ViewCounts counts;
+  friend bool operator==(const Found& a, const Found& b) {
+    return a.signs == b.signs && a.counts.lanes == b.counts.lanes &&
+           a.counts.filter == b.counts.filter && a.counts.exact == b.counts.exact;
+  }
 };
 
 Found find(const TriangleBatch& batch, InstructionSet set,
@@ -55,7 +59,7 @@ void compare(bool line) {
   BatchMaker maker(line ? 20112 : 20111);
   for (std::size_t f = 0; f < tests::batch_family_names.size(); ++f) {
     const auto family = static_cast<BatchFamily>(f);
-    std::uint64_t triangles = 0, in_lanes = 0, signs[3] = {0, 0, 0};
+    std::uint64_t zeros = 0;
     for (int b = 0; b < batches_of(family, line); ++b) {
       // All lengths of the last group of lanes.
       const TriangleBatch batch = maker.make(family, 93 + static_cast<std::size_t>(b % 8), line);
@@ -64,25 +68,15 @@ void compare(bool line) {
       for (std::size_t t = 0; t < first.signs.size(); ++t) {
         ASSERT_EQ(first.signs[t], view_sign(batch.triangle(t), batch.primitive, alone))
             << tests::batch_family_names[f] << ", batch " << b << ", triangle " << t;
-        ++signs[static_cast<int>(first.signs[t]) + 1];
+        zeros += first.signs[t] == ViewSign::zero;
       }
       for (const auto set : all_sets) {
         if (!is_available(set)) continue;
         const Found other = find(batch, set);
-        ASSERT_EQ(other.signs, first.signs) << "instruction set " << static_cast<int>(set);
-        ASSERT_EQ(other.counts.lanes, first.counts.lanes);
-        ASSERT_EQ(other.counts.filter, first.counts.filter);
-        ASSERT_EQ(other.counts.exact, first.counts.exact);
+        ASSERT_TRUE(other == first) << "instruction set " << static_cast<int>(set);
       }
-      triangles += first.signs.size();
-      in_lanes += first.counts.lanes;
     }
-    std::printf("%-16s %7llu triangles, settled in lanes %.3f; negative %.3f, zero %.3f\n",
-                tests::batch_family_names[f], static_cast<unsigned long long>(triangles),
-                static_cast<double>(in_lanes) / static_cast<double>(triangles),
-                static_cast<double>(signs[0]) / static_cast<double>(triangles),
-                static_cast<double>(signs[1]) / static_cast<double>(triangles));
-    EXPECT_GT(signs[1], 0u);
+    EXPECT_GT(zeros, 0u) << tests::batch_family_names[f];
   }
 }
 
@@ -93,13 +87,11 @@ TEST(ViewLanes, TheBaselineIsThereAndTheBestIsAvailable) {
   EXPECT_TRUE(is_available(InstructionSet::baseline));
   EXPECT_TRUE(is_available(best_instruction_set()));
   for (const auto set : all_sets) {
-    if (is_available(set)) std::printf("instruction set %d is here\n", static_cast<int>(set));
     EXPECT_FALSE(is_available(set) && set > best_instruction_set());
-    if (is_available(set)) {
-      EXPECT_EQ(lane_kernels(set).lanes, std::size_t{2} << static_cast<int>(set));
-    }
+    if (!is_available(set)) continue;
+    EXPECT_EQ(lane_kernels(set).lanes, std::size_t{2} << static_cast<int>(set));
     for (const auto other : all_sets) {
-      if (set == other || !is_available(set) || !is_available(other)) continue;
+      if (set == other || !is_available(other)) continue;
       EXPECT_NE(lane_kernels(set).point, lane_kernels(other).point) << "each has its own";
     }
   }
@@ -130,9 +122,7 @@ TEST(ViewLanes, PowersOfTwoChangeNothing) {
         for (const double scale : {0x1p-20, 0x1p20}) {
           const TriangleBatch scaled = changed(batch, [=](double c) { return scale * c; });
           const Found other = find(scaled, best_instruction_set(), arithmetic);
-          ASSERT_EQ(other.signs, found.signs) << "batch " << batches;
-          ASSERT_EQ(other.counts.lanes, found.counts.lanes) << "batch " << batches;
-          ASSERT_EQ(other.counts.exact, found.counts.exact) << "batch " << batches;
+          ASSERT_TRUE(other == found) << "batch " << batches;
         }
       }
     }
@@ -150,8 +140,7 @@ TEST(ViewLanes, RowsMayHaveAnyStride) {
   found.signs.resize(packed.signs.size());
   classify(batch.mesh, batch.mesh.components[0], {wide.leftCols<3>(), batch.x_t1}, batch.primitive,
            found.signs, found.counts);
-  EXPECT_EQ(found.signs, packed.signs);
-  EXPECT_EQ(found.counts.lanes, packed.counts.lanes);
+  EXPECT_TRUE(found == packed);
 }
 
 // The bounds of the lanes hold: what a lane computes against the same in exact numbers, in units of
@@ -299,9 +288,7 @@ TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
     const double angle = degrees * std::numbers::pi / 180;
     const double error = axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0});
     EXPECT_LT(error, 1e-6) << degrees;
-    if (degrees > 60) {
-      EXPECT_GT(error, before) << degrees << ": d0.d1 is less than it was";
-    }
+    EXPECT_TRUE(degrees <= 60 || error > before) << degrees << ": d0.d1 is less than it was";
     before = error;
   }
 }
