@@ -51,6 +51,8 @@ inline std::string curated(const std::string& name) {
   return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
 }
 
+inline std::string example_queries() { return ASSAY_SOURCE_DIR "/corpus/queries/example_vf.csv"; }
+
 inline bool contains(const std::string& text, const std::string& word) {
   return text.find(word) != std::string::npos;
 }
@@ -59,6 +61,10 @@ inline std::string read_text(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
+}
+
+inline nlohmann::ordered_json read_json(const std::string& path) {
+  return nlohmann::ordered_json::parse(read_text(path));
 }
 
 // How often a word is in a text.
@@ -127,6 +133,15 @@ inline Outcome expect_ended(const std::string& arguments, int code,
                             const std::vector<std::string>& said = {},
                             const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   return expect_ended(run_assay(arguments), code, said, file, line);
+}
+
+// Makes a scene in a folder of its name. Its frames, as an argument of `check`.
+inline std::string make_scene(const Scratch& scratch, const std::string& name, int size,
+                              int frames) {
+  expect_ended("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                   std::to_string(frames) + " --out " + (scratch / name),
+               0);
+  return (scratch / name) + "/frame_*.ply";
 }
 
 // Expects this exit code, and a word on stderr.

@@ -37,6 +37,11 @@ class RunFixture : public testing::Test {
   }
 };
 
+// What a certificate states.
+inline nlohmann::ordered_json predicate_in(const std::string& folder) {
+  return read_json(folder + "/certificate.json")["predicate"];
+}
+
 // Each trial of the run in a line, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,
                                           const std::string& store_name = "run") {

@@ -20,7 +20,6 @@ class ForeignDetector : public testing::Test {
                          " --detector " + library + " " + more,
                      "ASSAY_BY_CONTRACT=\"" + words + "\" ");
   }
-  Json predicate() const { return Json::parse(read_text(out + "/certificate.json"))["predicate"]; }
 };
 
 // Claims free-sound, not-late and total.
@@ -30,7 +29,7 @@ TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
   const auto made =
       expect_ended(judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120)), 0);
   std::uint64_t alarms = 0, free_steps = 0;
-  const Json stated = predicate();
+  const Json stated = predicate_in(out);
   for (const auto& stratum : stated["strata"]) {
     const auto& rate = stratum["measures"]["false_alarms"];
     EXPECT_LE(rate["interval"][0].get<double>(), 0.1) << rate;
@@ -81,9 +80,8 @@ TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
                    0);
   expect_no_empty_table(made.out);
   EXPECT_FALSE(contains(read_text(scratch / "certified/junit.xml"), "tests=\"0\""));
-  const auto stated = Json::parse(read_text(scratch / "certified/certificate.json"))["predicate"];
-  EXPECT_TRUE(stated["laws"].is_null());
-  EXPECT_TRUE(stated["cases"]["set_pairs"].empty());
+  EXPECT_TRUE(predicate_in(scratch / "certified")["laws"].is_null());
+  EXPECT_TRUE(predicate_in(scratch / "certified")["cases"]["set_pairs"].empty());
 }
 
 TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
@@ -123,7 +121,7 @@ TEST_F(ForeignDetector, CheckTellsTheExactTimeBesideItsOwn) {
         .out;
   };
   const auto wide = check("whenever");
-  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto step = read_json(scratch / "check.json")["steps"][0];
   const auto exact = step["oracle"]["first_time"][0].get<double>();
   EXPECT_GT(exact, 0);
   EXPECT_EQ(step["diff"]["first"]["early_by"].get<double>(), exact) << "by the lower end";
@@ -142,7 +140,7 @@ TEST_F(ForeignDetector, CheckObeysTheContract) {
                                  library + " --json " + (scratch / "check.json"),
                              "ASSAY_BY_CONTRACT=strangers "),
                    0);
-  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto step = read_json(scratch / "check.json")["steps"][0];
   const auto left_out = step["diff"]["left_out"].get<int>();
   EXPECT_GT(left_out, 0);
   EXPECT_EQ(step["oracle"]["pairs"].get<int>() + left_out, 10);
@@ -156,7 +154,7 @@ TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
             plan_text(12)),
       0);
   std::vector<std::string> not_judged;
-  const Json stated = predicate();
+  const Json stated = predicate_in(out);
   for (const auto& one : stated["not_judged"])
     not_judged.push_back(one["claim"].get<std::string>());
   EXPECT_EQ(not_judged,

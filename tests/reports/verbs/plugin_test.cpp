@@ -6,25 +6,20 @@
 namespace assay::tests {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 class Plugin : public testing::Test {
  protected:
-  static std::string make_scene(const std::string& name) {
-    const std::string folder = scratch / name;
-    expect_ended("scene " + name + " --size 200 --frames 5 --out " + folder, 0);
-    return folder + "/frame_*.ply";
-  }
   // On a scene that collides or one that does not, with a report.
   static Outcome check(const std::string& name, bool collides, const std::string& more = "") {
     return run_assay("check --detector " + plugin(name) + " --json " + (scratch / "report.json") +
                      " " + (collides ? colliding : free) + " " + more);
   }
-  static json report() { return json::parse(read_text(scratch / "report.json")); }
+  static json report() { return read_json(scratch / "report.json"); }
 
   static inline const Scratch scratch;
-  static inline const std::string colliding = make_scene("folding-sheet");
-  static inline const std::string free = make_scene("breathing-sphere");
+  static inline const std::string colliding = make_scene(scratch, "folding-sheet", 200, 5);
+  static inline const std::string free = make_scene(scratch, "breathing-sphere", 200, 5);
 };
 
 TEST_F(Plugin, TheBuiltInHoldsAsAPlugIn) {
@@ -66,10 +61,8 @@ TEST_F(Plugin, AStepWithoutAnAnswerBreaksTotal) {
 }
 
 TEST_F(Plugin, CaseFilesAreRunByTheirScript) {
-  const std::string cases = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
-  for (const std::string name : {"B1_one_vertex_own_nearest", "D8_release_arm_sequence"}) {
-    expect_ended("check --detector " + plugin("wrapped_builtin") + " " + cases + name + ".json", 0);
-  }
+  for (const std::string name : {"B1_one_vertex_own_nearest", "D8_release_arm_sequence"})
+    expect_ended("check --detector " + plugin("wrapped_builtin") + " " + curated(name), 0);
 }
 
 TEST_F(Plugin, WhatCannotBeUsedIsRefusedInOneLine) {
