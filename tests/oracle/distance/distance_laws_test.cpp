@@ -12,38 +12,20 @@
 namespace assay::oracle {
 namespace {
 
-using detector::Want, test::QueryKind, test::Random;
-
-FourPoints query_of(Random& random, QueryKind kind, int first_group) {
-  return {test::random_query(random, kind, first_group), first_group};
-}
-
-std::string says(const FirstNear& answer) {
-  return answer.near ? std::to_string(answer.first.lo) : "apart";
-}
+using detector::Want, test::for_each_kind, test::Random;
 
 TEST(DistanceLaws, WithinZeroIsContact) {
   Random random(160);
   int contacts = 0;
   const std::uint64_t queries = tests::asked("ASSAY_CASES", 400);
-  for (int kind = 0; kind < test::query_kinds; ++kind) {
-    for (std::uint64_t i = 0; i < queries; ++i) {
-      const FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
-      const auto& x = q.points;
-      const ContactAnswer contact =
-          q.first_group == 1 ? vertex_face_contact(test::vertex_face(x), Want::first_time)
-                             : edge_edge_contact(test::edge_edge(x), Want::first_time);
-      const FirstNear near = first_time_within(q, {0, 0});
-      ASSERT_EQ(near.near, contact.contact) << kind << " " << i;
-      if (near.near) {
-        ASSERT_EQ(near.first, contact.first) << kind << " " << i;
-      }
-      contacts += contact.contact;
-    }
-  }
-  const auto all = queries * test::query_kinds;
-  std::printf("%llu queries, %d contacts\n", static_cast<unsigned long long>(all), contacts);
-  EXPECT_GT(contacts * 10, all);
+  for_each_kind(random, queries, [&](const FourPoints& q) {
+    const ContactAnswer contact = contact_of(q, Want::first_time);
+    const FirstNear near = first_time_within(q, {0, 0});
+    EXPECT_EQ(near.near, contact.contact);
+    EXPECT_TRUE(!near.near || near.first == contact.first);
+    contacts += contact.contact;
+  });
+  EXPECT_GT(contacts * 10, queries * test::query_kinds);
 }
 
 // The squared distance at rest in rationals, by the derivatives of a convex function: no region and
@@ -110,103 +92,78 @@ Separation random_distance(Random& random) {
 // At sampled times, at the enclosure of the first time, and just before it.
 TEST(DistanceLaws, AgreesWithRationalTimes) {
   Random random(161);
-  int near = 0, later = 0, times = 0;
+  int later = 0;
   constexpr int queries = 150, samples = 16;
-  for (int kind = 0; kind < test::query_kinds; ++kind) {
-    for (int i = 0; i < queries; ++i) {
-      FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
-      if (random.below(5) == 0) {
-        for (auto& p : q.points) p.t1 = p.t0;
-      }
-      const Separation d = random_distance(random);
-      const mpq_class sum = mpq_class(d.first) + mpq_class(d.second), squared = sum * sum;
-      const FirstNear answer = first_time_within(q, d);
-      ASSERT_EQ(first_time_within(q, d, Want::yes_no).near, answer.near);
-      const auto is_within = [&](const mpq_class& t) {
-        return squared_distance_at(q, t) <= squared;
-      };
-      const auto expect = [&](const mpq_class& t) {
-        ++times;
-        if (is_within(t)) {
-          ASSERT_TRUE(answer.near && mpq_class(answer.first.lo) <= t)
-              << kind << " " << i << " " << t;
-        }
-      };
-      for (int s = 0; s <= samples; ++s) expect(mpq_class(s, samples));
-      if (!answer.near) continue;
-      ++near;
-      const auto [lo, hi] = answer.first;
-      later += lo > 0;
-      if (lo == hi) {
-        ASSERT_TRUE(is_within(mpq_class(lo))) << kind << " " << i;
-      } else {
-        ASSERT_FALSE(is_within(mpq_class(lo)));
-        // Within d somewhere between: at hi by rounding alone.
-        const mpq_class at_hi = squared_distance_at(q, mpq_class(hi));
-        ASSERT_LE(std::sqrt(at_hi.get_d()), sum.get_d() * (1 + 1e-12) + 1e-11) << kind << " " << i;
-      }
-      if (lo > 0) expect(mpq_class(std::nextafter(lo, 0)));
-      for (int s = 1; s < 8; ++s) expect(mpq_class(lo) * s / 8);
+  for_each_kind(random, queries, [&](FourPoints q) {
+    if (random.below(5) == 0) {
+      for (auto& p : q.points) p.t1 = p.t0;
     }
-  }
-  std::printf("%d times asked of %d queries within d, %d of them later than 0\n", times, near,
-              later);
+    const Separation d = random_distance(random);
+    const mpq_class sum = mpq_class(d.first) + mpq_class(d.second), squared = sum * sum;
+    const FirstNear answer = first_time_within(q, d);
+    EXPECT_EQ(first_time_within(q, d, Want::yes_no).near, answer.near);
+    const auto is_within = [&](const mpq_class& t) { return squared_distance_at(q, t) <= squared; };
+    const auto expect = [&](const mpq_class& t) {
+      EXPECT_TRUE(!is_within(t) || (answer.near && mpq_class(answer.first.lo) <= t)) << t;
+    };
+    for (int s = 0; s <= samples; ++s) expect(mpq_class(s, samples));
+    if (!answer.near) return;
+    const auto [lo, hi] = answer.first;
+    later += lo > 0;
+    EXPECT_EQ(is_within(mpq_class(lo)), lo == hi);
+    // Within d somewhere between: at hi by rounding alone.
+    const mpq_class at_hi = squared_distance_at(q, mpq_class(hi));
+    EXPECT_TRUE(lo == hi || std::sqrt(at_hi.get_d()) <= sum.get_d() * (1 + 1e-12) + 1e-11);
+    if (lo > 0) expect(mpq_class(std::nextafter(lo, 0)));
+    for (int s = 1; s < 8; ++s) expect(mpq_class(lo) * s / 8);
+  });
   EXPECT_GT(later, 100);
 }
 
 TEST(DistanceLaws, TurnedAndMirroredQueriesAgree) {
   Random random(162);
-  constexpr int queries = 100;
-  for (int kind = 0; kind < test::query_kinds; ++kind) {
-    for (int i = 0; i < queries; ++i) {
-      const FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
-      const Separation d = random_distance(random);
-      const FirstNear answer = first_time_within(q, d);
-      const auto expect_same = [&](const std::array<int, 4>& order, bool mirrored) {
-        FourPoints other = q;
-        for (int j = 0; j < 4; ++j) {
-          for (int k = 0; k < 3; ++k) {
-            const int axis = (k + 1) % 3;
-            const double sign = mirrored && k == 0 ? -1 : 1;
-            other.points[j].t0[axis] = sign * q.points[order[j]].t0[k];
-            other.points[j].t1[axis] = sign * q.points[order[j]].t1[k];
-          }
+  for_each_kind(random, 100, [&](const FourPoints& q) {
+    const Separation d = random_distance(random);
+    const FirstNear answer = first_time_within(q, d);
+    const auto expect_same = [&](const std::array<int, 4>& order, bool mirrored) {
+      FourPoints other = q;
+      for (int j = 0; j < 4; ++j) {
+        for (int k = 0; k < 3; ++k) {
+          const int axis = (k + 1) % 3;
+          const double sign = mirrored && k == 0 ? -1 : 1;
+          other.points[j].t0[axis] = sign * q.points[order[j]].t0[k];
+          other.points[j].t1[axis] = sign * q.points[order[j]].t1[k];
         }
-        const FirstNear turned = first_time_within(other, {d.second, d.first});
-        ASSERT_EQ(turned.near, answer.near) << kind << " " << i;
-        ASSERT_EQ(turned.first, answer.first) << kind << " " << i << says(turned) << says(answer);
-      };
-      if (q.first_group == 1) {
-        expect_same({0, 2, 3, 1}, false);
-        expect_same({0, 2, 1, 3}, true);
-      } else {
-        expect_same({1, 0, 2, 3}, false);
-        expect_same({2, 3, 0, 1}, true);
-        expect_same({3, 2, 0, 1}, false);
       }
+      const FirstNear turned = first_time_within(other, {d.second, d.first});
+      EXPECT_EQ(turned.near, answer.near);
+      EXPECT_EQ(turned.first, answer.first) << turned.first.lo << " " << answer.first.lo;
+    };
+    if (q.first_group == 1) {
+      expect_same({0, 2, 3, 1}, false);
+      expect_same({0, 2, 1, 3}, true);
+    } else {
+      expect_same({1, 0, 2, 3}, false);
+      expect_same({2, 3, 0, 1}, true);
+      expect_same({3, 2, 0, 1}, false);
     }
-  }
+  });
 }
 
 TEST(DistanceLaws, LeastDistanceIsTheLeastThatIsReached) {
   Random random(163);
-  constexpr int queries = 12;
   int above = 0;
-  for (int kind = 0; kind < test::query_kinds; ++kind) {
-    for (int i = 0; i < queries; ++i) {
-      const FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
-      const double least = least_distance(q);
-      ASSERT_TRUE(first_time_within(q, {least, 0}).near);
-      if (least == 0) continue;
-      ++above;
-      ASSERT_FALSE(first_time_within(q, {std::nextafter(least, 0), 0}).near);
-      // Neither is it nearer at any sampled time.
-      const mpq_class before(std::nextafter(least, 0));
-      for (int s = 0; s <= 16; ++s) {
-        ASSERT_GT(squared_distance_at(q, mpq_class(s, 16)), before * before);
-      }
-    }
-  }
+  for_each_kind(random, 12, [&](const FourPoints& q) {
+    const double least = least_distance(q);
+    EXPECT_TRUE(first_time_within(q, {least, 0}).near);
+    if (least == 0) return;
+    ++above;
+    EXPECT_FALSE(first_time_within(q, {std::nextafter(least, 0), 0}).near);
+    // Neither is it nearer at any sampled time.
+    const mpq_class before(std::nextafter(least, 0));
+    for (int s = 0; s <= 16; ++s)
+      EXPECT_GT(squared_distance_at(q, mpq_class(s, 16)), before * before);
+  });
   EXPECT_GT(above, 30);
 }
 
@@ -218,44 +175,29 @@ FourPoints any_exponents(Random& random, int i) {
   for (auto& p : q.points) {
     for (double* end : {p.t0.data(), p.t1.data()}) {
       for (int k = flat ? 1 : 0; k < 3; ++k) {
-        const double digits = whole ? random.integer(2) : random.unit();
-        end[k] = std::ldexp(digits, random.below(2096) - 1074);
+        end[k] = std::ldexp(whole ? random.integer(2) : random.unit(), random.below(2096) - 1074);
       }
     }
   }
   return q;
 }
 
-// None may need a deep stack. What they take is printed.
+// None may need a deep stack.
 TEST(DistanceLaws, ExponentsOverAllDoubles) {
   tests::expect_enough_stack("distance, exponents over all doubles", [] {
     Random random(164);
-    double worst = 0, sum = 0;
-    int near = 0;
     const int queries = static_cast<int>(tests::asked("ASSAY_CASES", 60));
     for (int i = 0; i < queries; ++i) {
       const FourPoints q = any_exponents(random, i);
       const Separation d = {std::ldexp(1 + random.unit() / 2, random.below(2096) - 1074),
                             i % 4 == 0 ? std::ldexp(1.0, random.below(2096) - 1074) : 0};
-      const auto begin = std::chrono::steady_clock::now();
       const FirstNear answer = first_time_within(q, d);
-      const double took =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      worst = std::max(worst, took);
-      sum += took;
-      near += answer.near;
-      const ContactAnswer contact =
-          q.first_group == 1 ? vertex_face_contact(test::vertex_face(q.points), Want::first_time)
-                             : edge_edge_contact(test::edge_edge(q.points), Want::first_time);
+      const ContactAnswer contact = contact_of(q, Want::first_time);
       const FirstNear zero = first_time_within(q, {0, 0});
       ASSERT_EQ(zero.near, contact.contact) << i;
       ASSERT_EQ(zero.first, contact.first) << i;
-      if (contact.contact) {
-        ASSERT_TRUE(answer.near && answer.first <= contact.first) << i;
-      }
+      ASSERT_TRUE(!contact.contact || (answer.near && answer.first <= contact.first)) << i;
     }
-    std::printf("%d of %d within d; worst %.1f ms, mean %.1f ms\n", near, queries, 1e3 * worst,
-                1e3 * sum / queries);
   });
 }
 
