@@ -2,8 +2,6 @@
 #pragma once
 
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "properties/worker/isolation.h"
 #include "tests/reports/tiny_campaign.h"

@@ -174,9 +174,8 @@ TEST(HardFamilies, EveryCaseIsMadeAndIsTheSameAgain) {
 TEST(HardFamilies, CasesAreValidCaseFiles) {
   for (const auto& family : hard_families()) {
     const Case c = hard_case(family, 1, 0);
-    const auto read = parse_case(case_text(c), c.id);
-    ASSERT_TRUE(read.has_value()) << read.error().message;
-    EXPECT_EQ(case_text(read.value()), case_text(c)) << c.id;
+    const auto read = value_of(parse_case(case_text(c), c.id));
+    EXPECT_EQ(case_text(read), case_text(c)) << c.id;
   }
 }
 

@@ -60,7 +60,7 @@ struct SmallRun {
 TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   const SmallRun run({"always_free", "always_collision"});
   EXPECT_TRUE(run.report.wrong_answers.empty());
-  EXPECT_EQ(run.remarks.find("by the oracle alone"), std::string::npos);
+  EXPECT_FALSE(says(run.remarks, "by the oracle alone"));
   ASSERT_EQ(run.rows.size(), 6u + 2u);
   for (const auto& row : run.rows) {
     EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject->name;
@@ -123,7 +123,7 @@ TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   modest.error_claims.set(properties::Claim::free_sound, false);
   run.rows.back().subject = &modest;
   const auto text = subjects_text(run.rows, "detector");
-  EXPECT_NE(text.find("(1)"), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "(1)"));
   const auto json = to_json(run.report, "version");
   EXPECT_EQ(json["subjects"].size(), run.rows.size());
   EXPECT_EQ(json["subjects"][0]["time_over_reference"]["median"], 1);

@@ -1,7 +1,6 @@
 // `assay run` whose workers somebody else kills: it comes to the same and says that it was
 // disturbed.
 #include <sys/syscall.h>
-#include <unistd.h>
 
 #include "properties/random.h"
 #include "tests/reports/campaign/started.h"

@@ -31,10 +31,9 @@ TEST_F(RunSelfKill, AlwaysOnOneKindOfCaseIsADefectOfTotal) {
     EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: defect\n"));
 
     // On that kind of case, on each of them, and on no other.
-    const auto store = properties::Store::read(out + "/run.sqlite");
-    ASSERT_TRUE(store) << store.error().message;
+    const auto store = value_of(properties::Store::read(out + "/run.sqlite"));
     std::uint64_t fatal = 0;
-    store.value().for_each_trial([&](const properties::TrialRecord& trial) {
+    store.for_each_trial([&](const properties::TrialRecord& trial) {
       EXPECT_EQ(trial.outcomes, is_fatal(trial.triangles) ? "D" : "H") << trial.id;
       fatal += is_fatal(trial.triangles) ? 1 : 0;
     });

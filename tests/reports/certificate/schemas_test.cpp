@@ -57,7 +57,7 @@ TEST(Schemas, EachNamesItsFormatAndNothingThatIsNotThere) {
     // A log has its number in its first record.
     const auto stated = name == "log" ? "\"const\": " + number
                                       : "{\"const\": \"assay-" + name + "/" + number + "\"}";
-    EXPECT_NE(read_text(file.string()).find(stated), std::string::npos);
+    EXPECT_TRUE(says(read_text(file.string()), stated));
     std::vector<SchemaJson> references;
     values_of(schema, "$ref", references);
     for (const std::string reference : references) {

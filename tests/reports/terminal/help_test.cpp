@@ -1,5 +1,4 @@
 // Help: all verbs, and each verb with its options in groups, examples and exit codes.
-#include <regex>
 
 #include "tests/reports/tiny_campaign.h"
 

@@ -1,8 +1,6 @@
 // What `assay replay --export` writes compiles against the detector alone, and passes.
 #include "reports/steps/exported_case.h"
 
-#include <map>
-
 #include "properties/claims/claims.h"
 #include "tests/reports/tiny_campaign.h"
 #include "tests/sinking_corner.h"
@@ -19,7 +17,7 @@ class ExportedCase : public testing::Test {
     ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
     EXPECT_EQ(exit_code_of((scratch / "test >") + (scratch / "printed")), 0)
         << read_text(scratch / "printed");
-    EXPECT_NE(read_text(scratch / "printed").find("1 test from"), std::string::npos);
+    EXPECT_TRUE(says(read_text(scratch / "printed"), "1 test from"));
   }
   int compile() const {
     return exit_code_of(std::string(ASSAY_COMPILER) +
@@ -110,7 +108,7 @@ class ExportedPlugIn : public testing::Test {
   int filled_in(const std::string& lines) const {
     std::string text = read_text(scratch / "case/case.cpp");
     const std::string unfilled = "  return found;";
-    EXPECT_NE(text.find(unfilled), std::string::npos);
+    EXPECT_TRUE(says(text, unfilled));
     text.replace(text.find(unfilled), unfilled.size(),
                  "  found.filled_in = true;\n" + lines + "\n  return found;");
     scratch.write("case/filled.cpp", text);

@@ -101,10 +101,9 @@ TEST_F(PublicQueries, CoplanarThroughoutAreSettled) {
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(data + "/sample-queries")) {
     if (entry.path().extension() != ".csv") continue;
-    const auto queries = corpus::read_queries(entry.path());
-    ASSERT_TRUE(queries.has_value()) << queries.error().message;
-    for (std::size_t i = 0; i < queries.value().size(); ++i) {
-      const auto& q = queries.value()[i];
+    const auto queries = value_of(corpus::read_queries(entry.path()));
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto& q = queries[i];
       if (!detector::coplanar_throughout(q.query)) continue;
       ++coplanar;
       const auto ours = detector::exact_contact(q.query);

@@ -1,6 +1,5 @@
 // `assay run` through the program, as its user runs it.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "tests/reports/tiny_campaign.h"
 
