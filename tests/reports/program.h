@@ -4,8 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/problem_words.h"
 #include "tests/reports/json_schema.h"
-#include "tests/test.h"
 
 namespace assay::tests {
 

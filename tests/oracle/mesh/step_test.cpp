@@ -105,20 +105,14 @@ TEST(JudgeStep, TurningTetrahedron) {
 }
 
 TEST(JudgeStep, CollapsingOctahedron) {
-  expect_pairs(judge(test::collapsing_octahedron()), {{{0, 2}, 0.40179328},
-                                                      {{0, 3}, 0.40179328},
-                                                      {{0, 4}, 0.952755811},
-                                                      {{0, 6}, 0.40179328},
-                                                      {{0, 7}, 0.40179328},
-                                                      {{1, 4}, 0.645102508},
-                                                      {{1, 6}, 0.426479047},
-                                                      {{1, 7}, 0.426479047},
-                                                      {{2, 4}, 0.645102508},
-                                                      {{2, 6}, 0.426479047},
-                                                      {{2, 7}, 0.426479047},
-                                                      {{4, 5}, 0.645102508},
-                                                      {{4, 6}, 0.645102508},
-                                                      {{6, 7}, 0.858057737}});
+  Times times;
+  const auto rows = tests::positions_of(
+      "0 2 .40179328, 0 3 .40179328, 0 4 .952755811, 0 6 .40179328, 0 7 .40179328, "
+      "1 4 .645102508, 1 6 .426479047, 1 7 .426479047, 2 4 .645102508, 2 6 .426479047, "
+      "2 7 .426479047, 4 5 .645102508, 4 6 .645102508, 6 7 .858057737");
+  for (const auto& row : rows.rowwise())
+    times[{static_cast<int>(row[0]), static_cast<int>(row[1])}] = row[2];
+  expect_pairs(judge(test::collapsing_octahedron()), times);
 }
 
 TEST(JudgeStep, IntersectingOctahedron) {

@@ -109,8 +109,9 @@ TEST(DetectorBench, TheVerbWritesItsFiguresAndSaysWhatIsWrong) {
 
 TEST(DetectorBench, TheVerbRefusesInOneLine) {
   for (const std::string& arguments :
-       {std::string("--detector /nowhere/x.so"), "--detector " + plugin("without_entry"),
-        "--detector " + plugin("query_alone"), "--detector " + plugin("candidates_alone"),
+       {std::string(), std::string("--suite nonsense"), std::string("--detector /nowhere/x.so"),
+        "--detector " + plugin("without_entry"), "--detector " + plugin("query_alone"),
+        "--detector " + plugin("candidates_alone"),
         "--detector " + plugin("example") + " --suite sequences",
         "--detector " + plugin("example") + " --case-seconds 0",
         "--detector " + plugin("example") + " --threads 0"}) {

@@ -76,8 +76,7 @@ TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   std::uint64_t missed = 0, confirmed = 0;
   for (const auto& row : run.rows) {
     if (row.subject->detector.built_in) continue;
-    const bool is_free = row.counts.errors.missed > 0;
-    EXPECT_EQ(row.counts.errors.false_alarms, is_free ? 0u : 1u);
+    EXPECT_EQ(row.counts.errors.false_alarms, row.counts.errors.missed > 0 ? 0u : 1u);
     missed += row.counts.errors.missed;
     confirmed += row.counts.confirmed;
   }
@@ -99,10 +98,9 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
     EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
     EXPECT_FALSE(row.over) << row.subject->name;
   }
-  const auto& text = run.remarks;
-  expect_says(text, {"hung", "absent: plugin_query_alone: it holds no steps",
-                     "absent: fcl_elementary: libfcl-dev was not there",
-                     "absent: arcsim: its source was not found"});
+  expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it holds no steps",
+                            "absent: fcl_elementary: libfcl-dev was not there",
+                            "absent: arcsim: its source was not found"});
 }
 
 TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
@@ -122,8 +120,7 @@ TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   auto modest = *run.rows.back().subject;
   modest.error_claims.set(properties::Claim::free_sound, false);
   run.rows.back().subject = &modest;
-  const auto text = subjects_text(run.rows, "detector");
-  EXPECT_TRUE(says(text, "(1)"));
+  EXPECT_TRUE(says(subjects_text(run.rows, "detector"), "(1)"));
   const auto json = to_json(run.report, "version");
   EXPECT_EQ(json["subjects"].size(), run.rows.size());
   EXPECT_EQ(json["subjects"][0]["time_over_reference"]["median"], 1);

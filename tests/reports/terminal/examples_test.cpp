@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 
 // What the examples name and do not make: frames and queries of the reader's, a log, a plug-in.
 void prepare(const Scratch& scratch) {
-  const auto read = value_of(corpus::parse_case(read_text(curated("A4_endpoints_only")), "A4"));
-  const auto& c = read;
+  const auto c = value_of(corpus::read_case(curated("A4_endpoints_only")));
   const auto export_case = expect_ended(
       "replay " + curated("A4_endpoints_only") + " --export " + (scratch / "export"), 0);
   fs::copy_file(scratch / "export/frame_0000.obj", scratch / "frame_0.obj");

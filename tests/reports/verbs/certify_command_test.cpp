@@ -241,7 +241,6 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   EXPECT_EQ(replayed_beside(failure, "fault_view-line_one-corner"), 1);
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "met in the corpus alone"));
   expect_ended("verify " + certificate, 1, {"verdict defect\n"});
-  expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
   const auto page = scratch / "page.html";
   ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
   const auto text = read_text(page);
@@ -265,7 +264,6 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
 TEST_F(Certify, BadInputIsOneLine) {
   expect_refused("certify", "--out");
   expect_refused(certify("--frobnicate"), "frobnicate");
-  expect_refused(certify("--detector " + plan), "not a detector plug-in");
   expect_refused("certify --campaign nowhere --out " + out, "nowhere");
   expect_refused("verify " + scratch / "none.json", "no such file");
   expect_refused("verify", "CERTIFICATE is required");

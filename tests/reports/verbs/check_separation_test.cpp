@@ -54,24 +54,19 @@ TEST_F(SeparationCommand, OffsetsOfTwoBodiesAddUp) {
                              body("high.obj", "4", "3") + " " + body("low.obj", "4", "1") + " ";
   expect_ended(bodies + "--offset 0.5 --offset 1.5 --json " + (scratch / "r.json"), 0,
                {"step 1: near at t = 0.5, 1 pair\n"});
-  const auto report = json::parse(read_text(scratch / "r.json"));
+  const auto report = read_json(scratch / "r.json");
   EXPECT_EQ(report["offsets"], json::array({0.5, 1.5}));
   EXPECT_TRUE(report["separation"].is_null());
   EXPECT_TRUE(says(run_assay(bodies + "--offset 0 --offset 0.5").out,
                    "apart: never within the offsets of two bodies together; least distance 1\n"));
   EXPECT_TRUE(says(run_assay(bodies + "--offset 1").err, "1 offsets for 2 bodies"));
-  EXPECT_EQ(run_assay(bodies + "--offset 1 --offset 1 --separation 1").exit_code, 2);
 }
 
 TEST_F(SeparationCommand, TheExitCodeSaysWhatIsAskedFor) {
   EXPECT_EQ(check("--separation 2 --fail-on-collision").exit_code, 5);
   EXPECT_EQ(check("--separation 0.5 --fail-on-collision").exit_code, 0);
-  for (const char* wrong :
-       {"--separation -1", "--separation nan", "--separation 1e999", "--separation x",
-        "--separation 1 --culling bvh", "--separation 1 --no-oracle"}) {
-    SCOPED_TRACE(wrong);
-    expect_one_line(check(wrong));
-  }
+  for (const std::string wrong : {"-1", "nan", "1e999", "x"})
+    expect_one_line(check("--separation " + wrong));
 }
 
 TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {

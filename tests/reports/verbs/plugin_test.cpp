@@ -74,7 +74,6 @@ TEST_F(Plugin, WhatCannotBeUsedIsRefusedInOneLine) {
   expect_refused(words + "--detector " + pipe, "not a detector plug-in: not a file");
   expect_refused(words + "--detector " + plugin("without_entry"), "exports no assay_detector()");
   expect_refused(words + "--detector " + plugin("wrong_abi"), "built for ABI version 99");
-  expect_refused(words + "--detector " + plugin("example") + " --culling bvh", "--culling");
 }
 
 }  // namespace

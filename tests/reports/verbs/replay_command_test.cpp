@@ -109,13 +109,7 @@ TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
                {"no built-in campaign is called smok; did you mean smoke?"});
   expect_refused("replay", "CASE is required");
   expect_refused("replay /tmp", "directory");
-  expect_refused("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so",
-                 "no such file");
   const Scratch scratch;
-  std::string text = read_text(curated("A4_endpoints_only"));
-  const std::string known = "\"culling\": \"view-point\"";
-  text.replace(text.find(known), known.size(), "\"culling\": \"fast\"");
-  expect_refused("replay " + scratch.write("option.json", text), "fast");
   expect_refused("replay " + scratch.write("bad.json", "{"), "bad.json");
 }
 
@@ -197,23 +191,10 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
     EXPECT_TRUE(contains(outcome.out, "exported to " + folder)) << outcome.out;
     const auto c = value_of(corpus::read_case(folder + "/case.json"));
     for (std::size_t f = 0; f < c.frames.size(); ++f) {
-      std::ostringstream name;
-      name << folder << "/frame_000" << f << ".obj";
-      std::ifstream in(name.str());
-      std::vector<double> numbers;
-      std::vector<int> corners;
-      for (std::string word; in >> word;) {
-        for (int i = 0; i < 3; ++i) {
-          std::string number;
-          in >> number;
-          if (word == "v") numbers.push_back(std::strtod(number.c_str(), nullptr));
-          if (word == "f") corners.push_back(std::stoi(number) - 1);
-        }
-      }
-      const auto& x = c.frames[f];
-      const auto& triangles = c.triangles;
-      EXPECT_EQ(numbers, std::vector<double>(x.data(), x.data() + x.size()));
-      EXPECT_EQ(corners, std::vector<int>(triangles.data(), triangles.data() + triangles.size()));
+      const auto frame =
+          value_of(corpus::read_mesh(folder + "/frame_000" + std::to_string(f) + ".obj"));
+      EXPECT_EQ(frame.positions, c.frames[f]);
+      EXPECT_EQ(frame.triangles, c.triangles);
     }
     // check reads them and comes to the oracle's answer of the first step.
     const auto checked = run_assay("check " + folder + "/frame_0000.obj " + folder +
@@ -222,21 +203,12 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
         contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle collision");
     EXPECT_EQ(checked.exit_code, collides ? 5 : 0) << checked.out << checked.err;
     collisions += collides;
-    const auto at = outcome.out.find("oracle collision at t = ");
-    if (collides && at != std::string::npos) {
-      const auto begin = at + std::string("oracle collision at t = ").size();
-      const auto time = outcome.out.substr(begin, outcome.out.find(", ", begin) - begin);
-      EXPECT_TRUE(contains(checked.out, "collision at t = " + time)) << checked.out << time;
-    }
+    std::smatch time;
+    const bool tells =
+        std::regex_search(outcome.out, time, std::regex("oracle (collision at t = [^,]*), "));
+    EXPECT_TRUE(!collides || !tells || contains(checked.out, time.str(1))) << checked.out;
   }
   EXPECT_GT(collisions, 0);
-}
-
-TEST(Replay, ExportThatCannotBeWritten) {
-  const Scratch scratch;
-  const auto file = scratch.write("file", "");
-  expect_refused(std::string("replay ") + some_id + " --export " + file, "cannot be made");
-  expect_refused(std::string("replay ") + some_id + " --export /proc/nowhere", "cannot be made");
 }
 
 }  // namespace
