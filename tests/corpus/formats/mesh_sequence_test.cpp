@@ -32,10 +32,9 @@ TEST_F(MeshSequence, ProblemsNameBothFiles) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   const auto expect = [&](std::string_view words, const std::vector<std::string>& texts) {
     const auto sequence = read_sequence(frames(texts));
-    ASSERT_FALSE(sequence);
-    EXPECT_TRUE(says(sequence, words));
-    EXPECT_TRUE(says(sequence, "frame0.obj"));
-    EXPECT_TRUE(says(sequence, "frame1.obj"));
+    for (const std::string_view said :
+         {words, std::string_view("frame0.obj"), std::string_view("frame1.obj")})
+      EXPECT_TRUE(says(sequence, said));
   };
   expect("vertices, but", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
   expect("triangle 0 is (1, 2, 0), but in", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
@@ -88,10 +87,7 @@ TEST_F(MeshSequence, AFrameThatIsBadEndsNeitherTheReaderNorWhatWasReadBefore) {
   write("b.off", off_tetrahedron);
   ASSERT_TRUE(reader.next());
   const auto other = reader.next();
-  ASSERT_FALSE(other);
-  EXPECT_TRUE(says(other, "vertices, but"));
-  EXPECT_TRUE(says(other, "a.obj"));
-  EXPECT_TRUE(says(other, "c.obj"));
+  for (const char* said : {"vertices, but", "a.obj", "c.obj"}) EXPECT_TRUE(says(other, said));
 }
 
 TEST_F(MeshSequence, WhatIsSeenWithoutReading) {
@@ -124,9 +120,7 @@ TEST_F(MeshSequence, LookingAheadNamesTheFirstFileThatCannotBeRead) {
   ASSERT_TRUE(SequenceReader(paths).look_ahead());
   paths.push_back(folder() / "absent.obj");
   paths.push_back(folder() / "absent_too.obj");
-  const auto ahead = SequenceReader(paths).look_ahead();
-  ASSERT_FALSE(ahead);
-  EXPECT_TRUE(says(ahead, "absent.obj"));
+  EXPECT_TRUE(says(SequenceReader(paths).look_ahead(), "absent.obj"));
 }
 
 TEST_F(MeshSequence, WrittenFramesReadBackBitByBit) {
@@ -183,13 +177,12 @@ TEST_F(BodiesOfFiles, FollowEachOther) {
                              {triangle("b0.obj", 5), triangle("b1.obj", 6)}},
                             {{1, 1}}};
   const auto steps = value_of(steps_of_bodies(bodies));
-  auto& source = *steps;
-  EXPECT_EQ(source.count(), 1u);
-  EXPECT_EQ(source.triangles(), tests::triangles_of("0 1 2, 3 4 5"));
-  ASSERT_TRUE(source.counted());
-  EXPECT_EQ(source.counted()->body, (std::vector<std::int32_t>{0, 0, 0, 1, 1, 1}));
-  EXPECT_EQ(source.counted()->apart, bodies.apart);
-  const auto step = value_of(source.step(0));
+  EXPECT_EQ(steps->count(), 1u);
+  EXPECT_EQ(steps->triangles(), tests::triangles_of("0 1 2, 3 4 5"));
+  ASSERT_TRUE(steps->counted());
+  EXPECT_EQ(steps->counted()->body, (std::vector<std::int32_t>{0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(steps->counted()->apart, bodies.apart);
+  const auto step = value_of(steps->step(0));
   EXPECT_EQ(step.x_t0(3, 2), 5);
   EXPECT_EQ(step.x_t1(0, 2), 1);
   EXPECT_EQ(step.x_t1(5, 2), 6);
@@ -199,10 +192,8 @@ TEST_F(BodiesOfFiles, OneFrameStandsStill) {
   const BodyFiles bodies = {{{triangle("still.obj", 3)},
                              {triangle("0.obj", 0), triangle("1.obj", 1), triangle("2.obj", 2)}},
                             {}};
-  auto steps = value_of(steps_of_bodies(bodies));
-  auto whole = steps->read_whole();
-  ASSERT_TRUE(whole);
-  const auto c = whole.value()->whole();
+  const auto whole = value_of(value_of(steps_of_bodies(bodies))->read_whole());
+  const auto c = whole->whole();
   ASSERT_EQ(c->frames.size(), 3u);
   ASSERT_TRUE(c->counted);
   for (std::size_t f = 0; f < 3; ++f) {
@@ -221,10 +212,9 @@ TEST_F(BodiesOfFiles, OneFrameOfAllIsAtRest) {
     const auto step = value_of(steps->step(0));
     EXPECT_EQ(step.x_t0, step.x_t1);
     EXPECT_EQ(step.x_t1(0, 2), 3);
-    const auto whole = steps->read_whole();
-    ASSERT_TRUE(whole);
-    EXPECT_EQ(whole.value()->whole()->frames.size(), 1u);
-    EXPECT_EQ(whole.value()->count(), 1u);
+    const auto whole = value_of(steps->read_whole());
+    EXPECT_EQ(whole->whole()->frames.size(), 1u);
+    EXPECT_EQ(whole->count(), 1u);
   }
 }
 
@@ -236,9 +226,7 @@ TEST_F(BodiesOfFiles, OneMeshAloneHasNoRelation) {
 TEST_F(BodiesOfFiles, AreToldInWords) {
   const auto one = triangle("f1.obj", 1), two = triangle("f2.obj", 2), ten = triangle("f10.obj", 9);
   const auto text_of = [](const Bodies& frames) {
-    const auto steps = steps_of_bodies({frames, {}});
-    EXPECT_TRUE(steps) << steps.error().message;
-    return steps ? steps.value()->text() : InputText();
+    return value_of(steps_of_bodies({frames, {}}))->text();
   };
   EXPECT_EQ(text_of({{one, two}}).title, "one mesh moving from f1.obj to f2.obj");
   EXPECT_EQ(text_of({{one, one}}).title, "one mesh at rest");

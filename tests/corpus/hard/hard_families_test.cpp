@@ -21,14 +21,8 @@ double longest_motion(const Case& c) {
   return (c.frames[1] - c.frames[0]).rowwise().norm().maxCoeff();
 }
 
-double size_of(const Case& c) {
-  return (c.frames[0].colwise().maxCoeff() - c.frames[0].colwise().minCoeff()).norm();
-}
-
-// Of one component: the first tetrahedron.
-double size_of_block(const Case& c) {
-  const auto block = c.frames[0].topRows(4);
-  return (block.colwise().maxCoeff() - block.colwise().minCoeff()).norm();
+double size_of(const detector::Positions& x) {
+  return (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
 }
 
 double first_time(const Case& c) { return c.expected.steps[0].first_time->lo; }
@@ -46,6 +40,10 @@ double volume(const Case& c, const std::array<int, 4>& v, int frame) {
   return static_cast<double>(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
                              e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
                              e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+}
+
+auto volume_of(const std::array<int, 4>& v) {
+  return [v](const Case& c) { return volume(c, v, 0); };
 }
 
 // Of the first three vertices and the view-point.
@@ -80,38 +78,23 @@ struct KnobFigure {
 
 const KnobFigure figures[] = {
     // Heights over a face as volumes over it, which the shears keep.
-    {"near-coplanar", 2,
-     [](const Case& c) {
-       return volume(c, {0, 1, 2, 4}, 0);
-     },
-     0, 24},
+    {"near-coplanar", 2, volume_of({0, 1, 2, 4}), 0, 24},
     {"short-steps", 0, longest_motion},
     {"contact-at-end", 1, [](const Case& c) { return 1 - first_time(c); }},
-    {"contact-at-start", 0,
-     [](const Case& c) {
-       return volume(c, {0, 1, 2, 4}, 0);
-     },
-     0, 24},
-    {"grazing", 0, [](const Case& c) { return edge_to_tip_at_half_time(c); }, 0, 24},
+    {"contact-at-start", 0, volume_of({0, 1, 2, 4}), 0, 24},
+    {"grazing", 0, edge_to_tip_at_half_time, 0, 24},
     {"view-touches-zero", 0, [](const Case& c) { return volume_to_view(c, 1); }, 0, 24},
     {"view-line-ends", 0, longest_motion},
     {"double-root", 0, [](const Case& c) { return 0.5 - first_time(c); }, 0, 1000, 0.5},
     {"triple-root", 0, [](const Case& c) { return 0.5 - first_time(c); }},
-    {"long-steps", 0, [](const Case& c) { return longest_motion(c) / size_of_block(c); }},
-    {"slivers", 0,
-     [](const Case& c) {
-       return volume(c, {0, 1, 2, 3}, 0);
-     },
-     0, 30},
-    {"near-parallel", 0,
-     [](const Case& c) {
-       return volume(c, {0, 1, 4, 5}, 0);
-     },
-     0, 24},
+    {"long-steps", 0,
+     [](const Case& c) { return longest_motion(c) / size_of(c.frames[0].topRows(4)); }},
+    {"slivers", 0, volume_of({0, 1, 2, 3}), 0, 30},
+    {"near-parallel", 0, volume_of({0, 1, 4, 5}), 0, 24},
     {"duplicates", 0,
      [](const Case& c) { return (c.frames[0].row(3) - c.frames[0].row(0)).norm(); }},
     {"view-on-surface", 0, [](const Case& c) { return volume_to_view(c, 0); }, 0, 24},
-    {"far-offset", 0, [](const Case& c) { return largest_coordinate(c) / size_of(c); }},
+    {"far-offset", 0, [](const Case& c) { return largest_coordinate(c) / size_of(c.frames[0]); }},
     {"scales", 0, largest_coordinate},
     {"mixed-scales", 0, largest_coordinate, 2},
     {"denormals", 0, largest_coordinate},

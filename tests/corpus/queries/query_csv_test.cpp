@@ -7,6 +7,11 @@ namespace {
 
 class QueryCsv : public Scratch {
  protected:
+  static std::string eight(const std::string& row) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += row + "\n";
+    return text;
+  }
   // Row i of the query begins with x = i / 2.
   static std::string rows(const std::string& ending, int count = 8) {
     std::string text;
@@ -52,18 +57,14 @@ TEST_F(QueryCsv, ASeparationIsADecimalBehindALabelOrNone) {
       read_queries(write("xvf.csv", rows(",1,0.1") + rows(",, 1e-3 ") + rows(",0,0") + rows(""))));
   ASSERT_EQ(queries.size(), 4U);
   EXPECT_EQ(queries[0].truth, true);
-  EXPECT_EQ(queries[0].separation, 0.1);
   EXPECT_EQ(queries[1].truth, std::nullopt);
-  EXPECT_EQ(queries[1].separation, 1e-3);
-  EXPECT_EQ(queries[2].separation, 0);
-  EXPECT_EQ(queries[3].separation, std::nullopt);
+  const std::optional<double> separations[] = {0.1, 1e-3, 0., std::nullopt};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(queries[i].separation, separations[i]) << i;
 }
 
 TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
-  std::string text;
-  for (int i = 0; i < 8; ++i) text += " 1 , 2,3,4 ,5,8, 0\r\n";
-  const auto queries =
-      value_of(read_queries(write("a/edge-edge/b/q.csv.gz", gzip(text + "\r\n\n"))));
+  const auto text = gzip(eight(" 1 , 2,3,4 ,5,8, 0\r") + "\r\n\n");
+  const auto queries = value_of(read_queries(write("a/edge-edge/b/q.csv.gz", text)));
   EXPECT_EQ(queries[0].truth, false);
   // The last line need not end.
   std::string open = rows("");
@@ -72,20 +73,14 @@ TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
 }
 
 TEST_F(QueryCsv, DecimalsAsPeoplePostThem) {
-  const auto eight = [](const std::string& row) {
-    std::string text;
-    for (int i = 0; i < 8; ++i) text += row + "\n";
-    return text;
-  };
   const auto queries = value_of(read_queries(
       write("posted_vf.csv", "\xEF\xBB\xBF# x,y,z\n" + eight("0.35,0,-1e-3") + "\n" +
                                  eight("0.35 0 -1e-3") + eight("0.35,\t0 , -1e-3 , 1") +
                                  eight("3.5e-1 0.0e+00 -1.0e-03 0.000e+00") +
                                  eight("0.35,0,-0.001,,0.5") + eight("7,8,0,1,-1,1024,1.0"))));
   ASSERT_EQ(queries.size(), 6U);
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < 5; ++i)
     EXPECT_EQ(queries[i].query.points[3].t1, (detector::Point{0.35, 0, -1e-3})) << i;
-  }
   EXPECT_EQ(queries[1].truth, std::nullopt);
   EXPECT_EQ(queries[2].truth, true);
   EXPECT_EQ(queries[3].truth, false);
@@ -96,15 +91,11 @@ TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
   for (const auto& [name, first] : {std::pair{"vertex-face-double.csv", 1},
                                     {"edge-edge-distance-float32.csv", 2},
                                     {"edge_edge.csv", 2},
-                                    {"vertex_face/q.csv", 1}}) {
-    const auto queries = value_of(read_queries(write(name, rows(""))));
-    EXPECT_EQ(queries[0].query.first_group, first);
-  }
+                                    {"vertex_face/q.csv", 1},
+                                    {"edge-edge/vertex-face/q.csv", 1}})  // the nearest folder
+    EXPECT_EQ(value_of(read_queries(write(name, rows("")))).at(0).query.first_group, first) << name;
   EXPECT_TRUE(
       says(read_queries(write("queries.csv", rows(""))), "vertex-face or edge-edge queries?"));
-  // The nearest folder rules.
-  const auto near = value_of(read_queries(write("edge-edge/vertex-face/q.csv", rows(""))));
-  EXPECT_TRUE(near[0].query.first_group == 1);
 }
 
 TEST_F(QueryCsv, Problems) {
@@ -146,9 +137,7 @@ TEST_F(QueryCsv, TruthFile) {
   EXPECT_EQ(queries[0].truth, true);
   EXPECT_EQ(queries[1].truth, false);
   const auto problem = [&](const std::string& json) {
-    const auto wrong = read_queries(csv, write("wrong.json", json));
-    EXPECT_FALSE(wrong) << json;
-    return wrong.error();
+    return read_queries(csv, write("wrong.json", json));
   };
   EXPECT_TRUE(says(problem("[true]"), "1 truths, but"));
   EXPECT_TRUE(says(problem("[true,1]"), "item 1 is not a boolean"));

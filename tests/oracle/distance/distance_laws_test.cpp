@@ -6,13 +6,14 @@
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
 #include "tests/asked.h"
+#include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/small_stack.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::Want, test::for_each_kind, test::Random;
+using detector::Want, test::for_each_kind, test::Random, tests::Rational, tests::squared_distance;
 
 TEST(DistanceLaws, WithinZeroIsContact) {
   Random random(160);
@@ -26,62 +27,6 @@ TEST(DistanceLaws, WithinZeroIsContact) {
     contacts += contact.contact;
   });
   EXPECT_GT(contacts * 10, queries * test::query_kinds);
-}
-
-// The squared distance at rest in rationals, by the derivatives of a convex function: no region and
-// no condition of the code tested.
-using Place = std::array<mpq_class, 3>;
-mpq_class product(const Place& a, const Place& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-mpq_class squared_to_edge(const Place& p, const Place& a, const Place& b) {
-  const Place e = minus(b, a), w = minus(p, a);
-  mpq_class s = product(e, e) == 0 ? mpq_class(0) : mpq_class(product(w, e) / product(e, e));
-  s = std::max(mpq_class(0), std::min(mpq_class(1), s));
-  const Place off = {w[0] - s * e[0], w[1] - s * e[1], w[2] - s * e[2]};
-  return product(off, off);
-}
-
-// The least of |w + s u + t v|^2 over the plane, if s and t are accepted.
-template <class Accepted>
-void lower_to_inside(mpq_class& least, const Place& w, const Place& u, const Place& v,
-                     const Accepted& accepted) {
-  const mpq_class uu = product(u, u), uv = product(u, v), vv = product(v, v);
-  const mpq_class uw = product(u, w), vw = product(v, w), det = uu * vv - uv * uv;
-  if (det == 0) return;
-  const mpq_class s = (uv * vw - vv * uw) / det, t = (uv * uw - uu * vw) / det;
-  if (!accepted(s, t)) return;
-  const Place off = {w[0] + s * u[0] + t * v[0], w[1] + s * u[1] + t * v[1],
-                     w[2] + s * u[2] + t * v[2]};
-  least = std::min(least, product(off, off));
-}
-
-mpq_class squared_distance_at(const FourPoints& q, const mpq_class& t) {
-  std::array<Place, 4> x;
-  for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const mpq_class from(q.points[i].t0[k]), to(q.points[i].t1[k]);
-      x[i][k] = from + t * (to - from);
-    }
-  }
-  if (q.first_group == 1) {
-    mpq_class least =
-        std::min({squared_to_edge(x[0], x[1], x[2]), squared_to_edge(x[0], x[2], x[3]),
-                  squared_to_edge(x[0], x[3], x[1])});
-    lower_to_inside(
-        least, minus(x[1], x[0]), minus(x[2], x[1]), minus(x[3], x[1]),
-        [](const mpq_class& s, const mpq_class& r) { return s >= 0 && r >= 0 && s + r <= 1; });
-    return least;
-  }
-  mpq_class least =
-      std::min({squared_to_edge(x[0], x[2], x[3]), squared_to_edge(x[1], x[2], x[3]),
-                squared_to_edge(x[2], x[0], x[1]), squared_to_edge(x[3], x[0], x[1])});
-  lower_to_inside(
-      least, minus(x[0], x[2]), minus(x[1], x[0]), minus(x[2], x[3]),
-      [](const mpq_class& s, const mpq_class& r) { return s >= 0 && s <= 1 && r >= 0 && r <= 1; });
-  return least;
 }
 
 Separation random_distance(Random& random) {
@@ -99,23 +44,24 @@ TEST(DistanceLaws, AgreesWithRationalTimes) {
       for (auto& p : q.points) p.t1 = p.t0;
     }
     const Separation d = random_distance(random);
-    const mpq_class sum = mpq_class(d.first) + mpq_class(d.second), squared = sum * sum;
+    const Rational sum = Rational(d.first) + Rational(d.second), squared = sum * sum;
     const FirstNear answer = first_time_within(q, d);
     EXPECT_EQ(first_time_within(q, d, Want::yes_no).near, answer.near);
-    const auto is_within = [&](const mpq_class& t) { return squared_distance_at(q, t) <= squared; };
-    const auto expect = [&](const mpq_class& t) {
-      EXPECT_TRUE(!is_within(t) || (answer.near && mpq_class(answer.first.lo) <= t)) << t;
+    const auto is_within = [&](const Rational& t) { return squared_distance(q, t) <= squared; };
+    const auto expect = [&](const Rational& t) {
+      EXPECT_TRUE(!is_within(t) || (answer.near && Rational(answer.first.lo) <= t)) << t;
     };
-    for (int s = 0; s <= samples; ++s) expect(mpq_class(s, samples));
+    for (int s = 0; s <= samples; ++s) expect(Rational(s, samples));
     if (!answer.near) return;
     const auto [lo, hi] = answer.first;
     later += lo > 0;
-    EXPECT_EQ(is_within(mpq_class(lo)), lo == hi);
+    EXPECT_EQ(is_within(Rational(lo)), lo == hi);
     // Within d somewhere between: at hi by rounding alone.
-    const mpq_class at_hi = squared_distance_at(q, mpq_class(hi));
-    EXPECT_TRUE(lo == hi || std::sqrt(at_hi.get_d()) <= sum.get_d() * (1 + 1e-12) + 1e-11);
-    if (lo > 0) expect(mpq_class(std::nextafter(lo, 0)));
-    for (int s = 1; s < 8; ++s) expect(mpq_class(lo) * s / 8);
+    const Rational at_hi = squared_distance(q, Rational(hi));
+    EXPECT_TRUE(lo == hi || std::sqrt(static_cast<double>(at_hi)) <=
+                                static_cast<double>(sum) * (1 + 1e-12) + 1e-11);
+    if (lo > 0) expect(Rational(std::nextafter(lo, 0)));
+    for (int s = 1; s < 8; ++s) expect(Rational(lo) * s / 8);
   });
   EXPECT_GT(later, 100);
 }
@@ -160,9 +106,8 @@ TEST(DistanceLaws, LeastDistanceIsTheLeastThatIsReached) {
     ++above;
     EXPECT_FALSE(first_time_within(q, {std::nextafter(least, 0), 0}).near);
     // Neither is it nearer at any sampled time.
-    const mpq_class before(std::nextafter(least, 0));
-    for (int s = 0; s <= 16; ++s)
-      EXPECT_GT(squared_distance_at(q, mpq_class(s, 16)), before * before);
+    const Rational before(std::nextafter(least, 0));
+    for (int s = 0; s <= 16; ++s) EXPECT_GT(squared_distance(q, Rational(s, 16)), before * before);
   });
   EXPECT_GT(above, 30);
 }
