@@ -101,9 +101,8 @@ TEST(Arithmetic, BoundedWindingNumbersAreRightOrAbsent) {
     ++(bounded ? present : absent);
     const auto outside = winding_numbers_outside(mesh, all, x, all, Arithmetic::bounded);
     const auto exact_outside = winding_numbers_outside(mesh, all, x, all);
-    for (std::size_t t = 0; t < 8; ++t) {
+    for (std::size_t t = 0; t < 8; ++t)
       ASSERT_TRUE(!outside[t] || outside[t] == exact_outside[t]) << i << ", triangle " << t;
-    }
   }
   EXPECT_GT(present, 5 * absent);
 }
@@ -125,10 +124,9 @@ TEST(Arithmetic, BoundedViewSignsAreRightOrZero) {
                                 bounded_counts, pace);
     exact_classifier.classify(mesh, mesh.components[0], {x_t0, x_t1}, {q0, q1}, exact, exact_counts,
                               pace);
-    for (std::size_t t = 0; t < 8; ++t) {
+    for (std::size_t t = 0; t < 8; ++t)
       ASSERT_TRUE(bounded[t] == ViewSign::zero || bounded[t] == exact[t])
           << i << ", triangle " << t;
-    }
   }
   EXPECT_EQ(bounded_counts.open, exact_counts.exact);
   EXPECT_GT(bounded_counts.open, 0u);

@@ -151,16 +151,5 @@ TEST(FirstContact, L15_AfterACollisionNothingIsKnown) {
   }
 }
 
-TEST(FirstContact, ABoundThatIsNoTimeIsRefused) {
-  const Positions x = tests::octahedron_positions(1);
-  auto detector = std::move(Detector::create(tests::octahedron(), x, {}).value());
-  for (const double until : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
-    const auto result = detector.first_contact(x, x, until);
-    EXPECT_EQ(result.answer, Answer::error);
-    ASSERT_TRUE(result.problem);
-    EXPECT_EQ(result.problem->error, InputError::wrong_bound);
-  }
-}
-
 }  // namespace
 }  // namespace assay::detector

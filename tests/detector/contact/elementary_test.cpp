@@ -269,9 +269,8 @@ TEST(ContactStack, ExponentsOverAllDoubles) {
       const bool flat = i % 3 == 0;
       for (auto& p : q.points) {
         for (double* end : {p.t0.data(), p.t1.data()}) {
-          for (int k = 0; k < 3; ++k) {
+          for (int k = 0; k < 3; ++k)
             end[k] = flat && k == 0 ? 0 : std::ldexp(below(5) - 2, below(2097) - 1074);
-          }
         }
       }
       expect_answered(q);

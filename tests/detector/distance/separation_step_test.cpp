@@ -180,10 +180,9 @@ TEST(SeparationStep, StepsDoNotDependOnEarlierOnes) {
 
 TEST(SeparationStep, ASeparationOfZeroAsksForContacts) {
   const Positions x = octahedron_positions(2);
-  for (const double none : {0.0, -0.0}) {
+  for (const double none : {0.0, -0.0})
     expect_same_contacts(step_within(octahedron(), x, pushed_octahedron(), within(none)),
                          step_within(octahedron(), x, pushed_octahedron(), {Culling::view_point}));
-  }
 }
 
 // Two triangles one above the other, far away or near, at the ends of the range of doubles.

@@ -71,9 +71,8 @@ class BallDraw {
   int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
   Integer integer(int most_bits) {
     Integer value = 0;
-    for (int bits = between(0, most_bits); bits > 0; bits -= 32) {
+    for (int bits = between(0, most_bits); bits > 0; bits -= 32)
       value = (value << 32) + static_cast<std::uint32_t>(engine_());
-    }
     return between(0, 1) ? value : Integer(-value);
   }
 

@@ -148,9 +148,8 @@ TEST(RealRoot, RootsAtAnEndOfTheirGap) {
 TEST(RealRoot, BracketedRootIsTheSameFromAnyGuess) {
   const Polynomial f = polynomial({-1, 0, 2});
   const auto roots = roots_in_unit_interval(f);
-  for (const double guess : {-1.0, 1e-300, 0.3, 0.70710678, 0.99}) {
+  for (const double guess : {-1.0, 1e-300, 0.3, 0.70710678, 0.99})
     EXPECT_EQ(enclose_single_root(f, 0, 1, guess), roots[0].enclosure()) << guess;
-  }
 }
 
 // At the ends of a bracket the function may have any sign, or none: it has another root there.
@@ -269,9 +268,8 @@ int expect_isolated(const std::vector<RationalRoot>& roots, const Polynomial& ot
   for (const auto& root : all) {
     if (next < roots.size() && root.sign_of(vanishing_at_root(roots[next])) == 0) {
       EXPECT_EQ(root.enclosure(), gap);
-      for (std::size_t i = 0; i < roots.size(); ++i) {
+      for (std::size_t i = 0; i < roots.size(); ++i)
         EXPECT_EQ(root.sign_of(vanishing_at_root(roots[i])), i < next ? 1 : i > next ? -1 : 0);
-      }
       ++next;
     }
   }
@@ -399,9 +397,8 @@ RC_GTEST_PROP(RealRootProperty, CountsAndSignsAreThoseOfRemainderSequences, ()) 
   const auto draw = [](std::size_t most) {
     const int reach = *rc::gen::element(1, 3, 20, 1000000);
     Polynomial p;
-    for (auto n = *rc::gen::inRange<std::size_t>(1, most + 2); n > 0; --n) {
+    for (auto n = *rc::gen::inRange<std::size_t>(1, most + 2); n > 0; --n)
       p = p * Polynomial::linear(0, 1) + Polynomial::constant(*rc::gen::inRange(-reach, reach + 1));
-    }
     return p;
   };
   Polynomial f = draw(3);

@@ -124,10 +124,9 @@ TEST(Winding, TogetherAsAlone) {
     for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = noise(engine);
     for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded}) {
       const auto together = winding_numbers_outside(mesh, all, x, all, arithmetic);
-      for (std::size_t k = 0; k < all.size(); ++k) {
+      for (std::size_t k = 0; k < all.size(); ++k)
         ASSERT_EQ(together[k], winding_numbers_outside(mesh, all, x, {{all[k]}}, arithmetic)[0])
             << "mesh " << i << ", triangle " << all[k];
-      }
     }
   }
 }

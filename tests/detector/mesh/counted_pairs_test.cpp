@@ -20,9 +20,7 @@ Positions places() {
 
 std::optional<InputError> error_of(const CountedPairs& counted) {
   const auto problem = check_counted_pairs(counted, triangles, vertices);
-  Options options;
-  options.counted = &counted;
-  const auto result = Detector::create(triangles, places(), options);
+  const auto result = Detector::create(triangles, places(), {.counted = &counted});
   EXPECT_EQ(result.has_value(), !problem);
   if (!problem) return std::nullopt;
   EXPECT_EQ(result.error().error, problem->error);
@@ -52,11 +50,11 @@ TEST(CountedPairs, EveryKindMayBeGiven) {
   counted.triangle_pairs = {{2, 0}};
   EXPECT_FALSE(counted.count_all());
   EXPECT_FALSE(error_of(counted));
-  const auto of_features = [](auto& c) {
-    c.vertex_faces = {{4, 0}};
-    c.edge_pairs = {{{1, 0}, {4, 6}}};
-  };
-  EXPECT_FALSE(error_with(of_features, CountedLevel::features));
+  EXPECT_FALSE(error_with(
+      [](auto& c) {
+        c.vertex_faces = {{4, 0}}, c.edge_pairs = {{{1, 0}, {4, 6}}};
+      },
+      CountedLevel::features));
 }
 
 TEST(CountedPairs, WhatCannotBeSoIsRefusedByName) {
@@ -107,9 +105,7 @@ TEST(CountedPairs, WrongListsAreRefusedByName) {
 // it is independent.
 TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
   const auto make = [](const CountedPairs* counted) {
-    Options options;
-    options.counted = counted;
-    auto detector = Detector::create(triangles, places(), options);
+    auto detector = Detector::create(triangles, places(), {.counted = counted});
     EXPECT_TRUE(detector.has_value());
     EXPECT_EQ(detector.value().step(places(), places()).answer, Answer::free);
     return std::move(detector.value());

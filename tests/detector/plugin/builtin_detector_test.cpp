@@ -7,7 +7,9 @@
 namespace assay::detector {
 namespace {
 
-using tests::BuiltinDetector, tests::octahedron, tests::octahedron_positions, tests::table;
+using tests::BuiltinDetector, tests::octahedron_positions, tests::table;
+
+std::int32_t stop_at_once(void*) { return 1; }
 
 // ASSAY_CULLING_VIEW_AUTO for view-auto, and so on: the numbers of the C interface are those of the
 // lists in C++.
@@ -222,13 +224,13 @@ TEST_F(BuiltinDetector, FindsTheFirstContactUpToABound) {
   auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
   const StepResult expected = direct.first_contact(in, hit);
   ASSERT_EQ(expected.answer, Answer::collision);
+  const auto search = [&](double until, std::int32_t (*stop)(void*) = nullptr) {
+    return assay_builtin_first_contact(handle.get(), in.data(), hit.data(), until, stop, nullptr,
+                                       &error);
+  };
   const auto found = [&](double until) {
-    EXPECT_EQ(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), until, nullptr,
-                                          nullptr, &error),
-              ASSAY_OK);
-    assay_result result = {};
-    EXPECT_EQ(table().result(handle.get(), &result), ASSAY_OK);
-    return result;
+    EXPECT_EQ(search(until), ASSAY_OK);
+    return result_of(handle);
   };
   const assay_result whole = found(1);
   EXPECT_EQ(whole.answer, ASSAY_COLLISION);
@@ -239,37 +241,30 @@ TEST_F(BuiltinDetector, FindsTheFirstContactUpToABound) {
   EXPECT_EQ(found(expected.first.hi).answer, ASSAY_COLLISION);
   EXPECT_EQ(found(expected.first.lo / 2).answer, ASSAY_FREE);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
-  for (const double wrong : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
-    expect_refused(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), wrong, nullptr,
-                                               nullptr, &error),
-                   ASSAY_BUILTIN_WRONG_BOUND);
-  }
-  const auto stop = [](void*) -> std::int32_t { return 1; };
-  EXPECT_EQ(
-      assay_builtin_first_contact(handle.get(), in.data(), hit.data(), 1, stop, nullptr, &error),
-      ASSAY_OK);
-  assay_result stopped = {};
-  EXPECT_EQ(table().result(handle.get(), &stopped), ASSAY_OK);
-  EXPECT_EQ(stopped.answer, ASSAY_UNDECIDED);
+  for (const double wrong : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
+    expect_refused(search(wrong), ASSAY_BUILTIN_WRONG_BOUND);
+  EXPECT_EQ(search(1, stop_at_once), ASSAY_OK);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_UNDECIDED);
 }
 
 TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
   const auto handle = make(Culling::bvh);
   assay_limit limit = {-1, nullptr};
-  const auto ask = [&](const Positions& to) {
+  const auto ask = [&](const Positions& from, const Positions& to,
+                       std::int32_t (*stop)(void*) = nullptr) {
     EXPECT_EQ(
-        assay_builtin_limit(handle.get(), in.data(), to.data(), &limit, nullptr, nullptr, &error),
+        assay_builtin_limit(handle.get(), from.data(), to.data(), &limit, stop, nullptr, &error),
         ASSAY_OK);
     return Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
   };
   auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
   const StepLimit expected = direct.limit(in, hit);
   ASSERT_LT(expected.share, 1);
-  EXPECT_EQ(ask(hit), expected.positions);
+  EXPECT_EQ(ask(in, hit), expected.positions);
   EXPECT_EQ(limit.share, expected.share);
   EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 0);
   EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK) << "to where it stops";
-  EXPECT_EQ(ask(in), in);
+  EXPECT_EQ(ask(in, in), in);
   EXPECT_EQ(limit.share, 1);
   // The table has the same, and what it claims of it.
   assay_limit by_table = {-1, nullptr};
@@ -278,18 +273,12 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
 
   // In the end numbers leave nowhere to go.
   Positions x = in;
-  for (int rounds = 0; rounds < 40 && limit.share > 0; ++rounds) {
-    EXPECT_EQ(
-        assay_builtin_limit(handle.get(), x.data(), hit.data(), &limit, nullptr, nullptr, &error),
-        ASSAY_OK);
-    x = Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
-  }
+  for (int rounds = 0; rounds < 40 && limit.share > 0; ++rounds) x = ask(x, hit);
   EXPECT_EQ(limit.share, 0);
   EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 1);
 
-  const auto stop = [](void*) -> std::int32_t { return 1; };
-  EXPECT_EQ(assay_builtin_limit(handle.get(), in.data(), hit.data(), &limit, stop, nullptr, &error),
-            ASSAY_OK);
+  limit.share = -1;
+  ask(in, hit, stop_at_once);
   EXPECT_EQ(limit.share, 0);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
   assay_builtin_options plain = ASSAY_BUILTIN_DEFAULTS;
@@ -308,39 +297,33 @@ TEST_F(BuiltinDetector, StopsWhenToldTo) {
       assay_builtin_evaluate(handle.get(), in.data(), hit.data(), nullptr, 0, stop, &calls, &error),
       ASSAY_OK);
   EXPECT_GT(calls, 0);
-  assay_result result = {};
-  table().result(handle.get(), &result);
-  EXPECT_EQ(result.answer, ASSAY_UNDECIDED);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_UNDECIDED);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
 }
 
 // The same behind the plug-in interface, in this process.
 
-class Plugin : public testing::Test {
+class Plugin : public BuiltinDetector {
  protected:
-  ~Plugin() override {
-    if (handle) api.destroy(handle);
-  }
-  std::int32_t create(const Triangles& t, const Positions& positions) {
-    return api.create(t.data(), static_cast<std::uint64_t>(t.rows()), positions.data(),
-                      static_cast<std::uint64_t>(positions.rows()), &handle, &message);
+  std::int32_t create(const Triangles& t) {
+    assay_handle* created = nullptr;
+    const auto code = table().create(t.data(), static_cast<std::uint64_t>(t.rows()), in.data(), 6,
+                                     &created, &message);
+    handle.reset(created);
+    return code;
   }
   assay_result evaluate(const Positions& x_t0, const Positions& x_t1) {
-    EXPECT_EQ(api.evaluate(handle, x_t0.data(), x_t1.data()), ASSAY_OK);
-    assay_result out = {};
-    EXPECT_EQ(api.result(handle, &out), ASSAY_OK);
-    return out;
+    EXPECT_EQ(table().evaluate(handle.get(), x_t0.data(), x_t1.data()), ASSAY_OK);
+    return result_of(handle);
   }
 
-  const assay_detector_api& api = *assay_builtin_detector();
-  assay_handle* handle = nullptr;
+  tests::Handle handle;
   const char* message = nullptr;
-  const Positions x = octahedron_positions(2);
 };
 
 TEST_F(Plugin, SaysWhatItClaims) {
-  EXPECT_EQ(api.abi_version, ASSAY_DETECTOR_ABI_VERSION);
-  const assay_description& d = *api.describe();
+  EXPECT_EQ(table().abi_version, ASSAY_DETECTOR_ABI_VERSION);
+  const assay_description& d = *table().describe();
   EXPECT_EQ(d.claims, 255u | 15u << 9) << "everything but candidates";
   EXPECT_EQ(d.progress, 0.9);
   EXPECT_EQ(d.adjacency, ASSAY_ADJACENCY_ALL);
@@ -348,15 +331,14 @@ TEST_F(Plugin, SaysWhatItClaims) {
   EXPECT_EQ(d.margin, 0);
 }
 
-TEST_F(Plugin, AnswersAsTheDetectorDoes) {
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  EXPECT_EQ(evaluate(x, octahedron_positions(3)).answer, ASSAY_FREE);
-  Positions pushed = x;
-  pushed.row(0) << -3, .5, .25;
-  auto direct = std::move(Detector::create(octahedron(), x, {}).value());
-  const StepResult expected = direct.evaluate(x, pushed);
+TEST_F(Plugin, AnswersAsTheDetectorDoesAndCommitsWhatWasEvaluated) {
+  ASSERT_EQ(create(triangles), ASSAY_OK);
+  EXPECT_EQ(table().commit(handle.get()), ASSAY_FAILED) << "nothing to commit";
+  EXPECT_EQ(evaluate(in, octahedron_positions(3)).answer, ASSAY_FREE);
+  auto direct = std::move(Detector::create(triangles, in, {}).value());
+  const StepResult expected = direct.evaluate(in, hit);
   ASSERT_EQ(expected.answer, Answer::collision);
-  const assay_result got = evaluate(x, pushed);
+  const assay_result got = evaluate(in, hit);
   EXPECT_EQ(got.answer, ASSAY_COLLISION);
   EXPECT_EQ(got.first_lo, expected.first.lo);
   EXPECT_EQ(got.first_hi, expected.first.hi);
@@ -367,25 +349,18 @@ TEST_F(Plugin, AnswersAsTheDetectorDoes) {
     EXPECT_EQ(got.pair_times[2 * i], expected.pairs[i].time.lo);
     EXPECT_EQ(got.pair_times[2 * i + 1], expected.pairs[i].time.hi);
   }
-  EXPECT_EQ(evaluate(x, x).pair_count, 0u) << "of the step evaluated last";
-}
-
-TEST_F(Plugin, CommitsWhatWasEvaluated) {
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  EXPECT_EQ(api.commit(handle), ASSAY_FAILED) << "nothing to commit";
-  evaluate(x, x);
-  EXPECT_EQ(api.commit(handle), ASSAY_OK);
+  EXPECT_EQ(evaluate(in, in).pair_count, 0u) << "of the step evaluated last";
+  EXPECT_EQ(table().commit(handle.get()), ASSAY_OK);
 }
 
 TEST_F(Plugin, RefusesByName) {
-  EXPECT_EQ(create(tests::triangles({{0, 1, 1}}), x), ASSAY_REFUSED);
+  EXPECT_EQ(create(tests::triangles({{0, 1, 1}})), ASSAY_REFUSED);
   EXPECT_EQ(handle, nullptr);
   ASSERT_NE(message, nullptr);
   EXPECT_STREQ(message, name_of(InputError::repeated_index));
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  Positions bad = x;
-  bad(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  const assay_result got = evaluate(x, bad);
+  ASSERT_EQ(create(triangles), ASSAY_OK);
+  hit(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  const assay_result got = evaluate(in, hit);
   EXPECT_EQ(got.answer, ASSAY_ERROR);
   ASSERT_NE(got.message, nullptr);
   EXPECT_GT(std::strlen(got.message), 0u);
@@ -450,9 +425,7 @@ TEST_F(BuiltinDetector, ResetForgets) {
   EXPECT_NE(save(handle), before);
   assay_builtin_reset(handle.get());
   EXPECT_EQ(save(handle), before);
-  assay_result result = {};
-  table().result(handle.get(), &result);
-  EXPECT_EQ(result.answer, ASSAY_COLLISION);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_COLLISION);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ class BuiltinDetector : public testing::Test {
                                      nullptr, &error),
               ASSAY_OK)
         << error.message;
+    return result_of(handle);
+  }
+  static assay_result result_of(const Handle& handle) {
     assay_result result = {};
     EXPECT_EQ(table().result(handle.get(), &result), ASSAY_OK);
     return result;

@@ -84,9 +84,9 @@ class Recording : public testing::Test {
   std::string error() const { return assay_record_error(&recorder); }
   // A step to where all coordinates are this number.
   std::vector<double> all(double value) const { return std::vector<double>(12, value); }
-  std::int32_t step_to(double value) {
-    const auto x1 = all(value);
-    return assay_record_step(&recorder, step({}, {x1.data(), 0}));
+  std::int32_t step_to(double value) { return write({}, {all(value).data(), 0}); }
+  std::int32_t write(assay_record_array x0, assay_record_array x1) {
+    return assay_record_step(&recorder, step(x0, x1));
   }
   const assay_record_step_data* step(assay_record_array x0, assay_record_array x1,
                                      assay_record_array committed = {}) {
@@ -97,10 +97,7 @@ class Recording : public testing::Test {
     return &data;
   }
   // The first step says where it starts.
-  void first_step() {
-    const auto x1 = all(0);
-    ASSERT_EQ(assay_record_step(&recorder, step({rest.data(), 0}, {x1.data(), 0})), ASSAY_OK);
-  }
+  void first_step() { ASSERT_EQ(write({rest.data(), 0}, {all(0).data(), 0}), ASSAY_OK); }
   std::vector<json> end() {
     EXPECT_EQ(assay_record_end(&recorder), ASSAY_OK) << error();
     return records_of(path);
@@ -220,8 +217,7 @@ TEST_F(Record, FloatsStayFloatsAndNoNumberIsMended) {
   std::vector<float> x1(12, 0.1f);
   x1[3] = std::numeric_limits<float>::quiet_NaN();
   ASSERT_EQ(assay_record_step(&recorder, step({rest.data(), 0}, {x1.data(), 1})), ASSAY_OK);
-  const auto records = end();
-  const auto numbers = floats(records[1]["x1"]);
+  const auto numbers = floats(end()[1]["x1"]);
   ASSERT_EQ(numbers.size(), 12u);
   EXPECT_EQ(std::memcmp(numbers.data(), x1.data(), 48), 0);
 }

@@ -71,8 +71,7 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
     const StepResult whole = older.evaluate(x_t0_, x_t1_);
     for (const double part : {1., .99, .7, .5, 1e-3}) {
       const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
-      const double share = part * (is_bounded ? whole.first.lo : 1);
-      const Positions x = end_at(share, i % 2);
+      const Positions x = end_at(part * (is_bounded ? whole.first.lo : 1), i % 2);
       const StepResult again = older.evaluate(x_t0_, x);
       Detector fresh = detector(options, false);
       const StepResult expected = fresh.evaluate(x_t0_, x);

@@ -19,9 +19,8 @@ std::uint8_t flags_below(const BoundingVolumeTree& tree, const std::vector<Trian
 void expect_marked(const BoundingVolumeTree& tree, const Marks& marks,
                    const std::vector<TriangleType>& types) {
   ASSERT_EQ(marks.types, types);
-  for (std::size_t n = 0; n < tree.node_count(); ++n) {
+  for (std::size_t n = 0; n < tree.node_count(); ++n)
     ASSERT_EQ(marks.node_flags[n], flags_below(tree, types, static_cast<std::int32_t>(n)));
-  }
 }
 
 void expect_same(const Topology& mesh, const Representatives& representatives,
@@ -176,8 +175,7 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
   SearchMeshes random(4);
   std::uint64_t with = 0, without = 0;
   for (int round = 0; round < 60; ++round) {
-    const bool coarse = round % 2 == 1;
-    Fitted fitted(random.sheets(1 + round % 3, 2 + round % 5, coarse));
+    Fitted fitted(random.sheets(1 + round % 3, 2 + round % 5, round % 2 == 1));
     auto& [mesh, tree, marks] = fitted;
     const RoundedPositions points(mesh.motion());
     std::vector<TriangleType> types = marks.types;

@@ -95,29 +95,19 @@ TEST(StateBytes, AreTheSameStateAgain) {
   EXPECT_EQ(bytes_of(again), bytes_of(state));
 }
 
-TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
-  for (const auto culling : all_values<Culling>) {
-    for (const int steps : {0, 1, 2}) {
-      Detector detector = passed(culling, steps);
-      const auto bytes = detector.state().bytes();
-      const auto read = read_state(bytes);
-      ASSERT_TRUE(read) << read.error().message;
-      EXPECT_EQ(read.value().committed.has_value(), steps > 0);
-      EXPECT_EQ(bytes_of(read.value()), bytes);
-      EXPECT_FALSE(detector.restore(SavedState(read.value())));
-    }
-  }
-}
-
 // Whatever a detector has committed itself, it then has what was saved, also if that is nothing.
 TEST(StateBytes, ReplaceWhatTheDetectorHasCommitted) {
   for (const auto culling : all_values<Culling>) {
     for (const int steps : {0, 1, 2}) {
-      const auto saved = passed(culling, steps).state();
+      const auto bytes = passed(culling, steps).state().bytes();
+      const auto read = read_state(bytes);
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read.value().committed.has_value(), steps > 0);
+      EXPECT_EQ(bytes_of(read.value()), bytes);
       for (const int own_steps : {0, 1, 2}) {
         Detector other = passed(culling, own_steps);
-        ASSERT_FALSE(other.restore(saved));
-        EXPECT_EQ(other.state().bytes(), saved.bytes()) << name_of(culling) << " " << own_steps;
+        ASSERT_FALSE(other.restore(SavedState(read.value())));
+        EXPECT_EQ(other.state().bytes(), bytes) << name_of(culling) << " " << own_steps;
       }
     }
   }
@@ -187,8 +177,7 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
       } else {
         // Another state that a detector of this mesh may have: it is in use without harm.
         ++read_back;
-        const Positions in = octahedron_positions(2);
-        EXPECT_EQ(detector.step(in, tip_at(1)).answer, Answer::free);
+        EXPECT_EQ(detector.step(octahedron_positions(2), tip_at(1)).answer, Answer::free);
         ASSERT_FALSE(detector.restore(SavedState::read(before).value()));
       }
     }
@@ -368,7 +357,7 @@ TEST(SavedStateScales, AreTakenBackForAnyExtents) {
 // The component whose half extent is one denormal: half of that is 0.
 TEST(SavedStateScales, HalfExtentOfOneDenormal) {
   constexpr double d = 0x1p-1074;
-  const Triangles tetrahedron = tests::triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+  const Triangles tetrahedron = tests::triangles_of("0 1 2, 0 2 3, 0 3 1, 1 3 2");
   const Positions x =
       tests::positions({{2 * d, -d, d}, {2 * d, 0, -2 * d}, {0, d, -d}, {0, -d, -2 * d}});
   expect_states_at({"tetrahedron", tetrahedron, x}, x, x);

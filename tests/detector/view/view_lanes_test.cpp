@@ -72,8 +72,7 @@ void compare(bool line) {
       }
       for (const auto set : all_sets) {
         if (!is_available(set)) continue;
-        const Found other = find(batch, set);
-        ASSERT_TRUE(other == first) << "instruction set " << static_cast<int>(set);
+        ASSERT_TRUE(find(batch, set) == first) << "instruction set " << static_cast<int>(set);
       }
     }
     EXPECT_GT(zeros, 0u) << tests::batch_family_names[f];
@@ -168,6 +167,13 @@ double part_of(double allowed, double computed, const Exact& exact) {
 
 Exact value(const Exact& b0, const Exact& b1, double s) { return b0 + Exact(s) * (b1 - b0); }
 
+LaneInput input_of(const TriangleBatch& batch) {
+  LaneInput in{};
+  EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                              batch.primitive, in));
+  return in;
+}
+
 TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
   BatchMaker maker(20113);
   std::mt19937_64 engine(3);
@@ -175,9 +181,7 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
   for (int n = 0; n < 2000; ++n) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 8, true);
-    LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
+    LaneInput in = input_of(batch);
     in.corners = batch.mesh.triangles[0].data();
     for (std::int32_t t = 0; t < 8; t += 2) {
       const std::int32_t two[2] = {t, t + 1};
@@ -187,10 +191,10 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
         const auto triangle = batch.triangle(static_cast<std::size_t>(two[lane]));
         const auto h0 = exact_cubic(triangle, batch.primitive.q0);
         const auto h1 = exact_cubic(triangle, batch.primitive.q1);
-        const double c0[4] = {line.h0.b0[lane], line.h0.b1[lane], line.h0.b2[lane],
-                              line.h0.b3[lane]};
-        const double c1[4] = {line.h1.b0[lane], line.h1.b1[lane], line.h1.b2[lane],
-                              line.h1.b3[lane]};
+        const auto in_lane = [&](const auto& h) {
+          return std::array<double, 4>{h.b0[lane], h.b1[lane], h.b2[lane], h.b3[lane]};
+        };
+        const auto c0 = in_lane(line.h0), c1 = in_lane(line.h1);
         for (std::size_t j = 0; j < 4; ++j) {
           worst_cubic = std::max({worst_cubic, part_of(in.cubic_error, c0[j], h0[j]),
                                   part_of(in.cubic_error, c1[j], h1[j])});
@@ -217,9 +221,7 @@ TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
   for (int n = 0; n < 4000; ++n) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 4, true);
-    LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
+    const LaneInput in = input_of(batch);
     if (in.axial_error >= 2) continue;  // s may be anything
     const MovingExact d = exact_difference(batch.primitive.q1, batch.primitive.q0);
     const Exact length2[3] = {dot(d.t0, d.t0), dot(d.t0, d.t1) + dot(d.t1, d.t0), dot(d.t1, d.t1)};
@@ -252,9 +254,8 @@ TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
 TEST(ViewBounds, OutOfRangeIsRefused) {
   BatchMaker maker(7);
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, false);
-  LaneInput in{};
+  LaneInput in = input_of(batch);
   const auto& vertices = batch.mesh.components[0].vertices;
-  ASSERT_TRUE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t1(2, 1) = 0x1p305;
   EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t0 *= 0x1p-320;
@@ -270,10 +271,7 @@ TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, true);
   const auto axial_error = [&](const Point& d0, const Point& d1) {
     batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {d0, d1}};
-    LaneInput in{};
-    EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
-    return in.axial_error;
+    return input_of(batch).axial_error;
   };
   EXPECT_EQ(axial_error({1, 0, 0}, {-1, 0, 0}), 2);
   EXPECT_EQ(axial_error({1, 0, 0}, {0, 1, 0}), 2) << "a right angle";

@@ -113,8 +113,7 @@ TEST(ViewTest, LineEndsThatMoveApart) {
   const ViewPrimitive grows = {{{0, 0, 0}, {-2, 0, 0}}, {{0, 0, 0}, {2, 0, 0}}};
   EXPECT_EQ(sign(above, grows), ViewSign::positive);
   EXPECT_EQ(sign(flipped, grows), ViewSign::negative);
-  const ViewPrimitive rises = {{{0, 0, 0}, {0, 0, 3}}, {{0, 0, 0}, {1, 0, 0}}};
-  EXPECT_EQ(sign(above, rises), ViewSign::zero);
+  EXPECT_EQ(sign(above, {{{0, 0, 0}, {0, 0, 3}}, {{0, 0, 0}, {1, 0, 0}}}), ViewSign::zero);
 }
 
 TEST(ViewTest, LineSeesATubeBetterThanAPoint) {
