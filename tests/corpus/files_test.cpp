@@ -145,9 +145,8 @@ TEST_F(FileProblems, EveryFormatCompressed) {
 
 TEST_F(FileProblems, DamagedCompression) {
   const std::string good = gzip(obj_tetrahedron);
-  for (std::size_t size = 1; size < good.size(); ++size) {
+  for (std::size_t size = 1; size < good.size(); ++size)
     EXPECT_TRUE(says(mesh_problem("a.obj.gz", good.substr(0, size)), "the gzip stream")) << size;
-  }
   std::string wrong_sum = good;
   wrong_sum[wrong_sum.size() - 6] ^= 1;
   EXPECT_TRUE(says(mesh_problem("b.obj.gz", wrong_sum), "the gzip stream is damaged"));

@@ -25,9 +25,8 @@ FourMoving any_exponents(test::Random& random, bool flat) {
   FourMoving points;
   for (MovingPoint& p : points) {
     for (double* end : {p.t0.data(), p.t1.data()}) {
-      for (int k = flat ? 1 : 0; k < 3; ++k) {
+      for (int k = flat ? 1 : 0; k < 3; ++k)
         end[k] = std::ldexp(random.below(5) - 2, random.below(2097) - 1074);
-      }
     }
   }
   return points;

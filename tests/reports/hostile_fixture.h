@@ -136,9 +136,7 @@ class HostilePlugin : public testing::Test {
   void expect_none_holds(const std::string& verb, std::vector<HostileMode> modes) {
     for (const auto* more : {&quick_modes(), &hanging_modes()})
       modes.insert(modes.end(), more->begin(), more->end());
-    for (const auto& mode : modes) {
-      expect_no_verdict_bought(verb, mode, judge(verb, mode.name));
-    }
+    for (const auto& mode : modes) expect_no_verdict_bought(verb, mode, judge(verb, mode.name));
     EXPECT_GE(modes.size(), 25u);
   }
 

@@ -22,10 +22,9 @@ inline corpus::Case one_above_another(double height_t0, double height_t1) {
   c.about = "one triangle comes near another";
   c.source = "made by a test";
   c.triangles = triangles({{0, 1, 2}, {3, 4, 5}});
-  for (const double z : {height_t0, height_t1}) {
+  for (const double z : {height_t0, height_t1})
     c.frames.push_back(
         positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 2, z + 0.1}, {1, 1, z}, {2, 1, z + 1}}));
-  }
   c.counted.emplace().pairs.body = {0, 0, 0, 1, 1, 1};
   return c;
 }

@@ -48,9 +48,7 @@ class DamagedFile : public Scratch {
 };
 
 TEST_F(DamagedFile, OfEachFormat) {
-  const auto read_file = [&](const std::string& bytes, const std::string& name) {
-    return read_mesh(write(name, bytes));
-  };
+  const auto read_file = [&](auto& bytes, auto& name) { return read_mesh(write(name, bytes)); };
   const auto check = [](const std::string& good, const std::string& name, const auto& read) {
     damage(good, [&](const std::string& bytes) { check_mesh(read(bytes, name)); });
   };

@@ -141,11 +141,10 @@ std::string binary_tetrahedron(bool big) {
       "element edge 2\nproperty int a\nproperty int b\nelement face 4\nproperty ushort flags\n"
       "property list ushort uint vertex_index\nelement empty 0\nproperty int n\nend_header\n";
   const int points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const auto& p : points) {
+  for (const auto& p : points)
     text += '\xff' + bytes_of(static_cast<float>(p[0]), big) +
             bytes_of(static_cast<double>(p[1]), big) + '\x01' + bytes_of(std::int16_t{7}, big) +
             bytes_of(static_cast<std::int16_t>(p[2]), big);
-  }
   for (int i = 0; i < 4; ++i) text += bytes_of(i, big);
   const std::uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   for (const auto& face : faces) {
@@ -183,9 +182,7 @@ TEST_F(Ply, Float32ConvertsExactlyAndAsciiKeepsItsDigits) {
   }
   text += '\x03' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
   const auto binary = value_of(read_mesh(write("a.ply", text)));
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(binary.positions(0, k), static_cast<double>(values[k]));
-  }
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(binary.positions(0, k), static_cast<double>(values[k]));
   const auto ascii = value_of(read_mesh(
       write("b.ply",
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

@@ -12,9 +12,8 @@ class MeshSequence : public Scratch {
  protected:
   Paths frames(const std::vector<std::string>& texts) const {
     Paths paths;
-    for (const std::string& text : texts) {
+    for (const std::string& text : texts)
       paths.push_back(write("frame" + std::to_string(paths.size()) + ".obj", text));
-    }
     return paths;
   }
 };
@@ -137,10 +136,9 @@ TEST_F(MeshSequence, WrittenFramesReadBackBitByBit) {
   EXPECT_EQ(paths[2].filename(), "frame_0002.ply");
   const auto back = value_of(read_sequence(paths));
   EXPECT_EQ(back.triangles, sequence.triangles);
-  for (std::size_t f = 0; f < 3; ++f) {
+  for (std::size_t f = 0; f < 3; ++f)
     EXPECT_EQ(0,
               std::memcmp(back.frames[f].data(), sequence.frames[f].data(), sizeof(double) * 12));
-  }
   // Nothing but the frames is left in the folder.
   const std::filesystem::directory_iterator files(folder() / "out" / "deep");
   EXPECT_EQ(std::distance(begin(files), end(files)), 3);

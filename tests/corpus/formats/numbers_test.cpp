@@ -43,9 +43,8 @@ TEST(Numbers, WholeWordsOnly) {
   }
   EXPECT_EQ(parse_integer("+7"), 7);
   EXPECT_EQ(parse_integer("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
-  for (const char* word : {"", "1.0", "9223372036854775808", "+-1", "a", "1a"}) {
+  for (const char* word : {"", "1.0", "9223372036854775808", "+-1", "a", "1a"})
     EXPECT_FALSE(parse_integer(word)) << word;
-  }
 }
 
 TEST(TextLines, NumbersAndContinuations) {

@@ -60,8 +60,7 @@ class StepLogs : public Scratch {
     auto& log = read.value();
     std::set<std::uint64_t> numbers;
     for (std::size_t i = 0; i < log.count(); ++i) {
-      const auto step = value_of(log.step(i));
-      const auto& s = step;
+      const auto& s = value_of(log.step(i));
       numbers.insert(s.number);
       ASSERT_LT(s.number, std::uint64_t{steps_written});
       EXPECT_EQ(s.why_unknown, "");

@@ -6,13 +6,6 @@
 namespace assay::corpus {
 namespace {
 
-const HardFamily& family_named(std::string_view name) {
-  for (const auto& family : hard_families()) {
-    if (family.name == name) return family;
-  }
-  throw std::runtime_error("no such family");
-}
-
 double largest_coordinate(const Case& c) {
   return std::max(c.frames[0].cwiseAbs().maxCoeff(), c.frames[1].cwiseAbs().maxCoeff());
 }
@@ -31,11 +24,10 @@ double first_time(const Case& c) { return c.expected.steps[0].first_time->lo; }
 double volume(const Case& c, const std::array<int, 4>& v, int frame) {
   long double e[3][3];
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
       e[i][k] = static_cast<long double>(c.frames[static_cast<std::size_t>(frame)](
                     v[static_cast<std::size_t>(i) + 1], k)) -
                 c.frames[static_cast<std::size_t>(frame)](v[0], k);
-    }
   }
   return static_cast<double>(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
                              e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
@@ -52,9 +44,8 @@ double volume_to_view(const Case& c, int frame) {
   auto& x = with_view.frames[static_cast<std::size_t>(frame)];
   const auto last = x.rows();
   x.conservativeResize(last + 1, 3);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     x(last, k) = c.view->q0[static_cast<std::size_t>(frame)][static_cast<std::size_t>(k)];
-  }
   return volume(with_view, {0, 1, 2, static_cast<int>(last)}, frame);
 }
 
@@ -106,7 +97,7 @@ const KnobFigure figures[] = {
 TEST(HardFamilies, StrengthTurnsTheKnob) {
   EXPECT_EQ(std::size(figures), hard_families().size());
   for (const auto& [name, variant, figure, weakest, strongest, factor] : figures) {
-    const auto& family = family_named(name);
+    const auto& family = *std::ranges::find(hard_families(), name, &HardFamily::name);
     const int last = std::min(strongest, family.strongest);
     ASSERT_LT(weakest, last);
     const auto measure = [&](int strength) {
@@ -157,8 +148,7 @@ TEST(HardFamilies, EveryCaseIsMadeAndIsTheSameAgain) {
 TEST(HardFamilies, CasesAreValidCaseFiles) {
   for (const auto& family : hard_families()) {
     const Case c = hard_case(family, 1, 0);
-    const auto read = value_of(parse_case(case_text(c), c.id));
-    EXPECT_EQ(case_text(read), case_text(c)) << c.id;
+    EXPECT_EQ(case_text(value_of(parse_case(case_text(c), c.id))), case_text(c)) << c.id;
   }
 }
 
@@ -172,9 +162,8 @@ TEST(GridMap, HasDeterminantOneAndKeepsItsGrowth) {
               1);
     for (int corner = 0; corner < 8; ++corner) {
       const GridPoint p = map({corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1});
-      for (const auto coordinate : {p.x, p.y, p.z}) {
+      for (const auto coordinate : {p.x, p.y, p.z})
         EXPECT_LE(std::abs(coordinate), GridMap::growth);
-      }
     }
   }
 }
@@ -192,10 +181,9 @@ TEST(GridMesh, TetrahedraFaceOutward) {
     mesh.add_tetrahedron(corners);
     const Case c = grid_case(mesh, {}, {0, 0, 0}, {});
     ASSERT_EQ(c.triangles.rows(), 4);
-    for (int t = 0; t < 4; ++t) {
+    for (int t = 0; t < 4; ++t)
       EXPECT_LT(volume(c, {c.triangles(t, 0), c.triangles(t, 1), c.triangles(t, 2), t}, 0), 0)
           << "triangle " << t << " of " << i << " faces its opposite corner";
-    }
   }
 }
 

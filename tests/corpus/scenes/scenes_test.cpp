@@ -52,8 +52,7 @@ TEST(Scenes, EverySceneAtSeveralSizes) {
   for (const SceneInfo& info : scenes()) {
     for (const int size : {1, 300, 2000, info.default_size}) {
       SCOPED_TRACE(std::string(info.name) + " " + std::to_string(size));
-      const auto scene = value_of(make_scene(info.name, {size, 5, {}}));
-      const auto& [triangles, frames, unused] = scene;
+      const auto& [triangles, frames, unused] = value_of(make_scene(info.name, {size, 5, {}}));
       ASSERT_EQ(frames.size(), 5U);
       EXPECT_LT(triangles.maxCoeff(), frames[0].rows());
       const Facts facts = facts_of(frames[0], triangles);

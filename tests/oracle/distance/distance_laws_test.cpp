@@ -119,9 +119,8 @@ FourPoints any_exponents(Random& random, int i) {
   const bool whole = i % 3 != 0;
   for (auto& p : q.points) {
     for (double* end : {p.t0.data(), p.t1.data()}) {
-      for (int k = flat ? 1 : 0; k < 3; ++k) {
+      for (int k = flat ? 1 : 0; k < 3; ++k)
         end[k] = std::ldexp(whole ? random.integer(2) : random.unit(), random.below(2096) - 1074);
-      }
     }
   }
   return q;

@@ -61,8 +61,7 @@ TEST(StepDistance, LeastOfAStep) {
 
 TEST(StepDistance, NoPairIsAtNoDistance) {
   const auto x = positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
-  const Step alone = {x, x, triangles({{0, 1, 2}})};
-  const LeastDistance found = least(alone, with_neighbours());
+  const LeastDistance found = least({x, x, triangles({{0, 1, 2}})}, with_neighbours());
   EXPECT_TRUE(found.complete);
   EXPECT_EQ(found.distance, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(found.where);

@@ -204,10 +204,9 @@ TEST(JudgeStep, TimeReversalKeepsTheSweptPairs) {
   const StepJudgement forward = judge(step);
   std::swap(step.x_t0, step.x_t1);
   const StepJudgement back = judge(step);
-  for (const PairContact& c : forward.pairs) {
+  for (const PairContact& c : forward.pairs)
     EXPECT_TRUE(std::any_of(back.pairs.begin(), back.pairs.end(),
                             [&](const PairContact& d) { return d.pair == c.pair; }));
-  }
 }
 
 TEST(JudgeStep, StoppedAtOnce) {
@@ -227,10 +226,9 @@ TEST(JudgeStep, StoppedLaterKeepsWhatItFound) {
   EXPECT_EQ(part.answer, Answer::undecided);
   EXPECT_FALSE(part.complete);
   EXPECT_LT(part.pairs.size(), whole.pairs.size());
-  for (const PairContact& c : part.pairs) {
+  for (const PairContact& c : part.pairs)
     EXPECT_TRUE(std::binary_search(whole.pairs.begin(), whole.pairs.end(), c,
                                    [](const auto& x, const auto& y) { return x.pair < y.pair; }));
-  }
 }
 
 TEST(JudgeStep, ExceptionOfTheStopFunctionComesThrough) {

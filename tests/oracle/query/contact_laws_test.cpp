@@ -28,9 +28,8 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
     for (int i = 0; i < queries_per_kind; ++i) {
       FourPoints query;
       query.first_group = 1 + i % 2;
-      for (MovingPoint& p : query.points) {
+      for (MovingPoint& p : query.points)
         p = test::random_point(random, static_cast<Coordinates>(kind));
-      }
       if (random.below(6) == 0) query.points[3] = query.points[random.below(3)];
       law(query);
       ASSERT_FALSE(testing::Test::HasFailure()) << kind << " query " << i;
@@ -107,9 +106,8 @@ TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
 TEST(ContactLaws, AxesAreAlike) {
   for_random_queries(15, [](const FourPoints& query) {
     FourPoints other = query;
-    for (MovingPoint& p : other.points) {
+    for (MovingPoint& p : other.points)
       p = {{p.t0[1], p.t0[2], -p.t0[0]}, {p.t1[1], p.t1[2], -p.t1[0]}};
-    }
     const ContactAnswer expected = judge(query), answer = judge(other);
     EXPECT_EQ(answer.contact, expected.contact);
     EXPECT_EQ(answer.first, expected.first);

@@ -125,26 +125,6 @@ TEST(ContactDegenerate, CoplanarThroughoutResting) {
   expect(over_resting_face({5, -1, 0}, {3, 1, 0}), {true, Rung::quadratic, at(0.5)});
 }
 
-TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
-  // The same motion within a plane z = c that moves itself.
-  auto lifted = [](double x0, double y0, double x1, double y1) {
-    return MovingPoint{{x0, y0, 1}, {x1, y1, 7}};
-  };
-  const VertexFace q = {lifted(4, 4, 0, 0),
-                        {lifted(0, 0, 0, 0), lifted(4, 0, 4, 0), lifted(0, 4, 0, 4)}};
-  expect(q, {true, Rung::quadratic, at(0.5)});
-}
-
-TEST(ContactDegenerate, CollinearThroughout) {
-  const EdgeEdge meet = {{MovingPoint{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {4, 4, 4}}},
-                         {rest({2, 2, 2}), rest({9, 9, 9})}};
-  expect(meet, {true, Rung::quadratic, around(below_third)});
-  const EdgeEdge apart = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({1, 1, 1}), rest({2, 2, 2})}};
-  expect(apart, {true, Rung::quadratic, at(0)});
-  const EdgeEdge gap = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({2, 2, 2}), rest({3, 3, 3})}};
-  expect(gap, {false, Rung::axis});
-}
-
 TEST(ContactDegenerate, EdgesTurningOnOneLine) {
   // At t=1/2 all four points are on the x axis, and the edges overlap there or do not.
   auto turning = [](double a, double b) {

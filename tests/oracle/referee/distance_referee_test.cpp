@@ -13,10 +13,6 @@ using detector::Decision, detector::EdgeEdge, detector::MovingPoint, detector::P
     tests::Rational, tests::squared_distance;
 
 Rational fraction(const RationalTime& t) { return {t.numerator, t.denominator}; }
-Rational squared(const detector::Separation& d) {
-  const Rational sum = Rational(d.first) + Rational(d.second);
-  return sum * sum;
-}
 
 template <class Query>
 void expect_never(const Query& query, const detector::Separation& d) {
@@ -240,7 +236,8 @@ TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
                                     random.below(8) == 0 ? 0x1p-60 : 0};
     const DistanceVerdict verdict =
         first_group == 1 ? distance_referee(vertex_face(x), d) : distance_referee(edge_edge(x), d);
-    const Rational limit = squared(d), after = fraction(verdict.after), by = fraction(verdict.by);
+    const Rational sum = Rational(d.first) + Rational(d.second), limit = sum * sum,
+                   after = fraction(verdict.after), by = fraction(verdict.by);
     const Rational any = Rational(random.below(61), 60);
     if (verdict.within == Decision::no) {
       ++far;

@@ -155,10 +155,6 @@ TEST(PeersBench, AContactIsConfirmedOnlyWhereThereIsOne) {
   }
 }
 
-std::vector<fs::path> stored_meshes() {
-  return corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes").value();
-}
-
 // Whether the vertex and the face that the oracle finds within 1e-3 of each other, though their
 // triangles do not meet, are so near by the referee of distances.
 bool comes_within(const corpus::Case& c) {
@@ -177,7 +173,8 @@ bool comes_within(const corpus::Case& c) {
 
 // By the oracle with all facts, and by another method than the oracle.
 TEST(PeersBench, EveryStoredMeshHasTheContactThatIsMissed) {
-  const auto files = stored_meshes();
+  const auto files =
+      value_of(corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes"));
   EXPECT_GE(files.size(), 27u);
   for (const auto& file : files) {
     const auto c = corpus::read_case(file).value();

@@ -14,11 +14,6 @@ namespace {
 
 using corpus::HardFamily, detector::ContactResult, detector::FourPoints, detector::Want;
 
-const HardFamily& family_named(std::string_view name) {
-  const auto all = corpus::hard_families();
-  return *std::find_if(all.begin(), all.end(), [&](const auto& f) { return f.name == name; });
-}
-
 constexpr double tests_scale = 0.01;
 
 struct Measured {
@@ -35,7 +30,8 @@ struct Measured {
 };
 
 Measured report_of(std::string_view family, const BenchSubject& subject) {
-  return {stability_of({&family_named(family), 1}, {subject}, {"/nowhere", tests_scale}, {})};
+  const auto& found = *std::ranges::find(corpus::hard_families(), family, &HardFamily::name);
+  return {stability_of({&found, 1}, {subject}, {"/nowhere", tests_scale}, {})};
 }
 
 BenchSubject wrong(detector::Arithmetic arithmetic, MakeStages stages) {

@@ -129,8 +129,7 @@ TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
 TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
   library = plugin("always_free");
   plan = scratch.write("plan.json", plan_text(24, R"(, "shrink_share": 0)"));
-  const auto whole = expect_ended(run(out), 1);
-  const auto lines = replay_lines(whole.out);
+  const auto lines = replay_lines(expect_ended(run(out), 1).out);
   ASSERT_FALSE(lines.empty());
   const std::string file = lines[0].substr(7, lines[0].find(' ', 7) - 7);
   ASSERT_TRUE(contains(file, "-original.json")) << lines[0];
@@ -138,9 +137,8 @@ TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
   for (const int signal : {SIGINT, SIGKILL}) {
     std::filesystem::remove(small);
     Started started({"shrink", file, "--out", small, "--detector", library}, text);
-    for (int i = 0; i < 3000 && !std::filesystem::exists(small); ++i) {
+    for (int i = 0; i < 3000 && !std::filesystem::exists(small); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
     started.send(signal);
     const int status = started.end();
     EXPECT_EQ(run_assay("replay " + small + " --detector " + library).exit_code, 1);

@@ -182,8 +182,7 @@ TEST_F(AtRest, TenContactsAreNamed) {
 TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {
   const auto file = scratch / "marked.ply";
   ASSERT_EQ(check(pair("0.obj", "1") + " " + pair("1.obj", "-1") + " --ply " + file).exit_code, 0);
-  const auto read = value_of(corpus::read_mesh(file));
-  EXPECT_EQ(read.positions(3, 2), 0) << "at the first contact";
+  EXPECT_EQ(value_of(corpus::read_mesh(file)).positions(3, 2), 0) << "at the first contact";
   const auto bytes = read_text(file);
   EXPECT_TRUE(contains(bytes, "property uchar red\nproperty uchar green\nproperty uchar blue\n"));
   EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xdc\x28\x28");

@@ -203,8 +203,7 @@ TEST_F(Runs, AFailingBuiltInDetectorIsShownWithItsViews) {
             "triangles 0 and 3 meet; answered free")
       .fail("A1_winding2_allpositive", "all-pairs: missing pair, edge-edge, t inside, moving",
             "triangles 1 and 2 meet; not reported");
-  const auto findings = read_run(run.store(folder));
-  const auto scenes = reports::failure_scenes(findings);
+  const auto scenes = reports::failure_scenes(read_run(run.store(folder)));
   ASSERT_EQ(scenes.size(), 2u);
   for (const auto& shown : scenes) EXPECT_TRUE(shown["scene"].is_object()) << shown["not_shown"];
   const bool has_ghosts = std::any_of(scenes.begin(), scenes.end(), [](const Json& shown) {

@@ -28,11 +28,10 @@ TEST(PeersSuite, EveryPeerThatIsPresentHasFigures) {
     EXPECT_LE(counts["confirmed"], counts["unsafe"]) << name;
     if (!row["is_built_in"].get<bool>()) {
       // Nobody is accused by the oracle alone.
-      for (const auto& answer : json["unsafe_answers"]) {
+      for (const auto& answer : json["unsafe_answers"])
         EXPECT_TRUE(answer["subject"] != name || answer["what"] != "missed" ||
                     answer["confirmed"].get<bool>())
             << answer.dump();
-      }
       continue;
     }
     EXPECT_EQ(counts["undecided"], 0) << name;

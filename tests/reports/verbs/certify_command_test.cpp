@@ -243,8 +243,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   expect_ended("verify " + certificate, 1, {"verdict defect\n"});
   const auto page = scratch / "page.html";
   ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
-  const auto text = read_text(page);
-  expect_says(text, {failure["signature"].get<std::string>(), "\"scene\":{"});
+  expect_says(read_text(page), {failure["signature"].get<std::string>(), "\"scene\":{"});
 
   // Once more: what is shrunk already stays as it is.
   ASSERT_EQ(certify("--detector " + plugin("fault_view-line_one-corner")).exit_code, 1);

@@ -168,8 +168,7 @@ TEST_F(CheckLog, ThePageShowsVerdictClaimsAndKeptSteps) {
   EXPECT_TRUE(contains(page, "<svg ")) << "the picture";
   EXPECT_TRUE(contains(page, fmt::format("#{}'</pre>", collision_ + 1))) << "the line to replay";
   EXPECT_FALSE(contains(page, "<script"));
-  const auto right = record(answers_);
-  EXPECT_EQ(run_assay("check " + right + " --keep " + out).exit_code, 0);
+  EXPECT_EQ(run_assay("check " + record(answers_) + " --keep " + out).exit_code, 0);
   EXPECT_TRUE(contains(read_text(out + "/page.html"), "<p>No step failed.</p>"));
 }
 

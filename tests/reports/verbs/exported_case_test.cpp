@@ -52,8 +52,7 @@ TEST_F(ExportedCase, SaysWhichPairsCount) {
   const std::string level = "\"level\": \"";
   const auto begin = text.find(level);
   ASSERT_NE(begin, std::string::npos);
-  const auto end = text.find("\"", begin + level.size());
-  text.replace(begin, end - begin, level + "features");
+  text.replace(begin, text.find("\"", begin + level.size()) - begin, level + "features");
   text.insert(text.find(",", begin),
               ", \"bodies\": [[9, 0]], \"rest_distance\": 0.5, \"vertex_faces\": [[0, 1], [0, 2]], "
               "\"edge_pairs\": [[0, 1, 1, 2]]");

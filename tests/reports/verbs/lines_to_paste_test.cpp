@@ -71,8 +71,7 @@ TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
   int number = 0;
   for (const auto& input : inputs) {
     SCOPED_TRACE(input);
-    const auto told = expect_ended(run("check " + input), 1);
-    expect_same(told.out, 1, 1);
+    expect_same(expect_ended(run("check " + input), 1).out, 1, 1);
     const auto kept = folder / fmt::format("kept {}", ++number), report = kept / "r.json";
     const auto made = expect_ended(run(fmt::format("check {} --keep '{}' --json '{}'", input,
                                                    kept.filename().string(), report.string())),
@@ -116,12 +115,9 @@ TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
 }
 
 TEST_F(LinesToPaste, OfCheckNameTheLogAndTheStep) {
-  const auto path = (folder / "my log").string();
-  write_missed_contact(path);
-  for (const std::string word : {"'my log'", "'my log#2'"}) {
-    const auto judged = expect_ended(run("check " + word + " --keep judged"), 1);
-    expect_same(judged.out, 1, 1);
-  }
+  write_missed_contact((folder / "my log").string());
+  for (const std::string word : {"'my log'", "'my log#2'"})
+    expect_same(expect_ended(run("check " + word + " --keep judged"), 1).out, 1, 1);
   const auto shrunk =
       expect_ended(run("shrink 'my log#2' --out 'small one.json' --isolation limits --detector " +
                        plugin("always_free")),

@@ -183,11 +183,8 @@ TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
 }
 
 TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
-  const auto replayed = [&](const std::string& words) {
-    return asked(words, "replay " + scratch.write("query.json", case_text(query_with_a_contact())) +
-                            " --export " + out("case"));
-  };
-  expect_ended(replayed("miss-inside"), 1);
+  const auto query = scratch.write("query.json", case_text(query_with_a_contact()));
+  expect_ended(asked("miss-inside", "replay " + query + " --export " + out("case")), 1);
   const auto compiles = [&](const std::string& file, const std::string& more) {
     EXPECT_EQ(exit_code_of(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") +
                            file + more + " -o " + out("program") + " 2>" + out("compiler")),

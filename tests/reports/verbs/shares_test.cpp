@@ -145,10 +145,9 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   EXPECT_EQ(properties::stored_runs(out).value().size(), 2u);
   EXPECT_EQ(run_assay("verify " + out).exit_code, 3);
   // No run goes on there, which would be judged with them.
-  for (const std::string verb : {"run", "certify"}) {
+  for (const std::string verb : {"run", "certify"})
     expect_problem(run_assay(verb + " --campaign smoke --out " + out),
                    "seed-1.sqlite: is of another run");
-  }
   std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);

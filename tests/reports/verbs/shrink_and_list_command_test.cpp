@@ -62,9 +62,8 @@ TEST(List, LawsFaultsScenesAndCampaigns) {
   }
   EXPECT_GE(planted.size(), 40u);
   const auto campaigns = expect_ended("list campaigns", 0);
-  for (const std::string name : {"smoke", "quick", "nightly", "release"}) {
+  for (const std::string name : {"smoke", "quick", "nightly", "release"})
     EXPECT_TRUE(contains(campaigns.out, name + " ")) << campaigns.out;
-  }
 }
 
 TEST(List, FailuresNeedARun) {
