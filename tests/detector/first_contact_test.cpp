@@ -94,9 +94,8 @@ TEST_P(FirstContact, L6_ByABoundIsThereJustIfItIsNotLater) {
 TEST_P(FirstContact, DoesNotDependOnThreads) {
   const Moving mesh(tests::SearchMeshes(11).sheets(2, 20, false));
   const auto result_of = [&](std::uint32_t threads) {
-    Options options{GetParam(), Start::verified, Pairs::first};
-    options.threads = threads;
-    return mesh.detector(options).evaluate(mesh.x_t0, mesh.x_t1);
+    return mesh.detector({.culling = GetParam(), .pairs = Pairs::first, .threads = threads})
+        .evaluate(mesh.x_t0, mesh.x_t1);
   };
   const auto expected = result_of(1);
   ASSERT_EQ(expected.answer, Answer::collision);

@@ -14,9 +14,7 @@ using namespace detector;
 constexpr double largest = std::numeric_limits<double>::max();
 
 Options within(double d, Culling culling = Culling::bvh) {
-  Options options{culling};
-  options.separation = d;
-  return options;
+  return {.culling = culling, .separation = d};
 }
 
 StepResult step_within(const Triangles& mesh, const Positions& from, const Positions& to,
@@ -156,9 +154,8 @@ TEST(SeparationStep, ThreadsDoNotShow) {
   const auto alone = step_within(rows, mesh.x_t0, end, within(.05));
   EXPECT_GT(alone.pairs.size(), 100u);
   for (const std::uint32_t threads : {2u, 3u}) {
-    Options options = within(.05);
-    options.threads = threads;
-    const auto shared = step_within(rows, mesh.x_t0, end, options);
+    const auto shared = step_within(
+        rows, mesh.x_t0, end, {.culling = Culling::bvh, .threads = threads, .separation = .05});
     expect_same_work(shared, alone);
     EXPECT_EQ(shared.counts.narrow.rungs.total(), alone.counts.narrow.rungs.total());
   }
@@ -169,8 +166,7 @@ TEST(SeparationStep, StepsDoNotDependOnEarlierOnes) {
   const auto mesh = SearchMeshes(13).sheets(2, 5, true);
   const Triangles rows = mesh.rows();
   for (const Start start : all_values<Start>) {
-    Options options = within(.5);
-    options.start = start;
+    const Options options{.culling = Culling::bvh, .start = start, .separation = .5};
     auto detector = std::move(Detector::create(rows, mesh.x_t0, options).value());
     detector.step(mesh.x_t0, mesh.x_t1);
     expect_same_contacts(detector.step(mesh.x_t1, mesh.x_t0),
@@ -225,9 +221,8 @@ TEST(SeparationStep, WrongSeparationsAreRefusedByName) {
   }
   for (const Arithmetic arithmetic : all_values<Arithmetic>) {
     if (arithmetic == Arithmetic::exact) continue;
-    Options options = within(1);
-    options.arithmetic = arithmetic;
-    EXPECT_TRUE(says(refusal(options), name_of(arithmetic)));
+    EXPECT_TRUE(says(refusal({.culling = Culling::bvh, .arithmetic = arithmetic, .separation = 1}),
+                     name_of(arithmetic)));
   }
 }
 

@@ -194,8 +194,7 @@ TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
 // Bounded doubles have doubts, which depend on the pairs that are tested. So nothing is kept.
 TEST_P(AskedAgain, WithoutExactArithmeticNothingIsKept) {
   make(9);
-  Options options{GetParam()};
-  options.arithmetic = Arithmetic::bounded;
+  const Options options{.culling = GetParam(), .arithmetic = Arithmetic::bounded};
   Detector older = detector(options);
   older.evaluate(x_t0_, x_t1_);
   const Positions half = end_at(.5, 0);

@@ -140,8 +140,7 @@ TEST(SavedState, L6L9_FirstPairsAreNotAllOnceReadFromBytesEither) {
   Positions pierced = in;
   pierced.row(sides * sphere_rings) << 0, 0, 4;
   pierced.row(sides * (sphere_rings / 2)) << -2.25, 0, 0;  // elsewhere, and later
-  Options options = with_points();
-  options.pairs = Pairs::first;
+  const Options options{.culling = Culling::view_point, .pairs = Pairs::first};
   Detector detector = make(options, in, revolved(sphere_rings)),
            other = make(options, in, revolved(sphere_rings));
   ASSERT_EQ(detector.step(in, pierced).answer, Answer::collision);
