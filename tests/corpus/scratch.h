@@ -35,14 +35,19 @@ class Scratch : public testing::Test {
     return path;
   }
 
-  // The problem of reading `bytes` as a mesh; "none" fails the test.
-  Problem mesh_problem(const std::string& name, std::string_view bytes) const {
-    const auto mesh = read_mesh(write(name, bytes));
-    if (mesh) {
-      ADD_FAILURE() << name << " was read";
-      return {};
-    }
-    return mesh.error();
+  // What reading `bytes` as a mesh gives, which is to be a problem.
+  Expected<Mesh> mesh_problem(const std::string& name, std::string_view bytes) const {
+    return read_mesh(write(name, bytes));
+  }
+
+  // It names its file and says these words, in one line.
+  void expect_mesh_problem(const std::string& name, std::string_view bytes, std::string_view words,
+                           std::string_view place) const {
+    const auto mesh = mesh_problem(name, bytes);
+    ASSERT_FALSE(mesh) << bytes;
+    for (const auto said : {words, place, std::string_view(name)})
+      EXPECT_TRUE(says(mesh, said)) << bytes;
+    EXPECT_FALSE(says(mesh.error(), "\n"));
   }
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -93,14 +98,12 @@ inline constexpr std::string_view ply_tetrahedron =
 
 // Triangles as a text: "0 1 2, 0 2 3".
 inline void expect_triangles(const Expected<Mesh>& mesh, const std::string& triangles) {
-  ASSERT_TRUE(mesh) << mesh.error().message;
-  EXPECT_EQ(mesh.value().triangles, tests::triangles_of(triangles));
+  EXPECT_EQ(value_of(mesh).triangles, tests::triangles_of(triangles));
 }
 
 inline void expect_tetrahedron(const Expected<Mesh>& mesh) {
   expect_triangles(mesh, "0 2 1, 0 1 3, 1 2 3, 2 0 3");
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh.value().positions, tests::positions_of("0 0 0, 1 0 0, 0 1 0, 0 0 1"));
+  EXPECT_EQ(value_of(mesh).positions, tests::positions_of("0 0 0, 1 0 0, 0 1 0, 0 0 1"));
 }
 
 }  // namespace assay::corpus

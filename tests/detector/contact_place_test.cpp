@@ -28,29 +28,19 @@ Motion random_motion(std::mt19937_64& random, int kind) {
   const auto number = [&]() -> double {
     const double grid = static_cast<double>(random() % 5) - 2,
                  any = std::ldexp(static_cast<double>(random() >> 11), -52) - 1;
-    switch (kind % 5) {
-      case 0:
-        return any;
-      case 1:
-        return grid;
-      case 2:
-        return 1e6 + any;
-      case 3:
-        return grid + std::ldexp(any, -40);
-      default:
-        return std::ldexp(grid, static_cast<int>(random() % 40) - 20);
-    }
+    return kind % 5 == 0   ? any
+           : kind % 5 == 1 ? grid
+           : kind % 5 == 2 ? 1e6 + any
+           : kind % 5 == 3 ? grid + std::ldexp(any, -40)
+                           : std::ldexp(grid, static_cast<int>(random() % 40) - 20);
   };
-  Motion motion;
-  motion.x_t0.resize(6, 3);
-  motion.x_t1.resize(6, 3);
+  Motion motion{Positions(6, 3), Positions(6, 3), Triangles(2, 3)};
   for (int v = 0; v < 6; ++v) {
     for (int k = 0; k < 3; ++k) {
       motion.x_t0(v, k) = number();
       motion.x_t1(v, k) = kind % 3 == 0 ? motion.x_t0(v, k) : number();
     }
   }
-  motion.f.resize(2, 3);
   motion.f << 0, 1, 2, 5, 3, random() % 4 == 0 ? 0 : 4;
   return motion;
 }

@@ -82,4 +82,14 @@ inline void expect_same_contacts(const detector::StepResult& a, const detector::
   }
 }
 
+// And were found by the same work.
+inline void expect_same_work(const detector::StepResult& a, const detector::StepResult& b) {
+  expect_same_contacts(a, b);
+  EXPECT_EQ(a.signs, b.signs);
+  EXPECT_EQ(a.doubts, b.doubts);
+  EXPECT_EQ(a.counts.search.box_tests, b.counts.search.box_tests);
+  EXPECT_EQ(a.counts.search.candidate_pairs, b.counts.search.candidate_pairs);
+  EXPECT_EQ(a.counts.narrow.elementary_tests, b.counts.narrow.elementary_tests);
+}
+
 }  // namespace assay::tests

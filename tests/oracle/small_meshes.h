@@ -19,6 +19,15 @@ struct Step {
   detector::Triangles f;
 };
 
+// Whether these are the same contacts, to the byte.
+inline bool same(const std::vector<detector::PairContact>& a,
+                 const std::vector<detector::PairContact>& b) {
+  const auto key = [](const detector::PairContact& c) {
+    return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
+  };
+  return std::ranges::equal(a, b, {}, key, key);
+}
+
 // A tetrahedron whose vertices cross each other's faces; two contacts in turn.
 inline Step turning_tetrahedron() {
   return {positions({{3, 2, 4}, {3, -2, -2}, {-2, 2, -2}, {-1, -2, 4}}),

@@ -10,8 +10,7 @@
 namespace assay::oracle {
 namespace {
 
-using detector::EdgeEdge, detector::MovingPoint, detector::VertexFace, detector::ViewSign,
-    detector::Want;
+using detector::MovingPoint, detector::ViewSign, detector::Want;
 
 using FourMoving = std::array<MovingPoint, 4>;
 
@@ -26,34 +25,22 @@ FourMoving any_exponents(test::Random& random, bool flat) {
   FourMoving points;
   for (MovingPoint& p : points) {
     for (double* end : {p.t0.data(), p.t1.data()}) {
-      for (int k = flat ? 1 : 0; k < 3; ++k) {
+      for (int k = flat ? 1 : 0; k < 3; ++k)
         end[k] = std::ldexp(random.below(5) - 2, random.below(2097) - 1074);
-      }
     }
   }
   return points;
 }
 
-template <class Feature>
-void expect_answered(const Feature& query) {
-  const auto first = first_time_by_kernel(four_points(query));
-  const ContactAnswer answer = [&] {
-    if constexpr (std::is_same_v<Feature, VertexFace>) {
-      return vertex_face_contact(query, Want::first_time);
-    } else {
-      return edge_edge_contact(query, Want::first_time);
-    }
-  }();
-  ASSERT_EQ(first.has_value(), answer.contact);
-  if (first) {
-    EXPECT_EQ(*first, answer.first);
-  }
-  (void)referee(query, {20, 20});
-}
-
 void expect_answered(const FourMoving& p) {
-  expect_answered(VertexFace{p[0], {p[1], p[2], p[3]}});
-  expect_answered(EdgeEdge{{p[0], p[1]}, {p[2], p[3]}});
+  for (const int first_group : {1, 2}) {
+    const detector::FourPoints query = {p, first_group};
+    const auto first = first_time_by_kernel(query);
+    const ContactAnswer answer = contact_of(query, Want::first_time);
+    ASSERT_EQ(first.has_value(), answer.contact);
+    EXPECT_EQ(first.value_or(answer.first), answer.first);
+    (void)referee(query, {20, 20});
+  }
 }
 
 TEST(OracleStack, ZerosThatManyBitsTellApart) {

@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <ctime>
 
 #include "detector/contact/elementary.h"
 #include "tests/plugins/told.h"
@@ -46,13 +45,6 @@ const Description& description() {
 }
 
 double clamped(double t) { return std::clamp(t, 0., 1.); }
-
-void burn(double seconds) {
-  const auto now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-  const double until = now() + seconds;
-  while (now() < until) {
-  }
-}
 
 class ByContract {
  public:
@@ -94,7 +86,7 @@ class ByContract {
     if (told.has("abort")) std::abort();
     if (told.has("abort-outside")) abort_outside(first.lo);
     if (told.has("burn") && first.lo == first.hi && first.lo > 0 && first.lo <= 1)
-      burn(told.number_of("burn"));
+      assay::tests::burn(told.number_of("burn"));
     const bool at_start = first.lo == 0 && first.hi == 0;
     bool collides = first.lo <= 1 && !told.has(at_start ? "miss-at-start" : "miss-inside");
     found.first = {clamped(first.lo + shift), clamped(first.hi + shift)};
@@ -224,10 +216,9 @@ class ByContract {
     for (const auto& corners : triangles) {
       for (std::size_t i = 0; i < 3; ++i) {
         double length = 0;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 3; ++k)
           length = std::max(
               length, std::abs(x_t0[3 * corners[i] + k] - x_t0[3 * corners[(i + 1) % 3] + k]));
-        }
         if (length > 0 && length < description().least_nonzero) std::abort();
       }
     }

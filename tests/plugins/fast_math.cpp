@@ -128,9 +128,8 @@ struct FastMath {
     for (std::size_t i = 0; i < 3; ++i) {
       note({p[i], q[0], q[1], q[2]}, vertex_in_face);
       note({q[i], p[0], p[1], p[2]}, vertex_in_face);
-      for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t j = 0; j < 3; ++j)
         note({p[i], p[(i + 1) % 3], q[j], q[(j + 1) % 3]}, edges_cross);
-      }
     }
     return first;
   }

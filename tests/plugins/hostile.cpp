@@ -181,19 +181,9 @@ void at(const char* call) {
   if (mode == std::string("exit-at-") + call) _exit(0);
 }
 
-void meddle() {
-  const auto deed = deeds().find(variable("ASSAY_HOSTILE"));
-  if (deed != deeds().end()) deed->second();
-}
-
 // Scenes are larger. To judge its answers on these takes the oracle longer than all the rest, so
 // most modes end there when their deed is done.
 constexpr std::uint64_t triangles_of_a_case = 200;
-
-void spare_the_oracle(std::uint64_t triangles) {
-  const std::string mode = variable("ASSAY_HOSTILE");
-  if (triangles > triangles_of_a_case && mode != "overwrite") _exit(0);
-}
 
 struct Hostile {
   static assay::plugin::Description describe() {
@@ -220,8 +210,9 @@ const assay_detector_api& honest() { return *assay::plugin::detail::table<Hostil
 std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double* x,
                     std::uint64_t n, assay_handle** handle, const char** message) {
   at("create");
-  meddle();
-  spare_the_oracle(m);
+  const auto mode = variable("ASSAY_HOSTILE");
+  if (const auto deed = deeds().find(mode); deed != deeds().end()) deed->second();
+  if (m > triangles_of_a_case && mode != "overwrite") _exit(0);
   return honest().create(triangles, m, x, n, handle, message);
 }
 std::int32_t result(assay_handle* handle, assay_result* result) {

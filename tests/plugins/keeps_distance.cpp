@@ -22,10 +22,7 @@
 namespace {
 
 using namespace assay;
-using detector::FeatureKind;
-using detector::PairContact;
-using detector::SteppedMesh;
-using plugin::Result;
+using detector::FeatureKind, detector::PairContact, detector::SteppedMesh, plugin::Result;
 
 const tests::Told& told() {
   static const tests::Told words("ASSAY_KEEPS_DISTANCE");
@@ -67,10 +64,10 @@ bool has_foot_on_edge(const detector::FourPoints& q, double t) {
   return !is_inside(places.first) || !is_inside(places.second) || !is_inside(third);
 }
 
-detector::FourPoints features_of(const SteppedMesh& motion, const detector::Feature& feature) {
-  const auto& v = feature.vertices;
+detector::FourPoints features_of(const SteppedMesh& motion, std::span<const std::int32_t> v,
+                                 bool is_face) {
   return {{motion.path(v[0]), motion.path(v[1]), motion.path(v[2]), motion.path(v[3])},
-          feature.kind == FeatureKind::vertex_face ? 1 : 2};
+          is_face ? 1 : 2};
 }
 
 class KeepsDistance {
@@ -98,11 +95,12 @@ class KeepsDistance {
     auto pairs = ours_ ? ours_->evaluate(from, to).pairs
                        : oracle::judge_distance(motion, triangles_, {asked_distance(), 0}).pairs;
     std::erase_if(pairs, [&](const PairContact& contact) {
-      const bool has_places = contact.feature.kind == FeatureKind::vertex_face ||
-                              contact.feature.kind == FeatureKind::edge_edge;
+      const bool is_face = contact.feature.kind == FeatureKind::vertex_face,
+                 has_places = is_face || contact.feature.kind == FeatureKind::edge_edge;
       return (told().has("half-boxes") && are_boxes_apart(motion, triangles_, contact.pair)) ||
              (told().has("no-edges") && has_places &&
-              has_foot_on_edge(features_of(motion, contact.feature), contact.time.lo));
+              has_foot_on_edge(features_of(motion, contact.feature.vertices, is_face),
+                               contact.time.lo));
     });
     if (pairs.empty()) return Result::free();
     Result result = Result::collision(1, 1);
@@ -116,9 +114,7 @@ class KeepsDistance {
   static Result query(std::int32_t kind, plugin::Positions x_t0, plugin::Positions x_t1) {
     const detector::Positions from = plugin::eigen(x_t0), to = plugin::eigen(x_t1);
     const SteppedMesh motion{from, to};
-    const detector::FourPoints q = {
-        {motion.path(0), motion.path(1), motion.path(2), motion.path(3)},
-        kind == ASSAY_QUERY_VERTEX_FACE ? 1 : 2};
+    const auto q = features_of(motion, std::array{0, 1, 2, 3}, kind == ASSAY_QUERY_VERTEX_FACE);
     const auto answer = oracle::first_time_within(q, {asked_distance(), 0});
     if (!answer.near) return Result::free();
     if (told().has("no-edges") && has_foot_on_edge(q, answer.first.lo)) return Result::free();

@@ -26,9 +26,7 @@
 namespace {
 
 using namespace assay;
-using detector::FeatureKind;
-using detector::PairContact;
-using plugin::Limit;
+using detector::FeatureKind, detector::PairContact, plugin::Limit;
 
 const tests::Told& told() {
   static const tests::Told words("ASSAY_LIMITS_STEPS");
@@ -116,8 +114,7 @@ class LimitsSteps {
 
   bool is_of_lower(const PairContact& contact) const {
     if (contact.feature.kind != FeatureKind::vertex_face) return true;
-    const auto row = triangles_.row(contact.pair.a);
-    return (row.array() == contact.feature.vertices[0]).any();
+    return (triangles_.row(contact.pair.a).array() == contact.feature.vertices[0]).any();
   }
 
   detector::Triangles triangles_;

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "detector/contact/elementary.h"
@@ -84,12 +83,6 @@ bool misses(std::int32_t kind, const FourPoints& q, bool at_start) {
   return told.has(at_start ? "miss-at-start" : "miss-inside");
 }
 
-void burn(double seconds) {
-  const double until = std::clock() + std::min(seconds, 60.) * CLOCKS_PER_SEC;
-  while (seconds > 0 && std::clock() < until) {
-  }
-}
-
 std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
                    assay_query_result* out) {
   FourPoints q;
@@ -106,7 +99,7 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
   const bool at_start = found.contact && found.time.hi == 0;
   if (told.has("abort-outside") && is_outside(kind, q, at_start)) std::abort();
   if (told.has("abort-at-start") && at_start) std::abort();
-  if (at_start) burn(told.number_of("burn-at-start"));
+  if (at_start) assay::tests::burn(told.number_of("burn-at-start"));
   const double shift = told.number_of("late") - told.number_of("early");
   if (found.contact && !misses(kind, q, at_start)) {
     out->answer = ASSAY_COLLISION;

@@ -42,9 +42,7 @@ class Rounding {
   Result evaluate(Positions given_t0, Positions given_t1) {
     detector::Positions x_t0 = eigen(given_t0), x_t1 = eigen(given_t1);
     round(x_t0, x_t1);
-    detector::Options options;
-    options.culling = detector::Culling::bvh;
-    auto made = detector::Detector::create(triangles_, x_t0, options);
+    auto made = detector::Detector::create(triangles_, x_t0, {detector::Culling::bvh});
     if (!made) throw Refused(made.error().message);
     const auto found = made.value().evaluate(x_t0, x_t1);
     if (found.answer == detector::Answer::error) return Result::error("refused");

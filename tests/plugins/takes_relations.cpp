@@ -30,9 +30,7 @@ class TakesRelations {
   }
 
   explicit TakesRelations(const assay::plugin::Mesh& mesh)
-      : triangles_(Eigen::Map<const Triangles>(
-            mesh.triangles.data(), static_cast<Eigen::Index>(mesh.triangles.size()), 3)),
-        x_(map(mesh.positions)) {
+      : triangles_(assay::plugin::eigen(mesh.triangles)), x_(assay::plugin::eigen(mesh.positions)) {
     if (told.has("features")) counted_.level = CountedLevel::features;
     counted_.rings = static_cast<std::int32_t>(told.number_of("rings"));
     counted_.rest_distance = told.number_of("rest");
@@ -64,13 +62,12 @@ class TakesRelations {
 
   Result evaluate(assay::plugin::Positions x_t0, assay::plugin::Positions x_t1) {
     if (!detector_) {
-      Options options;
-      options.counted = &counted_;
-      auto made = Detector::create(triangles_, x_, options);
+      auto made = Detector::create(triangles_, x_, {.counted = &counted_});
       if (!made) return Result::error(made.error().message);
       detector_.emplace(std::move(made.value()));
     }
-    const StepResult found = detector_->evaluate(map(x_t0), map(x_t1));
+    const StepResult found =
+        detector_->evaluate(assay::plugin::eigen(x_t0), assay::plugin::eigen(x_t1));
     Result result = found.answer == Answer::collision
                         ? Result::collision(found.first.lo, found.first.hi)
                         : Result::free();
@@ -82,9 +79,6 @@ class TakesRelations {
   void commit() { detector_->commit(); }
 
  private:
-  static Eigen::Map<const Positions> map(const assay::plugin::Positions& rows) {
-    return {rows.data(), static_cast<Eigen::Index>(rows.size()), 3};
-  }
   void rest_at(const double* x) {
     counted_.rest.clear();
     for (Eigen::Index v = 0; v < x_.rows(); ++v)

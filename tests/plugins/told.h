@@ -6,8 +6,10 @@
 //   displacement, claims=BITS, capacity-triangles=N, capacity-contacts=N, capacity-candidates=N
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include "detector/plugin/assay_detector.hpp"
 #include "tests/words.h"
@@ -73,5 +75,12 @@ class Told {
  private:
   std::vector<std::string> words_;
 };
+
+// Uses so many seconds of processor time. Never more than a minute, should nobody end it.
+inline void burn(double seconds) {
+  const double until = std::clock() + std::min(seconds, 60.) * CLOCKS_PER_SEC;
+  while (std::clock() < until) {
+  }
+}
 
 }  // namespace assay::tests

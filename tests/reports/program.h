@@ -4,10 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
+#include "tests/problem_words.h"
 #include "tests/reports/json_schema.h"
-#include "tests/test.h"
 
 namespace assay::tests {
 
@@ -51,6 +49,8 @@ inline std::string curated(const std::string& name) {
   return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
 }
 
+inline std::string example_queries() { return ASSAY_SOURCE_DIR "/corpus/queries/example_vf.csv"; }
+
 inline bool contains(const std::string& text, const std::string& word) {
   return text.find(word) != std::string::npos;
 }
@@ -59,6 +59,10 @@ inline std::string read_text(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
+}
+
+inline nlohmann::ordered_json read_json(const std::string& path) {
+  return nlohmann::ordered_json::parse(read_text(path));
 }
 
 // How often a word is in a text.
@@ -107,8 +111,14 @@ inline Outcome run_assay(const std::string& arguments, const std::string& prefix
   return {code, read_text(scratch / "out"), read_text(scratch / "err")};
 }
 
-// Expects this exit code, and each of these words in what is printed. A failure names the line that
-// calls.
+// Expects each of these words in a text. A failure names the line that calls.
+inline void expect_says(const std::string& text, const std::vector<std::string>& words,
+                        const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  const testing::ScopedTrace trace(file, line, "");
+  for (const auto& word : words) EXPECT_TRUE(says(text, word));
+}
+
+// Expects this exit code, and each of these words in what is printed.
 inline Outcome expect_ended(const Outcome& outcome, int code,
                             const std::vector<std::string>& said = {},
                             const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
@@ -121,6 +131,15 @@ inline Outcome expect_ended(const std::string& arguments, int code,
                             const std::vector<std::string>& said = {},
                             const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   return expect_ended(run_assay(arguments), code, said, file, line);
+}
+
+// Makes a scene in a folder of its name. Its frames, as an argument of `check`.
+inline std::string make_scene(const Scratch& scratch, const std::string& name, int size,
+                              int frames) {
+  expect_ended("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                   std::to_string(frames) + " --out " + (scratch / name),
+               0);
+  return (scratch / name) + "/frame_*.ply";
 }
 
 // Expects this exit code, and a word on stderr.

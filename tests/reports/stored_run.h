@@ -9,8 +9,8 @@
 #include "properties/worker/worker_process.h"
 #include "tests/curated_cases.h"
 #include "tests/meshes.h"
+#include "tests/problem_words.h"
 #include "tests/properties/campaign/good_findings.h"
-#include "tests/test.h"
 
 namespace assay::tests {
 
@@ -22,10 +22,9 @@ inline corpus::Case one_above_another(double height_t0, double height_t1) {
   c.about = "one triangle comes near another";
   c.source = "made by a test";
   c.triangles = triangles({{0, 1, 2}, {3, 4, 5}});
-  for (const double z : {height_t0, height_t1}) {
+  for (const double z : {height_t0, height_t1})
     c.frames.push_back(
         positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 2, z + 0.1}, {1, 1, z}, {2, 1, z + 1}}));
-  }
   c.counted.emplace().pairs.body = {0, 0, 0, 1, 1, 1};
   return c;
 }
@@ -91,14 +90,11 @@ struct RunToStore {
   // With a name, beside the stores of other runs.
   std::string store(const std::string& folder, const std::string& name = "run") const {
     std::filesystem::create_directories(folder);
-    auto opened = properties::Store::open(std::filesystem::path(folder) / (name + ".sqlite"),
-                                          properties::binding_of(request));
-    EXPECT_TRUE(opened) << opened.error().message;
-    if (!opened) return folder;
-    properties::Store* const made = &opened.value();
-    if (request.plugin) properties::note_library(*made, *request.plugin);
-    if (!begun.empty()) made->set_note("begun", begun);
-    for (const auto& found : evidence) made->set(found);
+    auto made = value_of(properties::Store::open(std::filesystem::path(folder) / (name + ".sqlite"),
+                                                 properties::binding_of(request)));
+    if (request.plugin) properties::note_library(made, *request.plugin);
+    if (!begun.empty()) made.set_note("begun", begun);
+    for (const auto& found : evidence) made.set(found);
     // Every defect was met as the first failure.
     auto first = failures.empty() ? properties::test::failure("all-pairs: missing") : failures[0];
     first.mesh.clear();
@@ -109,9 +105,9 @@ struct RunToStore {
         first.configuration = request.detector.configurations[i].name;
         if (trial.outcomes[i] == 'D') met.push_back(first);
       }
-      made->add(trial, met);
+      made.add(trial, met);
     }
-    for (const auto& failure : failures) made->add(failure);
+    for (const auto& failure : failures) made.add(failure);
     return folder;
   }
 };

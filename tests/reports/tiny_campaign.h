@@ -37,14 +37,17 @@ class RunFixture : public testing::Test {
   }
 };
 
+// What a certificate states.
+inline nlohmann::ordered_json predicate_in(const std::string& folder) {
+  return read_json(folder + "/certificate.json")["predicate"];
+}
+
 // Each trial of the run in a line, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,
                                           const std::string& store_name = "run") {
-  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
-  EXPECT_TRUE(store) << store.error().message;
+  const auto store = value_of(properties::Store::read(out + "/" + store_name + ".sqlite"));
   std::vector<std::string> lines;
-  if (!store) return lines;
-  store.value().for_each_trial([&](const properties::TrialRecord& r) {
+  store.for_each_trial([&](const properties::TrialRecord& r) {
     std::ostringstream line;
     line << r.id << ' ' << lasting(to_row(r)).fields;
     lines.push_back(line.str());
@@ -55,9 +58,7 @@ inline std::vector<std::string> trials_of(const std::string& out,
 
 inline properties::Counts signatures_of(const std::string& out,
                                         const std::string& store_name = "run") {
-  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
-  EXPECT_TRUE(store) << store.error().message;
-  return store ? store.value().signatures() : properties::Counts{};
+  return value_of(properties::Store::read(out + "/" + store_name + ".sqlite")).signatures();
 }
 
 // The shrunk case of each failure of the run.

@@ -47,28 +47,19 @@ class DamagedFile : public Scratch {
   }
 };
 
-TEST_F(DamagedFile, Obj) {
-  damage(std::string(obj_tetrahedron),
-         [](const std::string& bytes) { check_mesh(read_obj(bytes, "a.obj")); });
-}
-
-TEST_F(DamagedFile, Off) {
-  damage(std::string(off_tetrahedron),
-         [](const std::string& bytes) { check_mesh(read_off(bytes, "a.off")); });
-}
-
-TEST_F(DamagedFile, Ply) {
+TEST_F(DamagedFile, OfEachFormat) {
+  const auto read_file = [&](auto& bytes, auto& name) { return read_mesh(write(name, bytes)); };
+  const auto check = [](const std::string& good, const std::string& name, const auto& read) {
+    damage(good, [&](const std::string& bytes) { check_mesh(read(bytes, name)); });
+  };
+  check(std::string(obj_tetrahedron), "a.obj", read_obj);
+  check(std::string(off_tetrahedron), "a.off", read_off);
+  check(gzip(obj_tetrahedron), "a.obj.gz", read_file);
   const std::string little = bytes_written("good.ply");
   std::string big = little;
   big.replace(big.find("little"), 6, "big");
-  for (const std::string& good : {std::string(ply_tetrahedron), little, big}) {
-    damage(good, [](const std::string& bytes) { check_mesh(read_ply(bytes, "a.ply")); });
-  }
-}
-
-TEST_F(DamagedFile, Compressed) {
-  damage(gzip(obj_tetrahedron),
-         [&](const std::string& bytes) { check_mesh(read_mesh(write("a.obj.gz", bytes))); });
+  for (const std::string& good : {std::string(ply_tetrahedron), little, big})
+    check(good, "a.ply", read_ply);
 }
 
 TEST_F(DamagedFile, CutPlyIsNamedTruncated) {

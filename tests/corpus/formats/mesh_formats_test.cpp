@@ -4,39 +4,34 @@
 namespace assay::corpus {
 namespace {
 
-class Obj : public Scratch {};
+// A tetrahedron, in the forms that its format knows.
+class Tetrahedron : public Scratch {
+ protected:
+  void read(const std::string& name, std::string_view bytes) const {
+    SCOPED_TRACE(name);
+    expect_tetrahedron(read_mesh(write(name, bytes)));
+  }
+};
 
-TEST_F(Obj, PlainTetrahedron) {
-  expect_tetrahedron(read_mesh(write("a.obj", obj_tetrahedron)));
-  expect_tetrahedron(read_mesh(write("A.OBJ", obj_tetrahedron)));
-}
+using Obj = Tetrahedron;
 
-TEST_F(Obj, CornerForms) {
-  expect_tetrahedron(read_mesh(write("a.obj",
-                                     "vt 0 0\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                     "f 1/1 3/1 2/1\nf 1//1 2//1 4//1\nf 2/1/1 3/1/1 4/1/1\n"
-                                     "f 3/ 1/ 4/\n")));
-}
-
-TEST_F(Obj, NegativeIndicesCountFromTheLastVertexSoFar) {
-  expect_tetrahedron(read_mesh(
-      write("a.obj",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -1 -2\nv 0 0 1\nf -4 2 -1\nf -3 -2 4\nf 3 -4 -1\n")));
-}
-
-TEST_F(Obj, CommentsContinuationsCrlfAndStatementsPassedOver) {
-  expect_tetrahedron(
-      read_mesh(write("a.obj",
-                      "# a tetrahedron\r\nmtllib x.mtl\r\no part\r\ng a b\r\ns off\r\n"
-                      "  v 0 0 0 # origin\r\nv 1 \\\r\n 0 0\r\nv\t0\t1\t0\r\n\r\n"
-                      "v 0 0 1 0.5 0.5 0.5\r\nusemtl m\r\nf 1 3 \\\r\n2\r\nf 1 2 4\r\n"
-                      "f 2 3 4\r\nl 1 2\r\nf 3 1 4")));
+TEST_F(Obj, FormsOfAFile) {
+  read("plain.obj", obj_tetrahedron);
+  read("CAPITAL.OBJ", obj_tetrahedron);
+  read("corners.obj",
+       "vt 0 0\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1/1 3/1 2/1\nf 1//1 2//1 4//1\n"
+       "f 2/1/1 3/1/1 4/1/1\nf 3/ 1/ 4/\n");
+  // Negative indices count from the last vertex so far.
+  read("negative.obj",
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -1 -2\nv 0 0 1\nf -4 2 -1\nf -3 -2 4\nf 3 -4 -1\n");
+  read("comments_continuations_and_crlf.obj",
+       "# a tetrahedron\r\nmtllib x.mtl\r\no part\r\ng a b\r\ns off\r\n  v 0 0 0 # origin\r\n"
+       "v 1 \\\r\n 0 0\r\nv\t0\t1\t0\r\n\r\nv 0 0 1 0.5 0.5 0.5\r\nusemtl m\r\nf 1 3 \\\r\n2\r\n"
+       "f 1 2 4\r\nf 2 3 4\r\nl 1 2\r\nf 3 1 4");
 }
 
 TEST_F(Obj, FacesMayComeBeforeTheirVertices) {
-  const auto mesh = read_mesh(write("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"));
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh.value().triangles.rows(), 1);
+  expect_triangles(read_mesh(write("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n")), "0 1 2");
 }
 
 TEST_F(Obj, PolygonsAreFannedFromTheirFirstVertex) {
@@ -47,19 +42,14 @@ TEST_F(Obj, PolygonsAreFannedFromTheirFirstVertex) {
 
 TEST_F(Obj, DuplicateTrianglesAndUnusedVerticesStay) {
   const auto mesh =
-      read_mesh(write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 2 3 1\n"));
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh.value().positions.rows(), 4);
-  EXPECT_EQ(mesh.value().triangles.rows(), 2);
+      value_of(read_mesh(write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 2 3 1\n")));
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  EXPECT_EQ(mesh.triangles.rows(), 2);
 }
 
 TEST_F(Obj, ProblemsNameFileAndLine) {
   const auto expect = [&](std::string_view words, std::string_view line, std::string_view text) {
-    const Problem problem = mesh_problem("bad.obj", text);
-    EXPECT_TRUE(says(problem, words)) << text;
-    EXPECT_NE(problem.message.find("bad.obj"), std::string::npos);
-    EXPECT_TRUE(says(problem, line));
-    EXPECT_EQ(problem.message.find('\n'), std::string::npos);
+    expect_mesh_problem("bad.obj", text, words, line);
   };
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   expect("index 4 (counted from 1), but there are 3 vertices", "line 4", vertices + "f 1 2 4\n");
@@ -92,25 +82,17 @@ TEST_F(Obj, NoiseIsMalformed) {
   EXPECT_TRUE(says(mesh_problem("noise.bin", noise), "neither PLY nor OFF"));
 }
 
-class Off : public Scratch {};
+using Off = Tetrahedron;
 
-TEST_F(Off, PlainTetrahedronWhateverTheName) {
-  expect_tetrahedron(read_mesh(write("a.off", off_tetrahedron)));
-  expect_tetrahedron(read_mesh(write("a.mesh", off_tetrahedron)));
-}
-
-TEST_F(Off, CommentsBlankLinesCrlfAndCountsBehindTheHeader) {
-  expect_tetrahedron(read_mesh(
-      write("a.off",
-            "# comment\r\nOFF 4 4 6 # counts\r\n\r\n0 0 0\r\n1 0 0\r\n# more\r\n0 1 0\r\n0 0 1\r\n"
-            "3 0 2 1\r\n3 0 1 3\r\n3 1 2 3\r\n3 2 0 3\r\n\r\n")));
-}
-
-TEST_F(Off, NormalsAndColoursArePassedOver) {
-  expect_tetrahedron(read_mesh(
-      write("a.off",
-            "CNOFF\n4 4\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n"
-            "0 0 1 0 0 1 1 1 1 1\n3 0 2 1 255 0 0\n3 0 1 3 0.5 0.5 0.5 1\n3 1 2 3\n3 2 0 3 7\n")));
+TEST_F(Off, FormsOfAFile) {
+  read("plain.off", off_tetrahedron);
+  read("told_from_its_content.mesh", off_tetrahedron);
+  read("comments_and_crlf.off",
+       "# comment\r\nOFF 4 4 6 # counts\r\n\r\n0 0 0\r\n1 0 0\r\n# more\r\n0 1 0\r\n0 0 1\r\n"
+       "3 0 2 1\r\n3 0 1 3\r\n3 1 2 3\r\n3 2 0 3\r\n\r\n");
+  read("normals_and_colours.off",
+       "CNOFF\n4 4\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n"
+       "0 0 1 0 0 1 1 1 1 1\n3 0 2 1 255 0 0\n3 0 1 3 0.5 0.5 0.5 1\n3 1 2 3\n3 2 0 3 7\n");
 }
 
 TEST_F(Off, PolygonsAreFannedFromTheirFirstVertex) {
@@ -121,9 +103,7 @@ TEST_F(Off, PolygonsAreFannedFromTheirFirstVertex) {
 
 TEST_F(Off, ProblemsNameTheLine) {
   const auto expect = [&](std::string_view words, std::string_view line, std::string_view text) {
-    const Problem problem = mesh_problem("bad.off", text);
-    EXPECT_TRUE(says(problem, words)) << text;
-    EXPECT_TRUE(says(problem, line));
+    expect_mesh_problem("bad.off", text, words, line);
   };
   const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   expect("the file ends where", "a face", vertices);
@@ -149,7 +129,7 @@ TEST_F(Off, ProblemsNameTheLine) {
   expect("no triangle", "bad.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
 }
 
-class Ply : public Scratch {};
+using Ply = Tetrahedron;
 
 // The tetrahedron with properties and elements around it that mean nothing here.
 std::string binary_tetrahedron(bool big) {
@@ -161,11 +141,10 @@ std::string binary_tetrahedron(bool big) {
       "element edge 2\nproperty int a\nproperty int b\nelement face 4\nproperty ushort flags\n"
       "property list ushort uint vertex_index\nelement empty 0\nproperty int n\nend_header\n";
   const int points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const auto& p : points) {
+  for (const auto& p : points)
     text += '\xff' + bytes_of(static_cast<float>(p[0]), big) +
             bytes_of(static_cast<double>(p[1]), big) + '\x01' + bytes_of(std::int16_t{7}, big) +
             bytes_of(static_cast<std::int16_t>(p[2]), big);
-  }
   for (int i = 0; i < 4; ++i) text += bytes_of(i, big);
   const std::uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   for (const auto& face : faces) {
@@ -175,29 +154,21 @@ std::string binary_tetrahedron(bool big) {
   return text;
 }
 
-TEST_F(Ply, Ascii) { expect_tetrahedron(read_mesh(write("a.ply", ply_tetrahedron))); }
-
-TEST_F(Ply, AsciiWithCrlfAndExtraPropertiesAndElements) {
-  expect_tetrahedron(read_mesh(
-      write("a.ply",
-            "ply\r\nformat ascii 1.0\r\nelement material 1\r\nproperty list int float k\r\n"
-            "element vertex 4\r\nproperty float nx\r\nproperty float32 z\r\nproperty int y\r\n"
-            "property double x\r\nelement face 4\r\nproperty list uchar int32 vertex_index\r\n"
-            "property uint8 red\r\nend_header\r\n2 0.5 0.25\r\n9 0 0 0\r\n9 0 0 1\r\n9 0 1 0\r\n"
-            "9 1 0 0\r\n3 0 2 1 255\r\n3 0 1 3 255\r\n3 1 2 3 255\r\n3 2 0 3 255\r\n")));
-}
-
-TEST_F(Ply, BinaryOfBothEndsWithExtraPropertiesAndElements) {
-  expect_tetrahedron(read_mesh(write("little.ply", binary_tetrahedron(false))));
-  expect_tetrahedron(read_mesh(write("big.ply", binary_tetrahedron(true))));
-}
-
-TEST_F(Ply, BinaryAfterACrlfHeader) {
+TEST_F(Ply, FormsOfAFile) {
+  read("plain.ply", ply_tetrahedron);
+  read("crlf_and_extra_properties_and_elements.ply",
+       "ply\r\nformat ascii 1.0\r\nelement material 1\r\nproperty list int float k\r\n"
+       "element vertex 4\r\nproperty float nx\r\nproperty float32 z\r\nproperty int y\r\n"
+       "property double x\r\nelement face 4\r\nproperty list uchar int32 vertex_index\r\n"
+       "property uint8 red\r\nend_header\r\n2 0.5 0.25\r\n9 0 0 0\r\n9 0 0 1\r\n9 0 1 0\r\n"
+       "9 1 0 0\r\n3 0 2 1 255\r\n3 0 1 3 255\r\n3 1 2 3 255\r\n3 2 0 3 255\r\n");
+  read("little.ply", binary_tetrahedron(false));
+  read("big.ply", binary_tetrahedron(true));
   std::string text = binary_tetrahedron(false);
   const std::size_t body = text.find("end_header\n") + 11;
   std::string header;
   for (const char c : text.substr(0, body)) header += c == '\n' ? "\r\n" : std::string(1, c);
-  expect_tetrahedron(read_mesh(write("a.ply", header + text.substr(body))));
+  read("binary_after_a_crlf_header.ply", header + text.substr(body));
 }
 
 TEST_F(Ply, Float32ConvertsExactlyAndAsciiKeepsItsDigits) {
@@ -210,18 +181,14 @@ TEST_F(Ply, Float32ConvertsExactlyAndAsciiKeepsItsDigits) {
     for (const float value : values) text += bytes_of(value, false);
   }
   text += '\x03' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
-  const auto binary = read_mesh(write("a.ply", text));
-  ASSERT_TRUE(binary) << binary.error().message;
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(binary.value().positions(0, k), static_cast<double>(values[k]));
-  }
-  const auto ascii = read_mesh(
+  const auto binary = value_of(read_mesh(write("a.ply", text)));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(binary.positions(0, k), static_cast<double>(values[k]));
+  const auto ascii = value_of(read_mesh(
       write("b.ply",
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
             "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-            "0.1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
-  ASSERT_TRUE(ascii);
-  EXPECT_EQ(ascii.value().positions(0, 0), 0.1);
+            "0.1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")));
+  EXPECT_EQ(ascii.positions(0, 0), 0.1);
 }
 
 TEST_F(Ply, PolygonsAreFannedFromTheirFirstVertex) {
@@ -239,9 +206,7 @@ TEST_F(Ply, Problems) {
     const std::size_t place = text.find(from);
     ASSERT_NE(place, std::string::npos) << from;
     text.replace(place, from.size(), to);
-    const Problem problem = mesh_problem("bad.ply", text);
-    EXPECT_TRUE(says(problem, words)) << to;
-    EXPECT_NE(problem.message.find("bad.ply"), std::string::npos) << problem.message;
+    expect_mesh_problem("bad.ply", text, words, "");
   };
   expect("unknown PLY format", "format ascii", "format utf8");
   expect("unknown PLY format", "ascii 1.0", "ascii 2.0");
@@ -278,13 +243,10 @@ TEST_F(Ply, Problems) {
   expect("but there are 4 vertices", "3 2 0 3", "3 2 0 4");
   expect("index -1 (counted from 0) is out of range", "3 2 0 3", "3 2 0 -1");
   expect("names a vertex twice", "3 2 0 3", "3 2 3 3");
-}
-
-TEST_F(Ply, NoFaces) {
-  EXPECT_TRUE(says(mesh_problem("a.ply",
-                                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
-                                "property float y\nproperty float z\nend_header\n0 0 0\n"),
-                   "no triangle"));
+  expect_mesh_problem("no_faces.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                      "property float y\nproperty float z\nend_header\n0 0 0\n",
+                      "no triangle", "");
 }
 
 TEST_F(Ply, BinaryProblems) {
@@ -301,8 +263,7 @@ TEST_F(Ply, BinaryProblems) {
   EXPECT_TRUE(says(mesh_problem("huge.ply", huge), "do not fit into the rest"));
   // A list that claims more items than the file has bytes.
   std::string list = good;
-  const std::size_t last_face = list.size() - 14;
-  list.replace(last_face, 2, "\xff\xff");
+  list.replace(list.size() - 14, 2, "\xff\xff");
   EXPECT_TRUE(says(mesh_problem("list.ply", list), "items does not fit into the rest"));
 }
 

@@ -60,9 +60,7 @@ class StepLogs : public Scratch {
     auto& log = read.value();
     std::set<std::uint64_t> numbers;
     for (std::size_t i = 0; i < log.count(); ++i) {
-      const auto step = log.step(i);
-      ASSERT_TRUE(step) << step.error().message;
-      const auto& s = step.value();
+      const auto& s = value_of(log.step(i));
       numbers.insert(s.number);
       ASSERT_LT(s.number, std::uint64_t{steps_written});
       EXPECT_EQ(s.why_unknown, "");
@@ -105,9 +103,8 @@ class StepLogs : public Scratch {
 };
 
 TEST_F(StepLogs, AreReadAsTheyWereWritten) {
-  auto read = StepLog::open(write_log());
-  ASSERT_TRUE(read) << read.error().message;
-  auto& log = read.value();
+  auto read = value_of(StepLog::open(write_log()));
+  auto& log = read;
   EXPECT_EQ(log.head().name, "recorded");
   EXPECT_EQ(log.head().description.claims, tests::all_claims_description().claims);
   EXPECT_EQ(log.head().triangles, triangles_);
@@ -258,11 +255,10 @@ TEST_F(StepLogs, WhatIsKilledWhileItWritesLosesOneRecordAtMost) {
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
-    const auto log = StepLog::open(path);
-    ASSERT_TRUE(log) << log.error().message;
-    EXPECT_TRUE(!log.value().damage() || log.value().damage()->is_cut);
-    EXPECT_FALSE(log.value().is_ended());
-    EXPECT_GE(log.value().count(), 2u);
+    const auto log = value_of(StepLog::open(path));
+    EXPECT_TRUE(!log.damage() || log.damage()->is_cut);
+    EXPECT_FALSE(log.is_ended());
+    EXPECT_GE(log.count(), 2u);
   }
 }
 

@@ -37,13 +37,7 @@ TEST(Loops, AHoleIsOneLoopAndItsGhostsCloseTheMesh) {
 
 TEST(Loops, AVertexOfTwoHolesIsPassedTwice) {
   // Opposite triangles at vertex 4.
-  const Triangles all = octahedron();
-  std::vector<Eigen::Index> at_vertex;
-  for (Eigen::Index t = 0; t < all.rows(); ++t) {
-    if ((all.row(t).array() == 4).any()) at_vertex.push_back(t);
-  }
-  ASSERT_EQ(at_vertex.size(), 4u);
-  const Surface surface = make_surface(without({at_vertex[0], at_vertex[2]}), 6);
+  const Surface surface = make_surface(without({0, 2}), 6);
   std::size_t edges = 0;
   for (const auto& loop : surface.loops) edges += loop.size();
   EXPECT_EQ(edges, 6u);
@@ -144,14 +138,8 @@ TEST(Apex, TheRuleThatTouchesLeastIsTaken) {
 TEST(GhostSweep, L11_WhatPassesTheHoleIsViolatedAndStaysDirty) {
   const Triangles t = without({0});
   const Positions x_t0 = octahedron_positions(2);
-  const Eigen::RowVector3d out =
-      x_t0.row(octahedron()(0, 0)) + x_t0.row(octahedron()(0, 1)) + x_t0.row(octahedron()(0, 2));
   Positions x_t1 = x_t0;
-  for (Eigen::Index v = 0; v < 6; ++v) {
-    if ((octahedron().row(0).array() == static_cast<std::int32_t>(v)).any()) continue;
-    x_t1.row(v) = out;
-    break;
-  }
+  x_t1.row(1) << 2, 2, 2;
   auto result = Detector::create(t, x_t0, {Culling::view_point, Start::verified, Pairs::all});
   auto& detector = result.value();
   EXPECT_EQ(detector.step(x_t0, x_t0).violated, 0u);
@@ -160,11 +148,8 @@ TEST(GhostSweep, L11_WhatPassesTheHoleIsViolatedAndStaysDirty) {
   EXPECT_EQ(passing.dirty, 0u);
   const StepResult outside = detector.step(x_t1, x_t1);
   EXPECT_GE(outside.dirty, passing.violated) << "carried to the next step";
-  for (std::size_t i = 0; i < outside.doubts.size(); ++i) {
-    if (passing.doubts[i] & doubt::violated) {
-      EXPECT_TRUE(outside.doubts[i] & doubt::dirty);
-    }
-  }
+  for (std::size_t i = 0; i < outside.doubts.size(); ++i)
+    EXPECT_TRUE(!(passing.doubts[i] & doubt::violated) || outside.doubts[i] & doubt::dirty);
 }
 
 TEST(PairTable, L3_AsksForKAndNothingElse) {
@@ -309,8 +294,7 @@ TEST(ApexChoice, IsStopped) {
   int calls = 0;
   const auto all = choose(soup(20), [&] { return ++calls, false; });
   EXPECT_GE(static_cast<std::uint64_t>(calls), all.counts.work() / 800'000);
-  const auto cut = choose(soup(20), [&] { return true; });
-  EXPECT_LT(4 * cut.counts.work(), all.counts.work());
+  EXPECT_LT(4 * choose(soup(20), [&] { return true; }).counts.work(), all.counts.work());
 }
 
 TEST(Create, IsStoppedAtEachAsking) {
@@ -347,14 +331,6 @@ TEST(Create, OfASoupSearchesNoPlaceForEachTriangle) {
       EXPECT_LT(calls * PacedStop::usual_interval, 4'000 * count) << n;
     }
   }
-}
-
-// 24 s when each ghost was swept by itself; now some 20 ms.
-TEST(Create, OfAFanIsSoonDone) {
-  const Mesh fan = open_fan(3000);
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_TRUE(Detector::create(fan.triangles, fan.x, {}));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
 }  // namespace

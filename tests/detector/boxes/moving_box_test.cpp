@@ -66,11 +66,8 @@ TEST(MovingBox, RoundingKeepsOrder) {
       const FloatGrid f({x.topRows(rows), x.topRows(rows)});
       for (std::int32_t i = 0; i < n; ++i) {
         for (int k = 0; k < 3; ++k) EXPECT_FALSE(std::isnan(f(x, i)[k]));
-        for (std::int32_t j = 0; j < n; ++j) {
-          if (x(i, 0) <= x(j, 0)) {
-            EXPECT_LE(f(x, i)[0], f(x, j)[0]) << x(i, 0) << " " << x(j, 0);
-          }
-        }
+        for (std::int32_t j = 0; j < n; ++j)
+          EXPECT_TRUE(x(i, 0) > x(j, 0) || f(x, i)[0] <= f(x, j)[0]) << x(i, 0) << " " << x(j, 0);
       }
     }
   }
@@ -111,21 +108,17 @@ TEST(MovingBox, TouchingIsNotApart) {
 }
 
 // Two triangles change places: ordered at both ends, but not in the same sense.
-TEST(MovingBox, PassingEachOtherIsNotApart) {
+TEST(MovingBox, PassingEachOtherIsNotApartAndMovingTogetherIs) {
   const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
   Positions swapped(6, 3);
   swapped << x.bottomRows(3), x.topRows(3);
-  const RoundedPositions points({x, swapped});
-  EXPECT_FALSE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
-}
-
-// Far along, side by side: swept boxes would meet.
-TEST(MovingBox, MovingTogetherIsApart) {
-  const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  const RoundedPositions passing({x, swapped});
+  EXPECT_FALSE(apart(passing.box({0, 1, 2}), passing.box({3, 4, 5})));
+  // Far along, side by side: swept boxes would meet.
   Positions moved = x;
   moved.col(0).array() += 100;
-  const RoundedPositions points({x, moved});
-  EXPECT_TRUE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
+  const RoundedPositions together({x, moved});
+  EXPECT_TRUE(apart(together.box({0, 1, 2}), together.box({3, 4, 5})));
 }
 
 void expect_same_box(const MovingBox& a, const MovingBox& b, const char* which) {

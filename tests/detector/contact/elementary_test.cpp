@@ -72,9 +72,7 @@ void expect_named_queries() {
   for (const auto& q : named_queries()) {
     const ContactResult result = test_contact(q.query, Want::first_time);
     EXPECT_EQ(result.rung, q.rung) << q.name;
-    if (q.time) {
-      EXPECT_EQ(result.time, (TimeEnclosure{*q.time, *q.time})) << q.name;
-    }
+    EXPECT_TRUE(!q.time || result.time == (TimeEnclosure{*q.time, *q.time})) << q.name;
     for (const bool contact : {result.contact, test_contact(q.query, Want::yes_no).contact,
                                exact_contact(q.query).contact})
       EXPECT_EQ(contact, q.time.has_value()) << q.name;
@@ -99,9 +97,7 @@ TEST(ElementaryTest, TheFilterSettlesWhatPassesNearAnEdge) {
     const ContactResult result = test_contact(query, Want::first_time);
     const auto truth = general_first_contact(query);
     ASSERT_EQ(result.contact, truth.has_value()) << i;
-    if (truth) {
-      EXPECT_EQ(result.time, *truth) << i;
-    }
+    EXPECT_EQ(result.time, truth.value_or(result.time)) << i;
     hits += result.contact;
     settled += result.rung == ContactRung::filter;
   }
@@ -145,9 +141,7 @@ TEST(ElementaryTest, ExtremeMagnitudesAreBroughtIntoRange) {
   for (const double scale : {0x1p-1070, 0x1p-600, 0x1p600, 0x1p1020}) {
     FourPoints query = vertex_moves({.25, .25, 1}, {.25, .25, -1});
     for (auto& p : query.points) {
-      for (double* c : {p.t0.data(), p.t1.data()}) {
-        for (int k = 0; k < 3; ++k) c[k] *= scale;
-      }
+      for (std::size_t k = 0; k < 3; ++k) p.t0[k] *= scale, p.t1[k] *= scale;
     }
     const auto result = test_contact(query, Want::first_time);
     EXPECT_TRUE(result.contact) << scale;
@@ -175,13 +169,10 @@ void ask_about(const FourPoints& query, Counts& counts) {
   for (const double until : {0., lo, hi, lo / 2, std::nextafter(lo, 0.), .25, .75, 1.}) {
     const bool is_later = !contact.contact || hi > until;
     const Later later = surely_later(query, until);
-    if (!is_later) {
-      EXPECT_EQ(later, Later::no) << until << " of " << lo;
-    } else {
-      ++counts.before;
-      counts.by_doubles += later == Later::by_doubles;
-      counts.by_integers += later == Later::by_integers;
-    }
+    EXPECT_TRUE(is_later || later == Later::no) << until << " of " << lo;
+    counts.before += is_later;
+    counts.by_doubles += later == Later::by_doubles;
+    counts.by_integers += later == Later::by_integers;
   }
 }
 
@@ -247,19 +238,13 @@ void expect_answered(const FourPoints& query) {
   const auto exact = exact_contact(query);
   const auto general = general_first_contact(query);
   EXPECT_EQ(general.has_value(), exact.contact);
-  if (general) {
-    EXPECT_EQ(*general, exact.time);
-  }
+  EXPECT_EQ(general.value_or(exact.time), exact.time);
   const ContactResult tested = test_contact(query, Want::first_time);
   EXPECT_EQ(tested.contact, exact.contact);
-  if (exact.contact) {
-    EXPECT_EQ(tested.time, exact.time);
-  }
+  EXPECT_TRUE(!exact.contact || tested.time == exact.time);
   test_contact(query, Want::yes_no);
-  for (const auto arithmetic :
-       {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : all_values<Arithmetic>)
     test_contact(query, Want::first_time, arithmetic);
-  }
 }
 
 TEST(ContactStack, RootsThatManyBitsTellApart) {
@@ -284,9 +269,8 @@ TEST(ContactStack, ExponentsOverAllDoubles) {
       const bool flat = i % 3 == 0;
       for (auto& p : q.points) {
         for (double* end : {p.t0.data(), p.t1.data()}) {
-          for (int k = 0; k < 3; ++k) {
+          for (int k = 0; k < 3; ++k)
             end[k] = flat && k == 0 ? 0 : std::ldexp(below(5) - 2, below(2097) - 1074);
-          }
         }
       }
       expect_answered(q);

@@ -190,8 +190,8 @@ void expect_first(const FourPoints& q, double d, const std::optional<TimeEnclosu
 
 TEST(Near, L16_RandomStepsAgainstRationalDistances) {
   NearSteps steps(351);
-  int near = 0, later = 0, inside_a_gap = 0, by_integers = 0;
-  for (int i = 0; i < tests::usual(1600); ++i) {
+  int near = 0, inside_a_gap = 0, by_integers = 0;
+  for (int i = 0; i < 1600; ++i) {
     const FourPoints q = steps.query(i % 4 == 1);
     const double d = steps.between(1, 8) / 4.0;
     const ContactResult result = test_near(q, d, Want::first_time);
@@ -200,16 +200,12 @@ TEST(Near, L16_RandomStepsAgainstRationalDistances) {
     ASSERT_EQ(test_near(q, d, Want::yes_no).contact, result.contact);
     ASSERT_NO_FATAL_FAILURE(expect_first(q, d, first)) << "step " << i;
     near += result.contact;
-    later += first && first->hi > 0;
     inside_a_gap += first && first->lo < first->hi;
     by_integers += result.rung == ContactRung::unbounded;
   }
-  std::printf(
-      "%d near, %d of them later than at the start, %d between two doubles; %d by integers\n", near,
-      later, inside_a_gap, by_integers);
-  EXPECT_GT(near, tests::usual(500));
-  EXPECT_GT(inside_a_gap, tests::usual(200));
-  EXPECT_GT(by_integers, tests::usual(10));
+  EXPECT_GT(near, 500);
+  EXPECT_GT(inside_a_gap, 200);
+  EXPECT_GT(by_integers, 10);
 }
 
 // With d = 0 the regions are those of a contact.
@@ -221,9 +217,7 @@ TEST(Near, L16_WithinZeroIsAContact) {
     const ContactResult contact = test_contact(q, Want::first_time);
     const auto near = exact_near_time(q, 0);
     ASSERT_EQ(near.has_value(), contact.contact) << "step " << i;
-    if (near) {
-      ASSERT_EQ(*near, contact.time) << "step " << i;
-    }
+    ASSERT_EQ(near.value_or(contact.time), contact.time) << "step " << i;
     contacts += contact.contact;
   }
   EXPECT_GT(contacts, tests::usual(300));
@@ -238,9 +232,8 @@ TEST(Near, L16_ScaledByPowersOfTwoNothingChanges) {
     for (const int exponent : {-600, -60, 60, 600}) {
       FourPoints scaled = q;
       for (MovingPoint& p : scaled.points) {
-        for (auto* x : {&p.t0, &p.t1}) {
+        for (auto* x : {&p.t0, &p.t1})
           for (double& coordinate : *x) coordinate = std::ldexp(coordinate, exponent);
-        }
       }
       const auto result = test_near(scaled, std::ldexp(d, exponent), Want::first_time);
       ASSERT_EQ(result.contact ? std::optional(result.time) : std::nullopt, first) << "step " << i;
@@ -339,14 +332,13 @@ TEST_F(NearBounds, PlaceError) {
 // Decisions of the filter by itself, for d from far off to some last places off the distance at an
 // end of the step.
 TEST_F(NearBounds, TheFilterIsNeverWrong) {
-  int decided = 0, near = 0, open = 0;
+  int decided = 0, near = 0;
   for (int i = 0; i < cases; ++i) {
     const FourPoints q = next(i);
     const Rational exact = squared_distance(q, Rational(i % 2));
     const double off = std::ldexp(1, -(i % 53));
     const double d = std::sqrt(static_cast<double>(exact)) * (i / 2 % 2 == 0 ? 1 - off : 1 + off);
     const NearResult result = filter_near(q, d);
-    open += result.decision == Decision::open;
     if (result.decision == Decision::open) continue;
     ++decided;
     const Rational within = squared(d);
@@ -356,12 +348,10 @@ TEST_F(NearBounds, TheFilterIsNeverWrong) {
     } else {
       ++near;
       ASSERT_LE(squared_distance(q, Rational(result.hi)), within) << "case " << i;
-      if (result.hi > 0) {
-        ASSERT_GT(squared_distance(q, Rational(result.lo)), within) << "case " << i;
-      }
+      ASSERT_TRUE(result.hi == 0 || squared_distance(q, Rational(result.lo)) > within)
+          << "case " << i;
     }
   }
-  std::printf("%d decided, %d of them near; %d open\n", decided, near, open);
   EXPECT_GT(near, cases / 8);
   EXPECT_GT(decided - near, cases / 32);
 }

@@ -111,8 +111,7 @@ TEST(Winding, RaysMeetWhatEveryTriangleSays) {
       ++compared;
     }
   }
-  std::printf("winding numbers compared: %d\n", compared);
-  EXPECT_GT(compared, tests::usual(12000));
+  EXPECT_GT(compared, 12000);
 }
 
 // What is asked beside a triangle does not change its number.
@@ -126,10 +125,9 @@ TEST(Winding, TogetherAsAlone) {
     for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = noise(engine);
     for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded}) {
       const auto together = winding_numbers_outside(mesh, all, x, all, arithmetic);
-      for (std::size_t k = 0; k < all.size(); ++k) {
+      for (std::size_t k = 0; k < all.size(); ++k)
         ASSERT_EQ(together[k], winding_numbers_outside(mesh, all, x, {{all[k]}}, arithmetic)[0])
             << "mesh " << i << ", triangle " << all[k];
-      }
     }
   }
 }
@@ -141,9 +139,9 @@ const std::array<Point, 3> face = {Point{0, 0, 0}, Point{4, 0, 0}, Point{0, 4, 0
 double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
 // Nearer than what is just above the distance, and not nearer than the distance.
-void expect_distance(const Point& p, double distance) {
-  EXPECT_FALSE(vertex_is_nearer_to_face(p, face, distance));
-  EXPECT_TRUE(vertex_is_nearer_to_face(p, face, above(distance)));
+void expect_distance(const Point& p, double distance, const std::array<Point, 3>& to = face) {
+  EXPECT_FALSE(vertex_is_nearer_to_face(p, to, distance));
+  EXPECT_TRUE(vertex_is_nearer_to_face(p, to, above(distance)));
 }
 
 TEST(RestDistance, OfAVertexAndAFaceByEachOfItsParts) {
@@ -153,18 +151,10 @@ TEST(RestDistance, OfAVertexAndAFaceByEachOfItsParts) {
   expect_distance({6, -3, 6}, 7);   // beside another one
   expect_distance({1, 1, 0x1p-1000}, 0x1p-1000);
   EXPECT_TRUE(vertex_is_nearer_to_face({1, 1, 0}, face, std::numeric_limits<double>::denorm_min()));
-  const double far = 0x1p1000;
-  EXPECT_FALSE(vertex_is_nearer_to_face({1, 1, far}, face, far));
-  EXPECT_TRUE(vertex_is_nearer_to_face({1, 1, far}, face, above(far)));
-}
-
-TEST(RestDistance, OfAFaceThatHasCollapsed) {
-  const std::array<Point, 3> line = {Point{0, 0, 0}, Point{4, 0, 0}, Point{2, 0, 0}};
-  EXPECT_FALSE(vertex_is_nearer_to_face({2, 3, 4}, line, 5));
-  EXPECT_TRUE(vertex_is_nearer_to_face({2, 3, 4}, line, above(5)));
-  const std::array<Point, 3> point = {Point{1, 1, 1}, Point{1, 1, 1}, Point{1, 1, 1}};
-  EXPECT_FALSE(vertex_is_nearer_to_face({3, 4, 7}, point, 7));
-  EXPECT_TRUE(vertex_is_nearer_to_face({3, 4, 7}, point, above(7)));
+  expect_distance({1, 1, 0x1p1000}, 0x1p1000);
+  // Of a face that has collapsed to a line, and to a point.
+  expect_distance({2, 3, 4}, 5, {Point{0, 0, 0}, Point{4, 0, 0}, Point{2, 0, 0}});
+  expect_distance({3, 4, 7}, 7, {Point{1, 1, 1}, Point{1, 1, 1}, Point{1, 1, 1}});
 }
 
 void expect_distance(const std::array<Point, 2>& a, const std::array<Point, 2>& b,

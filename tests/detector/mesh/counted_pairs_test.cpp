@@ -20,9 +20,7 @@ Positions places() {
 
 std::optional<InputError> error_of(const CountedPairs& counted) {
   const auto problem = check_counted_pairs(counted, triangles, vertices);
-  Options options;
-  options.counted = &counted;
-  const auto result = Detector::create(triangles, places(), options);
+  const auto result = Detector::create(triangles, places(), {.counted = &counted});
   EXPECT_EQ(result.has_value(), !problem);
   if (!problem) return std::nullopt;
   EXPECT_EQ(result.error().error, problem->error);
@@ -31,10 +29,13 @@ std::optional<InputError> error_of(const CountedPairs& counted) {
   return problem->error;
 }
 
-CountedPairs features() {
+template <class Change>
+std::optional<InputError> error_with(const Change& change,
+                                     CountedLevel level = CountedLevel::triangles) {
   CountedPairs counted;
-  counted.level = CountedLevel::features;
-  return counted;
+  counted.level = level;
+  change(counted);
+  return error_of(counted);
 }
 
 TEST(CountedPairs, EveryKindMayBeGiven) {
@@ -49,33 +50,23 @@ TEST(CountedPairs, EveryKindMayBeGiven) {
   counted.triangle_pairs = {{2, 0}};
   EXPECT_FALSE(counted.count_all());
   EXPECT_FALSE(error_of(counted));
-  counted = features();
-  counted.vertex_faces = {{4, 0}};
-  counted.edge_pairs = {{{1, 0}, {4, 6}}};
-  EXPECT_FALSE(error_of(counted));
+  EXPECT_FALSE(error_with(
+      [](auto& c) {
+        c.vertex_faces = {{4, 0}}, c.edge_pairs = {{{1, 0}, {4, 6}}};
+      },
+      CountedLevel::features));
 }
 
 TEST(CountedPairs, WhatCannotBeSoIsRefusedByName) {
   using enum InputError;
+  EXPECT_EQ(error_with([](auto& c) { c.body = {0, 0, 0}; }), wrong_frame_size);
+  EXPECT_EQ(error_with([](auto& c) { c.body = {0, 0, 0, 0, 1, 1, -1}; }), index_out_of_range);
+  EXPECT_EQ(error_with([](auto& c) { c.body = {0, 0, 0, 1, 2, 2, 2}; }), triangle_of_two_bodies);
+  EXPECT_EQ(error_with([](auto& c) { c.apart = {{0, 1}}; }), index_out_of_range);
+  EXPECT_EQ(error_with([](auto& c) { c.rings = -1; }), wrong_relation);
+  for (const double distance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(error_with([&](auto& c) { c.rest_distance = distance; }), wrong_relation) << distance;
   CountedPairs counted;
-  counted.body = {0, 0, 0};
-  EXPECT_EQ(error_of(counted), wrong_frame_size);
-  counted.body = {0, 0, 0, 0, 1, 1, -1};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted.body = {0, 0, 0, 1, 2, 2, 2};
-  EXPECT_EQ(error_of(counted), triangle_of_two_bodies);
-  counted = {};
-  counted.apart = {{0, 1}};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted = {};
-  counted.rings = -1;
-  EXPECT_EQ(error_of(counted), wrong_relation);
-  for (const double distance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    counted = {};
-    counted.rest_distance = distance;
-    EXPECT_EQ(error_of(counted), wrong_relation) << distance;
-  }
-  counted = {};
   counted.rest_distance = 1;
   EXPECT_EQ(error_of(counted), wrong_frame_size);
   counted.rest.assign(vertices, {0, 0, 0});
@@ -85,36 +76,36 @@ TEST(CountedPairs, WhatCannotBeSoIsRefusedByName) {
 
 TEST(CountedPairs, WrongListsAreRefusedByName) {
   using enum InputError;
-  CountedPairs counted;
-  counted.triangle_pairs = {{0, 3}};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted.triangle_pairs = {{1, 1}};
-  EXPECT_EQ(error_of(counted), wrong_relation);
-  counted = {};
-  counted.vertex_faces = {{4, 0}};
-  EXPECT_EQ(error_of(counted), wrong_relation) << "triangles are what counts";
-  counted = features();
-  counted.triangle_pairs = {{0, 2}};
-  EXPECT_EQ(error_of(counted), wrong_relation) << "features are what counts";
-  counted = features();
-  counted.vertex_faces = {{7, 0}};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted.vertex_faces = {{0, 3}};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted = features();
-  counted.edge_pairs = {{{0, 1}, {4, 7}}};
-  EXPECT_EQ(error_of(counted), index_out_of_range);
-  counted.edge_pairs = {{{0, 1}, {3, 4}}};
-  EXPECT_EQ(error_of(counted), wrong_relation) << "no such edge";
+  EXPECT_EQ(error_with([](auto& c) { c.triangle_pairs = {{0, 3}}; }), index_out_of_range);
+  EXPECT_EQ(error_with([](auto& c) { c.triangle_pairs = {{1, 1}}; }), wrong_relation);
+  EXPECT_EQ(error_with([](auto& c) {
+              c.vertex_faces = {{4, 0}};
+            }),
+            wrong_relation)
+      << "triangles are what counts";
+  const auto of_features = [](const auto& change) {
+    return error_with(change, CountedLevel::features);
+  };
+  EXPECT_EQ(of_features([](auto& c) {
+              c.triangle_pairs = {{0, 2}};
+            }),
+            wrong_relation)
+      << "features are what counts";
+  EXPECT_EQ(of_features([](auto& c) { c.vertex_faces = {{7, 0}}; }), index_out_of_range);
+  EXPECT_EQ(of_features([](auto& c) { c.vertex_faces = {{0, 3}}; }), index_out_of_range);
+  EXPECT_EQ(of_features([](auto& c) { c.edge_pairs = {{{0, 1}, {4, 7}}}; }), index_out_of_range);
+  EXPECT_EQ(of_features([](auto& c) {
+              c.edge_pairs = {{{0, 1}, {3, 4}}};
+            }),
+            wrong_relation)
+      << "no such edge";
 }
 
 // A state knows nothing of components that nothing is looked for in, and of the rest of a relation
 // it is independent.
 TEST(CountedPairs, AStateIsOfTheBodiesThatMeetThemselves) {
   const auto make = [](const CountedPairs* counted) {
-    Options options;
-    options.counted = counted;
-    auto detector = Detector::create(triangles, places(), options);
+    auto detector = Detector::create(triangles, places(), {.counted = counted});
     EXPECT_TRUE(detector.has_value());
     EXPECT_EQ(detector.value().step(places(), places()).answer, Answer::free);
     return std::move(detector.value());

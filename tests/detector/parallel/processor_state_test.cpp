@@ -182,11 +182,9 @@ std::vector<std::uint64_t> answers(const Moved& mesh, const Options& options) {
 TEST(ProcessorState, SmallestAndLargestNumbersAreAnsweredInAnyState) {
   for (const auto culling : all_values<Culling>) {
     for (const auto pairs : all_values<Pairs>) {
-      for (const auto& mesh : {denormal_pair(), greatest_pair()}) {
-        Options options;
-        options.culling = culling, options.pairs = pairs;
-        expect_same_in_each_state([&] { return answers(mesh, options); });
-      }
+      for (const auto& mesh : {denormal_pair(), greatest_pair()})
+        expect_same_in_each_state(
+            [&] { return answers(mesh, {.culling = culling, .pairs = pairs}); });
     }
   }
 }
@@ -195,21 +193,18 @@ TEST(ProcessorState, ThreadsHaveTheSameState) {
   const auto mesh = folded_sheet();
   for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded}) {
     for (const std::uint32_t threads : {1, 2}) {
-      Options options;
-      options.arithmetic = arithmetic, options.threads = threads;
-      const auto expected = answers(mesh, {.arithmetic = arithmetic});
-      EXPECT_EQ(answers(mesh, options), expected);
+      const Options options{.arithmetic = arithmetic, .threads = threads};
+      EXPECT_EQ(answers(mesh, options), answers(mesh, {.arithmetic = arithmetic}));
       expect_same_in_each_state([&] { return answers(mesh, options); });
     }
   }
 }
 
 TEST(ProcessorState, TheLeastDistanceIsNotNone) {
-  auto mesh = denormal_pair();
-  for (const double d : {5e-324, 2e-323}) {
-    const Options options{.culling = Culling::bvh, .separation = d};
-    expect_same_in_each_state([&] { return answers(mesh, options); });
-  }
+  const auto mesh = denormal_pair();
+  for (const double d : {5e-324, 2e-323})
+    expect_same_in_each_state(
+        [&] { return answers(mesh, {.culling = Culling::bvh, .separation = d}); });
 }
 
 // What a user's function does runs in the user's state, and changes none of the detector's.
@@ -227,9 +222,8 @@ TEST(ProcessorState, StopFunctionsRunInTheCallersState) {
           in_callers += state_now() == callers ? 1 : 0;
           return false;
         };
-        Options options;
-        options.threads = threads;
-        auto detector = Detector::create(mesh.triangles, mesh.x_t0, options, stop).value();
+        auto detector =
+            Detector::create(mesh.triangles, mesh.x_t0, {.threads = threads}, stop).value();
         detector.step(mesh.x_t0, mesh.x_t1, {}, stop);
         detector.first_contact(mesh.x_t0, mesh.x_t1, 1, stop);
         detector.limit(mesh.x_t0, mesh.x_t1, stop);
@@ -342,8 +336,7 @@ TEST_F(BuiltinDetector, AnswersInAnyStateOfTheProcessor) {
   expect_same_in_each_state([&] {
     Numbers numbers;
     const auto add_result = [&](const Handle& handle) {
-      assay_result result = {};
-      table().result(handle.get(), &result);
+      const assay_result result = result_of(handle);
       numbers.add(static_cast<std::uint64_t>(result.answer));
       numbers.add(TimeEnclosure{result.first_lo, result.first_hi});
       for (std::uint64_t i = 0; i < 2 * result.pair_count; ++i) numbers.add(result.pair_times[i]);

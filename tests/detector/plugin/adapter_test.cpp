@@ -11,16 +11,7 @@ namespace {
 using plugin::Mesh, plugin::Pair, plugin::Positions, plugin::Result;
 
 // One step is what the first coordinate of x_t0 says.
-enum Wish : int {
-  is_free,
-  touches,
-  without_times,
-  fails,
-  refuses,
-  lacks_memory,
-  throws_int,
-  silent
-};
+enum Wish { is_free, touches, without_times, fails, refuses, lacks_memory, throws_int, silent };
 
 struct Whole {
   static inline std::set<const Whole*> alive;
@@ -49,16 +40,12 @@ struct Whole {
 
   Result evaluate(Positions x_t0, Positions x_t1) {
     switch (static_cast<int>(x_t0[0][0])) {
-      case touches: {
-        Result result = Result::collision(.25, .5);
-        result.add(0, 1, .25, .5);
-        result.add(2, 1, .75, 1);
-        return result;
-      }
+      case touches:
       case without_times: {
-        Result result = Result::collision();
+        const bool has_times = x_t0[0][0] == touches;
+        Result result = has_times ? Result::collision(.25, .5) : Result::collision();
         result.add(0, 1, .25, .5);
-        result.add(2, 1);
+        has_times ? result.add(2, 1, .75, 1) : result.add(2, 1);
         return result;
       }
       case fails:

@@ -7,53 +7,46 @@
 namespace assay::detector {
 namespace {
 
-using tests::BuiltinDetector, tests::octahedron, tests::octahedron_positions, tests::table;
+using tests::BuiltinDetector, tests::octahedron_positions, tests::table;
+
+std::int32_t stop_at_once(void*) { return 1; }
 
 // ASSAY_CULLING_VIEW_AUTO for view-auto, and so on: the numbers of the C interface are those of the
 // lists in C++.
 template <class Enum>
-void expect_numbers(const std::vector<std::pair<const char*, int>>& in_c) {
-  EXPECT_EQ(in_c.size(), all_values<Enum>.size());
-  for (const auto& [name, number] : in_c) {
-    ASSERT_TRUE(from_name<Enum>(name)) << name;
-    EXPECT_EQ(static_cast<int>(*from_name<Enum>(name)), number) << name;
+void expect_numbers(const std::string& names, const std::vector<int>& numbers) {
+  const auto list = tests::words(names);
+  ASSERT_EQ(list.size(), numbers.size());
+  EXPECT_EQ(list.size(), all_values<Enum>.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ASSERT_TRUE(from_name<Enum>(list[i])) << list[i];
+    EXPECT_EQ(static_cast<int>(*from_name<Enum>(list[i])), numbers[i]) << list[i];
   }
 }
 
 TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
-  expect_numbers<Culling>({{"view-auto", ASSAY_CULLING_VIEW_AUTO},
-                           {"view-point", ASSAY_CULLING_VIEW_POINT},
-                           {"view-line", ASSAY_CULLING_VIEW_LINE},
-                           {"normal-cone", ASSAY_CULLING_NORMAL_CONE},
-                           {"bvh", ASSAY_CULLING_BVH},
-                           {"none", ASSAY_CULLING_NONE},
-                           {"auto", ASSAY_CULLING_AUTO}});
-  expect_numbers<Start>({{"verified", ASSAY_START_VERIFIED},
-                         {"clean", ASSAY_START_CLEAN},
-                         {"unknown", ASSAY_START_UNKNOWN}});
-  expect_numbers<Pairs>({{"all", ASSAY_PAIRS_ALL}, {"first", ASSAY_PAIRS_FIRST}});
-  expect_numbers<Arithmetic>({{"exact", ASSAY_ARITHMETIC_EXACT},
-                              {"bounded", ASSAY_ARITHMETIC_BOUNDED},
-                              {"double", ASSAY_ARITHMETIC_DOUBLE},
-                              {"float", ASSAY_ARITHMETIC_FLOAT}});
-  expect_numbers<InputError>({{"no_triangles", ASSAY_BUILTIN_NO_TRIANGLES},
-                              {"index_out_of_range", ASSAY_BUILTIN_INDEX_OUT_OF_RANGE},
-                              {"repeated_index", ASSAY_BUILTIN_REPEATED_INDEX},
-                              {"same_vertices_twice", ASSAY_BUILTIN_SAME_VERTICES_TWICE},
-                              {"wrong_frame_size", ASSAY_BUILTIN_WRONG_FRAME_SIZE},
-                              {"non_finite_coordinate", ASSAY_BUILTIN_NON_FINITE_COORDINATE},
-                              {"wrong_primitive_count", ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT},
-                              {"nothing_to_commit", ASSAY_BUILTIN_NOTHING_TO_COMMIT},
-                              {"foreign_state", ASSAY_BUILTIN_FOREIGN_STATE},
-                              {"damaged_state", ASSAY_BUILTIN_DAMAGED_STATE},
-                              {"other_state_version", ASSAY_BUILTIN_OTHER_STATE_VERSION},
-                              {"mesh_too_large", ASSAY_BUILTIN_MESH_TOO_LARGE},
-                              {"stopped", ASSAY_BUILTIN_STOPPED},
-                              {"triangle_of_two_bodies", ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES},
-                              {"wrong_relation", ASSAY_BUILTIN_WRONG_RELATION},
-                              {"wrong_separation", ASSAY_BUILTIN_WRONG_SEPARATION},
-                              {"proves_nothing", ASSAY_BUILTIN_PROVES_NOTHING},
-                              {"wrong_bound", ASSAY_BUILTIN_WRONG_BOUND}});
+  expect_numbers<Culling>(
+      "view-auto view-point view-line normal-cone bvh none auto",
+      {ASSAY_CULLING_VIEW_AUTO, ASSAY_CULLING_VIEW_POINT, ASSAY_CULLING_VIEW_LINE,
+       ASSAY_CULLING_NORMAL_CONE, ASSAY_CULLING_BVH, ASSAY_CULLING_NONE, ASSAY_CULLING_AUTO});
+  expect_numbers<Start>("verified clean unknown",
+                        {ASSAY_START_VERIFIED, ASSAY_START_CLEAN, ASSAY_START_UNKNOWN});
+  expect_numbers<Pairs>("all first", {ASSAY_PAIRS_ALL, ASSAY_PAIRS_FIRST});
+  expect_numbers<Arithmetic>("exact bounded double float",
+                             {ASSAY_ARITHMETIC_EXACT, ASSAY_ARITHMETIC_BOUNDED,
+                              ASSAY_ARITHMETIC_DOUBLE, ASSAY_ARITHMETIC_FLOAT});
+  expect_numbers<InputError>(
+      "no_triangles index_out_of_range repeated_index same_vertices_twice wrong_frame_size "
+      "non_finite_coordinate wrong_primitive_count nothing_to_commit foreign_state damaged_state "
+      "other_state_version mesh_too_large stopped triangle_of_two_bodies wrong_relation "
+      "wrong_separation proves_nothing wrong_bound",
+      {ASSAY_BUILTIN_NO_TRIANGLES, ASSAY_BUILTIN_INDEX_OUT_OF_RANGE, ASSAY_BUILTIN_REPEATED_INDEX,
+       ASSAY_BUILTIN_SAME_VERTICES_TWICE, ASSAY_BUILTIN_WRONG_FRAME_SIZE,
+       ASSAY_BUILTIN_NON_FINITE_COORDINATE, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
+       ASSAY_BUILTIN_NOTHING_TO_COMMIT, ASSAY_BUILTIN_FOREIGN_STATE, ASSAY_BUILTIN_DAMAGED_STATE,
+       ASSAY_BUILTIN_OTHER_STATE_VERSION, ASSAY_BUILTIN_MESH_TOO_LARGE, ASSAY_BUILTIN_STOPPED,
+       ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES, ASSAY_BUILTIN_WRONG_RELATION,
+       ASSAY_BUILTIN_WRONG_SEPARATION, ASSAY_BUILTIN_PROVES_NOTHING, ASSAY_BUILTIN_WRONG_BOUND});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
@@ -73,17 +66,14 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
         std::uint64_t{r.against_all}, std::uint64_t{r.dirty});
   };
   const auto number = [](auto value) { return static_cast<std::int32_t>(value); };
-  for (const auto culling : all_values<Culling>) {
-    for (const auto start : all_values<Start>) {
-      for (const auto pairs : all_values<Pairs>) {
+  for (const auto culling : all_values<Culling>)
+    for (const auto start : all_values<Start>)
+      for (const auto pairs : all_values<Pairs>)
         for (const auto arithmetic : all_values<Arithmetic>) {
           const assay_builtin_options c = {
               sizeof c, number(culling), number(start), number(pairs), number(arithmetic), 1, 0};
           EXPECT_EQ(in_c(c), in_cpp({culling, start, pairs, arithmetic}));
         }
-      }
-    }
-  }
   const assay_builtin_options defaults = ASSAY_BUILTIN_DEFAULTS;
   EXPECT_EQ(in_c(defaults), in_cpp({}));
   assay_builtin_options within = ASSAY_BUILTIN_DEFAULTS;
@@ -217,12 +207,8 @@ TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
   const auto handle = make(Culling::view_point);
   const auto view_positive = [&](const Point& q0, const Point& q1) {
     assay_view_primitive view;
-    for (int k = 0; k < 3; ++k) {
-      view.q0_t0[k] = q0[static_cast<std::size_t>(k)];
-      view.q0_t1[k] = q1[static_cast<std::size_t>(k)];
-      view.q1_t0[k] = view.q0_t0[k];
-      view.q1_t1[k] = view.q0_t1[k];
-    }
+    std::ranges::copy(q0, view.q0_t0), std::ranges::copy(q0, view.q1_t0);
+    std::ranges::copy(q1, view.q0_t1), std::ranges::copy(q1, view.q1_t1);
     EXPECT_EQ(assay_builtin_evaluate(handle.get(), in.data(), in.data(), &view, 1, nullptr, nullptr,
                                      &error),
               ASSAY_OK);
@@ -238,13 +224,13 @@ TEST_F(BuiltinDetector, FindsTheFirstContactUpToABound) {
   auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
   const StepResult expected = direct.first_contact(in, hit);
   ASSERT_EQ(expected.answer, Answer::collision);
+  const auto search = [&](double until, std::int32_t (*stop)(void*) = nullptr) {
+    return assay_builtin_first_contact(handle.get(), in.data(), hit.data(), until, stop, nullptr,
+                                       &error);
+  };
   const auto found = [&](double until) {
-    EXPECT_EQ(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), until, nullptr,
-                                          nullptr, &error),
-              ASSAY_OK);
-    assay_result result = {};
-    EXPECT_EQ(table().result(handle.get(), &result), ASSAY_OK);
-    return result;
+    EXPECT_EQ(search(until), ASSAY_OK);
+    return result_of(handle);
   };
   const assay_result whole = found(1);
   EXPECT_EQ(whole.answer, ASSAY_COLLISION);
@@ -255,37 +241,30 @@ TEST_F(BuiltinDetector, FindsTheFirstContactUpToABound) {
   EXPECT_EQ(found(expected.first.hi).answer, ASSAY_COLLISION);
   EXPECT_EQ(found(expected.first.lo / 2).answer, ASSAY_FREE);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
-  for (const double wrong : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
-    expect_refused(assay_builtin_first_contact(handle.get(), in.data(), hit.data(), wrong, nullptr,
-                                               nullptr, &error),
-                   ASSAY_BUILTIN_WRONG_BOUND);
-  }
-  const auto stop = [](void*) -> std::int32_t { return 1; };
-  EXPECT_EQ(
-      assay_builtin_first_contact(handle.get(), in.data(), hit.data(), 1, stop, nullptr, &error),
-      ASSAY_OK);
-  assay_result stopped = {};
-  EXPECT_EQ(table().result(handle.get(), &stopped), ASSAY_OK);
-  EXPECT_EQ(stopped.answer, ASSAY_UNDECIDED);
+  for (const double wrong : {-.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
+    expect_refused(search(wrong), ASSAY_BUILTIN_WRONG_BOUND);
+  EXPECT_EQ(search(1, stop_at_once), ASSAY_OK);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_UNDECIDED);
 }
 
 TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
   const auto handle = make(Culling::bvh);
   assay_limit limit = {-1, nullptr};
-  const auto ask = [&](const Positions& to) {
+  const auto ask = [&](const Positions& from, const Positions& to,
+                       std::int32_t (*stop)(void*) = nullptr) {
     EXPECT_EQ(
-        assay_builtin_limit(handle.get(), in.data(), to.data(), &limit, nullptr, nullptr, &error),
+        assay_builtin_limit(handle.get(), from.data(), to.data(), &limit, stop, nullptr, &error),
         ASSAY_OK);
     return Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
   };
   auto direct = std::move(Detector::create(triangles, in, {Culling::bvh}).value());
   const StepLimit expected = direct.limit(in, hit);
   ASSERT_LT(expected.share, 1);
-  EXPECT_EQ(ask(hit), expected.positions);
+  EXPECT_EQ(ask(in, hit), expected.positions);
   EXPECT_EQ(limit.share, expected.share);
   EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 0);
   EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK) << "to where it stops";
-  EXPECT_EQ(ask(in), in);
+  EXPECT_EQ(ask(in, in), in);
   EXPECT_EQ(limit.share, 1);
   // The table has the same, and what it claims of it.
   assay_limit by_table = {-1, nullptr};
@@ -294,18 +273,12 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
 
   // In the end numbers leave nowhere to go.
   Positions x = in;
-  for (int rounds = 0; rounds < 40 && limit.share > 0; ++rounds) {
-    EXPECT_EQ(
-        assay_builtin_limit(handle.get(), x.data(), hit.data(), &limit, nullptr, nullptr, &error),
-        ASSAY_OK);
-    x = Positions(Eigen::Map<const Positions>(limit.positions, in.rows(), 3));
-  }
+  for (int rounds = 0; rounds < 40 && limit.share > 0; ++rounds) x = ask(x, hit);
   EXPECT_EQ(limit.share, 0);
   EXPECT_EQ(assay_builtin_limit_is_short(handle.get()), 1);
 
-  const auto stop = [](void*) -> std::int32_t { return 1; };
-  EXPECT_EQ(assay_builtin_limit(handle.get(), in.data(), hit.data(), &limit, stop, nullptr, &error),
-            ASSAY_OK);
+  limit.share = -1;
+  ask(in, hit, stop_at_once);
   EXPECT_EQ(limit.share, 0);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
   assay_builtin_options plain = ASSAY_BUILTIN_DEFAULTS;
@@ -317,48 +290,40 @@ TEST_F(BuiltinDetector, L17_LimitsAStepAsTheDetectorDoes) {
 }
 
 TEST_F(BuiltinDetector, StopsWhenToldTo) {
-  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
-  options.culling = ASSAY_CULLING_NONE;
-  const auto handle = make(&options);
+  const auto handle = make(Culling::none);
   int calls = 0;
   const auto stop = [](void* data) -> std::int32_t { return ++*static_cast<int*>(data) > 0; };
   ASSERT_EQ(
       assay_builtin_evaluate(handle.get(), in.data(), hit.data(), nullptr, 0, stop, &calls, &error),
       ASSAY_OK);
   EXPECT_GT(calls, 0);
-  assay_result result = {};
-  table().result(handle.get(), &result);
-  EXPECT_EQ(result.answer, ASSAY_UNDECIDED);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_UNDECIDED);
   expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
 }
 
 // The same behind the plug-in interface, in this process.
 
-class Plugin : public testing::Test {
+class Plugin : public BuiltinDetector {
  protected:
-  ~Plugin() override {
-    if (handle) api.destroy(handle);
-  }
-  std::int32_t create(const Triangles& t, const Positions& positions) {
-    return api.create(t.data(), static_cast<std::uint64_t>(t.rows()), positions.data(),
-                      static_cast<std::uint64_t>(positions.rows()), &handle, &message);
+  std::int32_t create(const Triangles& t) {
+    assay_handle* created = nullptr;
+    const auto code = table().create(t.data(), static_cast<std::uint64_t>(t.rows()), in.data(), 6,
+                                     &created, &message);
+    handle.reset(created);
+    return code;
   }
   assay_result evaluate(const Positions& x_t0, const Positions& x_t1) {
-    EXPECT_EQ(api.evaluate(handle, x_t0.data(), x_t1.data()), ASSAY_OK);
-    assay_result out = {};
-    EXPECT_EQ(api.result(handle, &out), ASSAY_OK);
-    return out;
+    EXPECT_EQ(table().evaluate(handle.get(), x_t0.data(), x_t1.data()), ASSAY_OK);
+    return result_of(handle);
   }
 
-  const assay_detector_api& api = *assay_builtin_detector();
-  assay_handle* handle = nullptr;
+  tests::Handle handle;
   const char* message = nullptr;
-  const Positions x = octahedron_positions(2);
 };
 
 TEST_F(Plugin, SaysWhatItClaims) {
-  EXPECT_EQ(api.abi_version, ASSAY_DETECTOR_ABI_VERSION);
-  const assay_description& d = *api.describe();
+  EXPECT_EQ(table().abi_version, ASSAY_DETECTOR_ABI_VERSION);
+  const assay_description& d = *table().describe();
   EXPECT_EQ(d.claims, 255u | 15u << 9) << "everything but candidates";
   EXPECT_EQ(d.progress, 0.9);
   EXPECT_EQ(d.adjacency, ASSAY_ADJACENCY_ALL);
@@ -366,15 +331,14 @@ TEST_F(Plugin, SaysWhatItClaims) {
   EXPECT_EQ(d.margin, 0);
 }
 
-TEST_F(Plugin, AnswersAsTheDetectorDoes) {
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  EXPECT_EQ(evaluate(x, octahedron_positions(3)).answer, ASSAY_FREE);
-  Positions pushed = x;
-  pushed.row(0) << -3, .5, .25;
-  auto direct = std::move(Detector::create(octahedron(), x, {}).value());
-  const StepResult expected = direct.evaluate(x, pushed);
+TEST_F(Plugin, AnswersAsTheDetectorDoesAndCommitsWhatWasEvaluated) {
+  ASSERT_EQ(create(triangles), ASSAY_OK);
+  EXPECT_EQ(table().commit(handle.get()), ASSAY_FAILED) << "nothing to commit";
+  EXPECT_EQ(evaluate(in, octahedron_positions(3)).answer, ASSAY_FREE);
+  auto direct = std::move(Detector::create(triangles, in, {}).value());
+  const StepResult expected = direct.evaluate(in, hit);
   ASSERT_EQ(expected.answer, Answer::collision);
-  const assay_result got = evaluate(x, pushed);
+  const assay_result got = evaluate(in, hit);
   EXPECT_EQ(got.answer, ASSAY_COLLISION);
   EXPECT_EQ(got.first_lo, expected.first.lo);
   EXPECT_EQ(got.first_hi, expected.first.hi);
@@ -385,25 +349,18 @@ TEST_F(Plugin, AnswersAsTheDetectorDoes) {
     EXPECT_EQ(got.pair_times[2 * i], expected.pairs[i].time.lo);
     EXPECT_EQ(got.pair_times[2 * i + 1], expected.pairs[i].time.hi);
   }
-  EXPECT_EQ(evaluate(x, x).pair_count, 0u) << "of the step evaluated last";
-}
-
-TEST_F(Plugin, CommitsWhatWasEvaluated) {
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  EXPECT_EQ(api.commit(handle), ASSAY_FAILED) << "nothing to commit";
-  evaluate(x, x);
-  EXPECT_EQ(api.commit(handle), ASSAY_OK);
+  EXPECT_EQ(evaluate(in, in).pair_count, 0u) << "of the step evaluated last";
+  EXPECT_EQ(table().commit(handle.get()), ASSAY_OK);
 }
 
 TEST_F(Plugin, RefusesByName) {
-  EXPECT_EQ(create(tests::triangles({{0, 1, 1}}), x), ASSAY_REFUSED);
+  EXPECT_EQ(create(tests::triangles({{0, 1, 1}})), ASSAY_REFUSED);
   EXPECT_EQ(handle, nullptr);
   ASSERT_NE(message, nullptr);
   EXPECT_STREQ(message, name_of(InputError::repeated_index));
-  ASSERT_EQ(create(octahedron(), x), ASSAY_OK);
-  Positions bad = x;
-  bad(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  const assay_result got = evaluate(x, bad);
+  ASSERT_EQ(create(triangles), ASSAY_OK);
+  hit(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  const assay_result got = evaluate(in, hit);
   EXPECT_EQ(got.answer, ASSAY_ERROR);
   ASSERT_NE(got.message, nullptr);
   EXPECT_GT(std::strlen(got.message), 0u);
@@ -433,9 +390,7 @@ TEST_F(BuiltinDetector, ASmallBufferIsRefusedAndLeftAlone) {
 
 TEST_F(BuiltinDetector, AWrongStateIsRefusedAndNothingChanges) {
   const auto handle = make(Culling::view_point), line = make(Culling::view_line);
-  assay_builtin_options points = ASSAY_BUILTIN_DEFAULTS;
-  points.culling = ASSAY_CULLING_VIEW_POINT;
-  const auto open = make(&points, 7);
+  const auto open = make(Culling::view_point, 7);
   evaluate(handle, in, hit);
   assay_builtin_commit(handle.get(), &error);
   const auto mine = save(handle);
@@ -470,9 +425,7 @@ TEST_F(BuiltinDetector, ResetForgets) {
   EXPECT_NE(save(handle), before);
   assay_builtin_reset(handle.get());
   EXPECT_EQ(save(handle), before);
-  assay_result result = {};
-  table().result(handle.get(), &result);
-  EXPECT_EQ(result.answer, ASSAY_COLLISION);
+  EXPECT_EQ(result_of(handle).answer, ASSAY_COLLISION);
 }
 
 }  // namespace

@@ -34,10 +34,10 @@ class BuiltinDetector : public testing::Test {
     EXPECT_EQ(error.message[0] == 0, handle != nullptr);
     return Handle(handle);
   }
-  Handle make(detector::Culling culling) {
+  Handle make(detector::Culling culling, Eigen::Index rows = 8) {
     assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
     options.culling = static_cast<std::int32_t>(culling);
-    return make(&options);
+    return make(&options, rows);
   }
   assay_result evaluate(const Handle& handle, const detector::Positions& x_t0,
                         const detector::Positions& x_t1) {
@@ -45,6 +45,9 @@ class BuiltinDetector : public testing::Test {
                                      nullptr, &error),
               ASSAY_OK)
         << error.message;
+    return result_of(handle);
+  }
+  static assay_result result_of(const Handle& handle) {
     assay_result result = {};
     EXPECT_EQ(table().result(handle.get(), &result), ASSAY_OK);
     return result;

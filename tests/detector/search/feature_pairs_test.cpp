@@ -279,22 +279,15 @@ TEST(FeatureBoxes, L3_WhatTouchesBetweenTwoFloatsIsFound) {
   const auto in_plane = [](double y0, double y1) { return Point{y0, y1, s - y0 - y1}; };
   // The first vertex touches the face 3, 4, 5. The others hold the middle of all positions at 0.
   const Triangles mesh = triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
+  const Positions around =
+      positions_of("-4 -4 -4, -4 -3.5 -4, -3.5 -4 -4, 4 4 4, 4 3.5 4, 3.5 4 4");
   for (int round = 0; round < 2000; ++round) {
     const double p0 = between(.6, .8), p1 = between(.6, .8), d0 = between(0, .1),
                  d1 = between(0, .1);
     const Point p = in_plane(p0, p1), c = in_plane(between(.8, 1), between(.8, 1));
-    const Positions x = positions({p,
-                                   {p[0] + .5, p[1] + .25, p[2] + .25},
-                                   {p[0] + .25, p[1] + .5, p[2] + .25},
-                                   in_plane(p0 + d0, p1 + d1),
-                                   in_plane(p0 - d0, p1 - d1),
-                                   c,
-                                   {-4, -4, -4},
-                                   {-4, -3.5, -4},
-                                   {-3.5, -4, -4},
-                                   {4, 4, 4},
-                                   {4, 3.5, 4},
-                                   {3.5, 4, 4}});
+    const Point q = {p[0] + .5, p[1] + .25, p[2] + .25}, r = {p[0] + .25, p[1] + .5, p[2] + .25};
+    Positions x(12, 3);
+    x << positions({p, q, r, in_plane(p0 + d0, p1 + d1), in_plane(p0 - d0, p1 - d1), c}), around;
     auto detector = std::move(Detector::create(mesh, x, {Culling::bvh}).value());
     ASSERT_EQ(detector.evaluate(x, x).answer, Answer::collision) << round;
   }

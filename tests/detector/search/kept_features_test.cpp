@@ -40,10 +40,8 @@ class AskedAgain : public testing::TestWithParam<Culling> {
   // A place on the way, and a little off it: the end of a shorter step as a line search has it.
   Positions end_at(double share, double off) {
     Positions x = x_t0_ + share * (x_t1_ - x_t0_);
-    for (Eigen::Index v = 0; v < x.rows(); ++v) {
-      for (Eigen::Index k = 0; k < 3; ++k)
-        x(v, k) += off * random_.number(false) * off_[static_cast<std::size_t>(k)];
-    }
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x.data()[i] += off * random_.number(false) * off_[static_cast<std::size_t>(i % 3)];
     return x;
   }
 
@@ -74,8 +72,7 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
     const StepResult whole = older.evaluate(x_t0_, x_t1_);
     for (const double part : {1., .99, .7, .5, 1e-3}) {
       const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
-      const double share = part * (is_bounded ? whole.first.lo : 1);
-      const Positions x = end_at(share, i % 2);
+      const Positions x = end_at(part * (is_bounded ? whole.first.lo : 1), i % 2);
       const StepResult again = older.evaluate(x_t0_, x);
       Detector fresh = detector(options, false);
       const StepResult expected = fresh.evaluate(x_t0_, x);
@@ -117,16 +114,9 @@ TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
 // Boxes that hardly are apart, and a step that ends as far off as it may: below what lies there.
 TEST_P(AskedAgain, L20_WhatIsHardlyApartIsKept) {
   const Triangles three = tests::triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
-  const double above = 0x1p-40;
-  const Positions x = tests::positions({{-1, -1, 0},
-                                        {1, -1, 0},
-                                        {0, 1, 0},
-                                        {-1, -1, above},
-                                        {1, -1, above},
-                                        {0, 1, above},
-                                        {9, 9, -1},
-                                        {8, 9, 1},
-                                        {9, 8, 0}});
+  Positions x =
+      tests::positions_of("-1 -1 0, 1 -1 0, 0 1 0, -1 -1 0, 1 -1 0, 0 1 0, 9 9 -1, 8 9 1, 9 8 0");
+  x.middleRows(3, 3).col(2).setConstant(0x1p-40);
   Positions along = x;
   along.middleRows(3, 3).col(0).array() += .5;
   for (const double below : {0x1p-27, -0x1p-27}) {
@@ -188,9 +178,7 @@ TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
     const Positions x = end_at(.5, 1);
     Positions start = x_t0_;
     if (i % 4 == 0) older.reset();
-    if (i % 4 == 1) {
-      ASSERT_FALSE(older.restore(before).has_value());
-    }
+    ASSERT_FALSE(i % 4 == 1 && older.restore(before));
     if (i % 4 == 2 && !older.commit()) start = x_t1_;
     if (i % 4 == 3) older.evaluate(x_t1_, x_t0_);
     Detector fresh = detector({GetParam(), Start::verified, Pairs::all}, false);
@@ -207,8 +195,7 @@ TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
 // Bounded doubles have doubts, which depend on the pairs that are tested. So nothing is kept.
 TEST_P(AskedAgain, WithoutExactArithmeticNothingIsKept) {
   make(9);
-  Options options{GetParam()};
-  options.arithmetic = Arithmetic::bounded;
+  const Options options{.culling = GetParam(), .arithmetic = Arithmetic::bounded};
   Detector older = detector(options);
   older.evaluate(x_t0_, x_t1_);
   const Positions half = end_at(.5, 0);

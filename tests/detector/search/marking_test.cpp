@@ -19,26 +19,22 @@ std::uint8_t flags_below(const BoundingVolumeTree& tree, const std::vector<Trian
 void expect_marked(const BoundingVolumeTree& tree, const Marks& marks,
                    const std::vector<TriangleType>& types) {
   ASSERT_EQ(marks.types, types);
-  for (std::size_t n = 0; n < tree.node_count(); ++n) {
+  for (std::size_t n = 0; n < tree.node_count(); ++n)
     ASSERT_EQ(marks.node_flags[n], flags_below(tree, types, static_cast<std::int32_t>(n)));
-  }
 }
 
 void expect_same(const Topology& mesh, const Representatives& representatives,
                  const std::vector<TriangleType>& types) {
   Representatives fresh(mesh);
   std::vector<std::int32_t> all(mesh.triangles.size());
-  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::int32_t>(t);
+  std::iota(all.begin(), all.end(), 0);
   fresh.update(mesh, types, all);
   for (const auto t : all) ASSERT_EQ(representatives.of(t, mesh), fresh.of(t, mesh));
-  for (std::size_t v = 0; v + 1 < mesh.vertex_triangles.starts.size(); ++v) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    ASSERT_EQ(representatives.types_of_vertex(vertex), fresh.types_of_vertex(vertex));
-  }
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto edge = static_cast<std::int32_t>(e);
-    ASSERT_EQ(representatives.types_of_edge(edge), fresh.types_of_edge(edge));
-  }
+  const auto vertices = static_cast<std::int32_t>(mesh.vertex_triangles.starts.size()) - 1;
+  for (std::int32_t v = 0; v < vertices; ++v)
+    ASSERT_EQ(representatives.types_of_vertex(v), fresh.types_of_vertex(v));
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(mesh.edges.size()); ++e)
+    ASSERT_EQ(representatives.types_of_edge(e), fresh.types_of_edge(e));
 }
 
 std::uint64_t depth_of(const BoundingVolumeTree& tree, std::int32_t triangle) {
@@ -48,11 +44,9 @@ std::uint64_t depth_of(const BoundingVolumeTree& tree, std::int32_t triangle) {
 }
 
 TEST(Marking, AtFirstEverythingIsPositive) {
-  SearchMeshes random(1);
-  const MovingMesh mesh = random.sheets(2, 4, false);
-  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  Fitted fitted(SearchMeshes(1).sheets(2, 4, false));
+  auto& [mesh, tree, marks] = fitted;
   const std::vector<TriangleType> positive(mesh.topology.triangles.size(), TriangleType::positive);
-  Marks marks(tree);
   expect_marked(tree, marks, positive);
   MarkingCounts counts;
   Marking().bring_to(positive, tree, marks, counts);
@@ -82,9 +76,9 @@ TEST(Marking, OnePassOverAllNodesCountsAsTheWalksDo) {
     ASSERT_EQ(at_once.node_flags, one_by_one.node_flags) << step;
     EXPECT_EQ(at_once.types, one_by_one.types) << step;
     EXPECT_EQ(at_once.changed, one_by_one.changed) << step;
-    EXPECT_EQ(counts.changed, walked.changed) << step;
-    EXPECT_EQ(counts.marked, walked.marked) << step;
-    EXPECT_EQ(counts.cleared, walked.cleared) << step;
+    EXPECT_EQ(std::tuple(counts.changed, counts.marked, counts.cleared),
+              std::tuple(walked.changed, walked.marked, walked.cleared))
+        << step;
   }
 }
 
@@ -133,10 +127,8 @@ TEST(Marking, FlagsAreThoseFromScratch) {
 
 // One triangle of many: its path and no more.
 TEST(Marking, WorkIsThatOfTheChange) {
-  SearchMeshes random(3);
-  const MovingMesh mesh = random.sheets(1, 30, false);
-  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  Marks marks(tree);
+  Fitted fitted(SearchMeshes(3).sheets(1, 30, false));
+  auto& [mesh, tree, marks] = fitted;
   std::vector<TriangleType> types = marks.types;
   types[100] = TriangleType::zero;
   MarkingCounts first, second;
@@ -152,10 +144,8 @@ TEST(Marking, WorkIsThatOfTheChange) {
 
 // Of two flags that a triangle gets at once, the nodes above may have one already.
 TEST(Marking, SeveralFlagsAtOnceAllReachTheRoot) {
-  SearchMeshes random(4);
-  const MovingMesh mesh = random.sheets(1, 30, false);
-  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  Marks marks(tree);
+  Fitted fitted(SearchMeshes(4).sheets(1, 30, false));
+  auto& [mesh, tree, marks] = fitted;
   std::vector<TriangleType> types = marks.types;
   MarkingCounts counts;
   for (const auto& [t, type] :
@@ -183,10 +173,9 @@ Pairs pairs_of(const PairSearch& search, const SearchInput& input, SearchCounts&
 // skipping; skipping tests fewer boxes, if not in every single search.
 TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
   SearchMeshes random(4);
-  std::uint64_t with = 0, without = 0, skipped = 0;
+  std::uint64_t with = 0, without = 0;
   for (int round = 0; round < 60; ++round) {
-    const bool coarse = round % 2 == 1;
-    Fitted fitted(random.sheets(1 + round % 3, 2 + round % 5, coarse));
+    Fitted fitted(random.sheets(1 + round % 3, 2 + round % 5, round % 2 == 1));
     auto& [mesh, tree, marks] = fitted;
     const RoundedPositions points(mesh.motion());
     std::vector<TriangleType> types = marks.types;
@@ -207,12 +196,8 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
       EXPECT_EQ(off.skipped + off.child_counts, 0u);
       with += on.box_tests;
       without += off.box_tests;
-      skipped += on.skipped;
     }
   }
-  std::printf("  box tests %zu with skipping, %zu without; %zu nodes skipped\n",
-              static_cast<std::size_t>(with), static_cast<std::size_t>(without),
-              static_cast<std::size_t>(skipped));
   EXPECT_LT(with, without);
 }
 
@@ -220,8 +205,7 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
 // of its d levels below the root the node above it meets its sibling, and goes down to it at once:
 // d - k nodes are skipped, whether first or second children lead there.
 TEST(Search, L3_SkippingGoesDownToTheOnlyPartnerAtOnce) {
-  SearchMeshes random(4);
-  const Fitted fitted(random.sheets(1, 5, false));
+  const Fitted fitted(SearchMeshes(4).sheets(1, 5, false));
   const auto& [mesh, tree, none] = fitted;
   const PairTables tables = PairRule().candidates();
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
@@ -238,8 +222,7 @@ TEST(Search, L3_SkippingGoesDownToTheOnlyPartnerAtOnce) {
 }
 
 TEST(Search, StopsWhereTheSinkSays) {
-  SearchMeshes random(5);
-  const Fitted fitted(random.sheets(2, 4, true));
+  const Fitted fitted(SearchMeshes(5).sheets(2, 4, true));
   const auto& [mesh, tree, marks] = fitted;
   const PairTables tables = EveryPair().candidates();
   int calls = 0;
@@ -281,13 +264,11 @@ struct Scattered {
     const auto n = static_cast<Eigen::Index>(places.size());
     triangles.resize(n, 3);
     x.resize(3 * n, 3);
+    std::iota(triangles.data(), triangles.data() + 3 * n, 0);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto& place = places[static_cast<std::size_t>(i)];
-      triangles.row(i) << static_cast<int>(3 * i), static_cast<int>(3 * i + 1),
-          static_cast<int>(3 * i + 2);
-      x.row(3 * i) = place;
-      x.row(3 * i + 1) = place + Eigen::RowVector3d(1, 0, 0);
-      x.row(3 * i + 2) = place + Eigen::RowVector3d(0, 1, 1);
+      x.middleRows(3 * i, 3) << place, place + Eigen::RowVector3d(1, 0, 0),
+          place + Eigen::RowVector3d(0, 1, 1);
     }
   }
   Triangles triangles;
@@ -317,8 +298,7 @@ TEST(TreeSearch, GroupsThatAreApartTakeOneBoxTest) {
 }
 
 TEST(TreeSearch, NoChildrenAreCountedWhereEveryTriangleIsAskedFor) {
-  SearchMeshes random(3);
-  const MovingMesh mesh = random.sheets(3, 6, false);
+  const MovingMesh mesh = SearchMeshes(3).sheets(3, 6, false);
   const auto counts = searched(mesh.topology, mesh.x_t0, TreeSearch::Skipping::on),
              without = searched(mesh.topology, mesh.x_t0, TreeSearch::Skipping::off);
   EXPECT_EQ(counts.child_counts, 0u);
@@ -328,8 +308,7 @@ TEST(TreeSearch, NoChildrenAreCountedWhereEveryTriangleIsAskedFor) {
 
 // The centre of a triangle is a sum over its corners, which must not overflow.
 TEST(BoundingVolumeTree, SplitsTheLargestCoordinatesAsItSplitsSmallOnes) {
-  SearchMeshes random(4);
-  const MovingMesh mesh = random.sheets(1, 8, false);
+  const MovingMesh mesh = SearchMeshes(4).sheets(1, 8, false);
   // Between 13 and 15 sixteenths of one, and the same of the power that is no double any more.
   const Positions x = mesh.x_t0.array() / (16 * mesh.x_t0.cwiseAbs().maxCoeff()) + .875;
   const Positions huge = x * 0x1p512 * 0x1p512;

@@ -69,24 +69,28 @@ TEST(StepState, HoldsAtNoOtherPositionsWhicheverPieceEndsLast) {
   }
 }
 
-TEST(Topology, OctahedronIsOneCycle) {
+TEST(Topology, AnOctahedronIsOneCycleAsItIsAlone) {
   const Topology mesh = make_topology(octahedron(), 6);
   EXPECT_EQ(mesh.edges.size(), 12u);
   ASSERT_EQ(mesh.components.size(), 1u);
   EXPECT_TRUE(mesh.components[0].is_cycle);
   for (std::int32_t e = 0; e < 12; ++e) EXPECT_EQ(mesh.edge_triangles.row(e).size(), 2u);
-}
-
-TEST(Topology, OneTriangleLessIsNoCycle) {
-  const Triangles all = octahedron();
-  const Topology mesh = make_topology(all.topRows(7), 6);
-  EXPECT_FALSE(mesh.components[0].is_cycle);
-}
-
-TEST(Topology, OneTriangleFlippedIsNoCycle) {
   Triangles all = octahedron();
+  EXPECT_FALSE(make_topology(all.topRows(7), 6).components[0].is_cycle) << "one less";
   std::swap(all(0, 1), all(0, 2));
-  EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle);
+  EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle) << "one flipped";
+}
+
+// What is clean by layers alone.
+std::vector<std::uint8_t> clean_by_layers(const Triangles& triangles, const Positions& x,
+                                          std::vector<std::uint8_t> touched = {},
+                                          Arithmetic arithmetic = Arithmetic::exact) {
+  const Surface surface = make_surface(triangles, x.rows());
+  const auto count = static_cast<std::size_t>(triangles.rows());
+  std::vector<std::uint8_t> clean(count, 2), is_seen(count, 0);
+  touched.resize(count);
+  mark_clean_by_layers({surface, x, touched, arithmetic}, 0, is_seen, clean);
+  return clean;
 }
 
 // Two outward tetrahedra that share an edge, one inside the other: connected, embedded, but two
@@ -97,20 +101,14 @@ TEST(Layers, L9_PiecesNotConnectionDecide) {
   const Positions x =
       tests::positions({{0, 0, -4}, {0, 0, 4}, {8, -6, 0}, {8, 6, 0}, {4, -1.5, 0}, {4, 1.5, 0}});
   const Surface surface = make_surface(t, 6);
-  ASSERT_EQ(surface.mesh.components.size(), 1u);
-  ASSERT_TRUE(surface.is_closed());
-  std::vector<std::uint8_t> clean(8, 2), is_seen(8, 0), untouched(8, 0);
-  mark_clean_by_layers({surface, x, untouched}, 0, is_seen, clean);
-  EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
+  ASSERT_TRUE(surface.mesh.components.size() == 1 && surface.is_closed());
+  EXPECT_EQ(clean_by_layers(t, x), (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
       << "as many triangles in each layer: the one with triangle 0 is common";
 }
 
 TEST(Layers, L9_TouchedTrianglesStayDirty) {
-  const Surface surface = make_surface(octahedron(), 6);
-  std::vector<std::uint8_t> touched(8, 0), clean(8, 0), is_seen(8, 0);
-  touched[2] = 1;
-  mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, is_seen, clean);
-  EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(clean_by_layers(octahedron(), octahedron_positions(1), {0, 0, 1}),
+            (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
 }
 
 // However its triangles are numbered, all that is linked is one piece: one winding number.
@@ -141,34 +139,22 @@ TEST(Layers, L9_APieceBesideACleanTriangleNeedsNoWindingNumber) {
   EXPECT_EQ(clean, std::vector<std::uint8_t>(8, 1));
 }
 
-// An octahedron whose first triangle has no area, because its tip 4 lies on the edge 0 2.
-Positions with_flat_first() {
-  Positions x = octahedron_positions(1);
-  x.row(4) = .5 * (x.row(0) + x.row(2));
-  return x;
-}
-
 // From a triangle without area no ray can start. If it is a piece of its own, nobody knows its
 // layer, and the other pieces are released all the same.
 TEST(Layers, L9_APieceOfUnknownLayerHoldsUpNoOther) {
-  const Surface surface = make_surface(octahedron(), 6);
-  const std::vector<std::uint8_t> touched = {0, 1, 1, 1, 1, 1, 0, 1};
-  std::vector<std::uint8_t> clean(8, 0), is_seen(8, 0);
-  mark_clean_by_layers({surface, with_flat_first(), touched}, 0, is_seen, clean);
-  EXPECT_EQ(clean, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1, 0}));
+  Positions x = octahedron_positions(1);
+  x.row(4) = .5 * (x.row(0) + x.row(2));  // the tip of the first triangle, which is flat then
+  EXPECT_EQ(clean_by_layers(octahedron(), x, {0, 1, 1, 1, 1, 1, 0, 1}),
+            (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1, 0}));
 }
 
 // Where doubles cannot tell the number at the first triangle of a piece they may at the next one.
 TEST(Layers, L9_DoublesTryMoreThanOneTriangle) {
   const Triangles sphere = tests::revolved(tests::sphere_rings);
-  const auto count = static_cast<std::size_t>(sphere.rows());
   Positions x = tests::sphere(1);
   x.row(sphere(0, 2)) = .5 * (x.row(sphere(0, 0)) + x.row(sphere(0, 1)));
-  const Surface surface = make_surface(sphere, x.rows());
-  std::vector<std::uint8_t> clean(count, 0), is_seen(count, 0);
-  const std::vector<std::uint8_t> untouched(count, 0);
-  mark_clean_by_layers({surface, x, untouched, Arithmetic::bounded}, 0, is_seen, clean);
-  EXPECT_EQ(clean, std::vector<std::uint8_t>(count, 1));
+  const auto clean = clean_by_layers(sphere, x, {}, Arithmetic::bounded);
+  EXPECT_EQ(clean, std::vector<std::uint8_t>(clean.size(), 1));
 }
 
 // The state holds at positions that are equal in every bit, whatever the stride of their rows.
@@ -199,11 +185,7 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
   for (const bool closed_first : {true, false}) {
     const Triangles closed = octahedron(), open = octahedron().bottomRows(7);
     Triangles both(15, 3);
-    if (closed_first) {
-      both << closed, open.array() + 6;
-    } else {
-      both << open, closed.array() + 6;
-    }
+    both << (closed_first ? closed : open), (closed_first ? open : closed).array() + 6;
     const Positions one = octahedron_positions(1), x = tests::side_by_side(one, one, 9);
     auto detector = Detector::create(both, x, {Culling::view_auto, Start::clean});
     ASSERT_TRUE(detector);

@@ -100,26 +100,14 @@ TEST(ViewPolicy, WhatViewsHaveCostMustBeSavedByTheSigns) {
   EXPECT_EQ(least_pairs(true, true, 1000), 3000u);
 }
 
-// After a look that paid.
-PolicyState after_views_paid(const PolicyState& before) {
+TEST(ViewPolicy, WhatViewsHaveCostAndRestsAreForgottenByHalves) {
   const TwoOpen mesh;
-  return CostModel(mesh.surface, 100, before).next({}, 0, true);
-}
-
-TEST(ViewPolicy, WhatViewsHaveCostIsForgottenByHalves) {
   PolicyState state;
-  state.overhead = 64;
-  for (const double expected : {32., 16., 8.}) {
-    state = after_views_paid(state);
-    EXPECT_EQ(state.overhead, expected);
-  }
-}
-
-TEST(ViewPolicy, RestsAreForgottenByHalves) {
-  PolicyState state;
-  state.next_pause = 32;
+  state.next_pause = 32, state.overhead = 64;
   for (const std::uint64_t expected : {16u, 8u, 4u, 2u, 1u, 1u}) {
-    state = after_views_paid(state);
+    const double overhead = state.overhead / 2;
+    state = CostModel(mesh.surface, 100, state).next({}, 0, true);  // after a look that paid
+    EXPECT_EQ(state.overhead, overhead);
     EXPECT_EQ(state.next_pause, expected);
     EXPECT_EQ(state.pause, 0u);
   }

@@ -70,10 +70,9 @@ class BatchMaker {
     batch.primitive.q1 = line ? moving_end(motion) : batch.primitive.q0;
     // Some lines keep their direction and length: the middle piece is then a cubic.
     if (line && engine_() % 3 == 0) {
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k)
         batch.primitive.q1.t1[k] =
             batch.primitive.q0.t1[k] + (batch.primitive.q1.t0[k] - batch.primitive.q0.t0[k]);
-      }
     }
     return batch;
   }

@@ -24,6 +24,10 @@ constexpr std::array<InstructionSet, 3> all_sets = {InstructionSet::baseline, In
 struct Found {
   std::vector<ViewSign> signs;
   ViewCounts counts;
+  friend bool operator==(const Found& a, const Found& b) {
+    return a.signs == b.signs && a.counts.lanes == b.counts.lanes &&
+           a.counts.filter == b.counts.filter && a.counts.exact == b.counts.exact;
+  }
 };
 
 Found find(const TriangleBatch& batch, InstructionSet set,
@@ -57,8 +61,8 @@ void compare(bool line) {
   BatchMaker maker(line ? 20112 : 20111);
   for (std::size_t f = 0; f < tests::batch_family_names.size(); ++f) {
     const auto family = static_cast<BatchFamily>(f);
-    std::uint64_t triangles = 0, in_lanes = 0, signs[3] = {0, 0, 0};
-    for (int b = 0; b < std::max(1, tests::usual(batches_of(family, line))); ++b) {
+    std::uint64_t zeros = 0;
+    for (int b = 0; b < batches_of(family, line); ++b) {
       // All lengths of the last group of lanes.
       const TriangleBatch batch = maker.make(family, 93 + static_cast<std::size_t>(b % 8), line);
       const Found first = find(batch, InstructionSet::baseline);
@@ -66,25 +70,14 @@ void compare(bool line) {
       for (std::size_t t = 0; t < first.signs.size(); ++t) {
         ASSERT_EQ(first.signs[t], view_sign(batch.triangle(t), batch.primitive, alone))
             << tests::batch_family_names[f] << ", batch " << b << ", triangle " << t;
-        ++signs[static_cast<int>(first.signs[t]) + 1];
+        zeros += first.signs[t] == ViewSign::zero;
       }
       for (const auto set : all_sets) {
         if (!is_available(set)) continue;
-        const Found other = find(batch, set);
-        ASSERT_EQ(other.signs, first.signs) << "instruction set " << static_cast<int>(set);
-        ASSERT_EQ(other.counts.lanes, first.counts.lanes);
-        ASSERT_EQ(other.counts.filter, first.counts.filter);
-        ASSERT_EQ(other.counts.exact, first.counts.exact);
+        ASSERT_TRUE(find(batch, set) == first) << "instruction set " << static_cast<int>(set);
       }
-      triangles += first.signs.size();
-      in_lanes += first.counts.lanes;
     }
-    std::printf("%-16s %7llu triangles, settled in lanes %.3f; negative %.3f, zero %.3f\n",
-                tests::batch_family_names[f], static_cast<unsigned long long>(triangles),
-                static_cast<double>(in_lanes) / static_cast<double>(triangles),
-                static_cast<double>(signs[0]) / static_cast<double>(triangles),
-                static_cast<double>(signs[1]) / static_cast<double>(triangles));
-    EXPECT_GT(signs[1], 0u);
+    EXPECT_GT(zeros, 0u) << tests::batch_family_names[f];
   }
 }
 
@@ -95,13 +88,11 @@ TEST(ViewLanes, TheBaselineIsThereAndTheBestIsAvailable) {
   EXPECT_TRUE(is_available(InstructionSet::baseline));
   EXPECT_TRUE(is_available(best_instruction_set()));
   for (const auto set : all_sets) {
-    if (is_available(set)) std::printf("instruction set %d is here\n", static_cast<int>(set));
     EXPECT_FALSE(is_available(set) && set > best_instruction_set());
-    if (is_available(set)) {
-      EXPECT_EQ(lane_kernels(set).lanes, std::size_t{2} << static_cast<int>(set));
-    }
+    if (!is_available(set)) continue;
+    EXPECT_EQ(lane_kernels(set).lanes, std::size_t{2} << static_cast<int>(set));
     for (const auto other : all_sets) {
-      if (set == other || !is_available(set) || !is_available(other)) continue;
+      if (set == other || !is_available(other)) continue;
       EXPECT_NE(lane_kernels(set).point, lane_kernels(other).point) << "each has its own";
     }
   }
@@ -132,9 +123,7 @@ TEST(ViewLanes, PowersOfTwoChangeNothing) {
         for (const double scale : {0x1p-20, 0x1p20}) {
           const TriangleBatch scaled = changed(batch, [=](double c) { return scale * c; });
           const Found other = find(scaled, best_instruction_set(), arithmetic);
-          ASSERT_EQ(other.signs, found.signs) << "batch " << batches;
-          ASSERT_EQ(other.counts.lanes, found.counts.lanes) << "batch " << batches;
-          ASSERT_EQ(other.counts.exact, found.counts.exact) << "batch " << batches;
+          ASSERT_TRUE(other == found) << "batch " << batches;
         }
       }
     }
@@ -152,8 +141,7 @@ TEST(ViewLanes, RowsMayHaveAnyStride) {
   found.signs.resize(packed.signs.size());
   classify(batch.mesh, batch.mesh.components[0], {wide.leftCols<3>(), batch.x_t1}, batch.primitive,
            found.signs, found.counts);
-  EXPECT_EQ(found.signs, packed.signs);
-  EXPECT_EQ(found.counts.lanes, packed.counts.lanes);
+  EXPECT_TRUE(found == packed);
 }
 
 // The bounds of the lanes hold: what a lane computes against the same in exact numbers, in units of
@@ -181,6 +169,13 @@ double part_of(double allowed, double computed, const Exact& exact) {
 
 Exact value(const Exact& b0, const Exact& b1, double s) { return b0 + Exact(s) * (b1 - b0); }
 
+LaneInput input_of(const TriangleBatch& batch) {
+  LaneInput in{};
+  EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
+                              batch.primitive, in));
+  return in;
+}
+
 TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
   BatchMaker maker(20113);
   std::mt19937_64 engine(3);
@@ -188,9 +183,7 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
   for (int n = 0; n < 2000; ++n) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 8, true);
-    LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
+    LaneInput in = input_of(batch);
     in.corners = batch.mesh.triangles[0].data();
     for (std::int32_t t = 0; t < 8; t += 2) {
       const std::int32_t two[2] = {t, t + 1};
@@ -200,10 +193,10 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
         const auto triangle = batch.triangle(static_cast<std::size_t>(two[lane]));
         const auto h0 = exact_cubic(triangle, batch.primitive.q0);
         const auto h1 = exact_cubic(triangle, batch.primitive.q1);
-        const double c0[4] = {line.h0.b0[lane], line.h0.b1[lane], line.h0.b2[lane],
-                              line.h0.b3[lane]};
-        const double c1[4] = {line.h1.b0[lane], line.h1.b1[lane], line.h1.b2[lane],
-                              line.h1.b3[lane]};
+        const auto in_lane = [&](const auto& h) {
+          return std::array<double, 4>{h.b0[lane], h.b1[lane], h.b2[lane], h.b3[lane]};
+        };
+        const auto c0 = in_lane(line.h0), c1 = in_lane(line.h1);
         for (std::size_t j = 0; j < 4; ++j) {
           worst_cubic = std::max({worst_cubic, part_of(in.cubic_error, c0[j], h0[j]),
                                   part_of(in.cubic_error, c1[j], h1[j])});
@@ -230,9 +223,7 @@ TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
   for (int n = 0; n < 4000; ++n) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 4, true);
-    LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
+    const LaneInput in = input_of(batch);
     if (in.axial_error >= 2) continue;  // s may be anything
     const MovingExact d = exact_difference(batch.primitive.q1, batch.primitive.q0);
     const Exact length2[3] = {dot(d.t0, d.t0), dot(d.t0, d.t1) + dot(d.t1, d.t0), dot(d.t1, d.t1)};
@@ -265,9 +256,8 @@ TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
 TEST(ViewBounds, OutOfRangeIsRefused) {
   BatchMaker maker(7);
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, false);
-  LaneInput in{};
+  LaneInput in = input_of(batch);
   const auto& vertices = batch.mesh.components[0].vertices;
-  ASSERT_TRUE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t1(2, 1) = 0x1p305;
   EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t0 *= 0x1p-320;
@@ -283,10 +273,7 @@ TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, true);
   const auto axial_error = [&](const Point& d0, const Point& d1) {
     batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {d0, d1}};
-    LaneInput in{};
-    EXPECT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
-                                batch.primitive, in));
-    return in.axial_error;
+    return input_of(batch).axial_error;
   };
   EXPECT_EQ(axial_error({1, 0, 0}, {-1, 0, 0}), 2);
   EXPECT_EQ(axial_error({1, 0, 0}, {0, 1, 0}), 2) << "a right angle";
@@ -301,9 +288,7 @@ TEST(ViewBounds, L1_LinesThatTurnHaveAnyAxialCoordinate) {
     const double angle = degrees * std::numbers::pi / 180;
     const double error = axial_error({1, 0, 0}, {std::cos(angle), std::sin(angle), 0});
     EXPECT_LT(error, 1e-6) << degrees;
-    if (degrees > 60) {
-      EXPECT_GT(error, before) << degrees << ": d0.d1 is less than it was";
-    }
+    EXPECT_TRUE(degrees <= 60 || error > before) << degrees << ": d0.d1 is less than it was";
     before = error;
   }
 }

@@ -17,8 +17,8 @@ bool is_best_first(const std::vector<Scored>& tried) {
                         [](const Scored& a, const Scored& b) { return a.score > b.score; });
 }
 
-bool is_near(const Point& a, const Point& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 1e-12;
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 // A tube with waists, bent: no point and no line sees all of it.
@@ -45,11 +45,10 @@ TEST_F(Places, HoldTheMeansOfVerticesAndTriangles) {
     vertices[k] /= static_cast<double>(planes.points().size());
     triangles[k] /= static_cast<double>(planes.size());
   }
-  ASSERT_FALSE(is_near(vertices, triangles));
-  for (const auto& mean : {vertices, triangles}) {
+  ASSERT_GT(distance(vertices, triangles), 1e-12);
+  for (const auto& mean : {vertices, triangles})
     EXPECT_TRUE(std::any_of(points.begin(), points.end(),
-                            [&](const auto& tried) { return is_near(tried.q, mean); }));
-  }
+                            [&](const auto& tried) { return distance(tried.q, mean) < 1e-12; }));
 }
 
 // 100 places fill the box evenly: each octant gets about one in eight.
@@ -165,14 +164,9 @@ Cloud random_cloud(double thickness) {
   std::mt19937_64 engine(20111);
   std::uniform_real_distribution<double> uniform(-1, 1);
   Positions x(200, 3);
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+  for (Eigen::Index v = 0; v < x.rows(); ++v)
     x.row(v) << uniform(engine), uniform(engine), thickness * uniform(engine);
-  }
   return cloud(std::move(x));
-}
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 TEST(AffineWeights, ReproduceThePointAndSumToOne) {
@@ -200,8 +194,7 @@ TEST(AffineWeights, MoveWithTheVertices) {
 TEST(AffineWeights, OfAFlatCloudStayInItsPlane) {
   const Cloud c = random_cloud(0);
   const Point q = {.1, .2, .7};
-  const Point found = combine(affine_weights(c.vertices, c.points, q), c.x);
-  EXPECT_LT(distance(found, {.1, .2, 0}), 1e-9);
+  EXPECT_LT(distance(combine(affine_weights(c.vertices, c.points, q), c.x), {.1, .2, 0}), 1e-9);
 }
 
 TEST(AffineWeights, FewPointsAndPointsThatCoincide) {

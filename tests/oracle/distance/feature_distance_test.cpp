@@ -81,8 +81,9 @@ TEST(FeatureDistance, PointBesideAVertexOfAFace) {
   EXPECT_EQ(third.first, (TimeEnclosure{2.0 / 3, std::nextafter(2.0 / 3, 1)}));
 }
 
+const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
+
 TEST(FeatureDistance, EdgesThatCross) {
-  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
   const MovingEdge along_y = {MovingPoint{{0, -2, 3}, {0, -2, -1}},
                               MovingPoint{{0, 2, 3}, {0, 2, -1}}};
   expect_first(along_x, along_y, {1, 0}, half);
@@ -90,25 +91,17 @@ TEST(FeatureDistance, EdgesThatCross) {
   expect_first(along_x, along_y, {0, 0}, {0.75, 0.75});
 }
 
-TEST(FeatureDistance, EndOfAnEdgeBesideAnother) {
-  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const MovingEdge above = {MovingPoint{{1, 5, 0}, {1, 1, 0}}, MovingPoint{{1, 9, 0}, {1, 5, 0}}};
-  expect_first(along_x, above, {3, 0}, half);
-}
-
-TEST(FeatureDistance, EndsOfTwoEdges) {
-  const MovingEdge along_x = {rest({0, 0, 0}), rest({2, 0, 0})};
-  // The end is 9 (1 - t) from the origin; the lines are nearer.
-  const MovingEdge coming = {MovingPoint{{-6, -3, -6}, {0, 0, 0}},
-                             MovingPoint{{-7, -3, -6}, {-1, 0, 0}}};
-  expect_first(along_x, coming, {4.5, 0}, half);
-}
-
-TEST(FeatureDistance, EdgesThatStayParallel) {
-  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const MovingEdge above = {MovingPoint{{-1, 0, 3}, {-1, 0, -1}},
-                            MovingPoint{{5, 0, 3}, {5, 0, -1}}};
-  expect_first(along_x, above, {1, 0}, half);
+TEST(FeatureDistance, EdgesThatDoNotCross) {
+  // The end of one is beside the other.
+  expect_first(along_x, {MovingPoint{{1, 5, 0}, {1, 1, 0}}, MovingPoint{{1, 9, 0}, {1, 5, 0}}},
+               {3, 0}, half);
+  // Both ends: one is 9 (1 - t) from that of the other; the lines are nearer.
+  expect_first({rest({0, 0, 0}), rest({2, 0, 0})},
+               {MovingPoint{{-6, -3, -6}, {0, 0, 0}}, MovingPoint{{-7, -3, -6}, {-1, 0, 0}}},
+               {4.5, 0}, half);
+  // They stay parallel.
+  expect_first(along_x, {MovingPoint{{-1, 0, 3}, {-1, 0, -1}}, MovingPoint{{5, 0, 3}, {5, 0, -1}}},
+               {1, 0}, half);
 }
 
 // At 1/2 the edges are parallel, N is zero, f is zero, and all conditions but the strict one hold.
@@ -150,19 +143,16 @@ TEST(FeatureDistance, TouchAtExactlyD) {
   EXPECT_EQ(third.first, (TimeEnclosure{1.0 / 3, std::nextafter(1.0 / 3, 1)}));
   // Past the edge below z = 0 and past another edge.
   expect_first({{2, -3, -1}, {2, -3, 1}}, test::resting_face, 3, half);
-  const MovingEdge along_x = {rest({-2, 0, 0}), rest({2, 0, 0})};
-  const MovingEdge beside = {MovingPoint{{0, 3, -1}, {0, 3, 1}},
-                             MovingPoint{{0, 7, -1}, {0, 7, 1}}};
-  expect_first(along_x, beside, {3, 0}, half);
+  expect_first(along_x, {MovingPoint{{0, 3, -1}, {0, 3, 1}}, MovingPoint{{0, 7, -1}, {0, 7, 1}}},
+               {3, 0}, half);
 }
 
 // f of the face is zero at all times: the conditions begin to hold where the edge is met.
 TEST(FeatureDistance, SlidesInAtHeightD) {
   expect_first({{-4, 1, 1}, {4, 1, 1}}, test::resting_face, 1, half);
-  const MovingEdge along_x = {rest({0, 0, 0}), rest({4, 0, 0})};
-  const MovingEdge sliding = {MovingPoint{{-4, -2, 1}, {4, -2, 1}},
-                              MovingPoint{{-4, 2, 1}, {4, 2, 1}}};
-  expect_first(along_x, sliding, {1, 0}, half);
+  expect_first({rest({0, 0, 0}), rest({4, 0, 0})},
+               {MovingPoint{{-4, -2, 1}, {4, -2, 1}}, MovingPoint{{-4, 2, 1}, {4, 2, 1}}}, {1, 0},
+               half);
 }
 
 TEST(FeatureDistance, SquareOfDIsExact) {
@@ -350,8 +340,7 @@ TEST(RegionTimes, ClustersAtTheEndsOfTheStep) {
 
 std::optional<TimeEnclosure> first_zero_by_kernel(const Region& region) {
   if (region.f.is_zero()) return {};
-  const std::array polynomials = {region.f};
-  const AlgebraicTimes times(polynomials);
+  const AlgebraicTimes times({&region.f, 1});
   for (int i = 0; i < times.size(); ++i) {
     bool hold = times.sign(region.positive, i) > 0;
     for (const IntegerPolynomial& g : region.not_negative) hold = hold && times.sign(g, i) >= 0;
@@ -363,28 +352,21 @@ std::optional<TimeEnclosure> first_zero_by_kernel(const Region& region) {
 TEST(RegionTimes, AgreeWithTheAlgebraicKernel) {
   test::Random random(16);
   int zeros = 0, even = 0;
-  constexpr int queries = 40;
-  for (int kind = 0; kind < test::query_kinds; ++kind) {
-    for (int i = 0; i < queries; ++i) {
-      const int first_group = 1 + i % 2;
-      const test::Points x =
-          test::random_query(random, static_cast<test::QueryKind>(kind), first_group);
-      constexpr double distances[] = {0, 0.5, 1, 2, 3};
-      const Separation d = {distances[random.below(5)], random.below(3) == 0 ? 0x1p-70 : 0};
-      const Regions regions({x, first_group}, d);
-      for (int r = 0; r < regions.size(); ++r) {
-        const Region region = regions[r];
-        const auto expected = first_zero_by_kernel(region);
-        const auto found = first_zero(region, 0, 1);
-        // The kernel's first zero may be 0, which first_zero leaves out.
-        if (expected && expected->hi == 0) continue;
-        ASSERT_EQ(found, expected) << kind << " " << i << " " << r;
-        zeros += expected.has_value();
-        even += expected && sign_at(derivative(region.f), expected->lo) == 0;
-      }
+  test::for_each_kind(random, 40, [&](const FourPoints& q) {
+    constexpr double distances[] = {0, 0.5, 1, 2, 3};
+    const Separation d = {distances[random.below(5)], random.below(3) == 0 ? 0x1p-70 : 0};
+    const Regions regions(q, d);
+    for (int r = 0; r < regions.size(); ++r) {
+      const Region region = regions[r];
+      const auto expected = first_zero_by_kernel(region);
+      const auto found = first_zero(region, 0, 1);
+      // The kernel's first zero may be 0, which first_zero leaves out.
+      if (expected && expected->hi == 0) continue;
+      ASSERT_EQ(found, expected) << r;
+      zeros += expected.has_value();
+      even += expected && sign_at(derivative(region.f), expected->lo) == 0;
     }
-  }
-  std::printf("%d zeros, %d of them of even order\n", zeros, even);
+  });
   EXPECT_GT(zeros, 300);
   EXPECT_GT(even, 10);
 }

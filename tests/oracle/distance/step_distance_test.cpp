@@ -8,7 +8,7 @@ namespace assay::oracle {
 namespace {
 
 using detector::FeatureKind, detector::PairContact, detector::TimeEnclosure, detector::TrianglePair,
-    test::positions, test::Step, test::triangles;
+    test::positions, test::same, test::Step, test::triangles;
 
 StepJudgement judge(const Step& step, const Separation& d, const DistanceOptions& options = {}) {
   return judge_distance({step.x_t0, step.x_t1}, step.f, d, options);
@@ -22,14 +22,6 @@ DistanceOptions with_neighbours(int jobs = 1) {
   options.jobs = jobs;
   options.neighbours = true;
   return options;
-}
-
-auto key(const PairContact& c) {
-  return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
-}
-bool same(const std::vector<PairContact>& a, const std::vector<PairContact>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return key(x) == key(y); });
 }
 
 // A floor of two triangles, and a triangle that comes down on it, from 3 to 1.
@@ -68,15 +60,12 @@ TEST(StepDistance, LeastOfAStep) {
 }
 
 TEST(StepDistance, NoPairIsAtNoDistance) {
-  const Step alone = {positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
-                      positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), triangles({{0, 1, 2}})};
-  const LeastDistance found = least(alone, with_neighbours());
+  const auto x = positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  const LeastDistance found = least({x, x, triangles({{0, 1, 2}})}, with_neighbours());
   EXPECT_TRUE(found.complete);
   EXPECT_EQ(found.distance, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(found.where);
-  const Step floor = {positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}),
-                      positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}),
-                      triangles({{0, 1, 2}, {2, 1, 3}})};
+  const Step floor = {x, x, triangles({{0, 1, 2}, {2, 1, 3}})};
   EXPECT_EQ(least(floor).distance, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(judge(floor, {100, 0}).pairs.empty());
   // Each corner that they do not share is 1/sqrt 2 from the shared edge, which the other one holds.
@@ -143,15 +132,9 @@ TEST(StepDistance, Stops) {
 
 // Some triangles over few vertices, so that they share many; coordinates as of the kind.
 Step random_step(test::Random& random, test::Coordinates kind, int vertices, int count) {
-  Step step{{}, {}, detector::Triangles(count, 3)};
+  Step step;
   place_randomly(random, kind, vertices, step.x_t0, step.x_t1);
-  for (int t = 0; t < count; ++t) {
-    const int first = random.below(vertices),
-              second = (first + 1 + random.below(vertices - 2)) % vertices;
-    int third = random.below(vertices);
-    while (third == first || third == second) third = random.below(vertices);
-    step.f.row(t) << first, second, third;
-  }
+  step.f = random_triangles(random, vertices, count);
   return step;
 }
 
@@ -187,7 +170,7 @@ TEST(StepDistance, LeastAgreesWithFirstTimes) {
     if (!found.where) continue;
     const StepJudgement there = judge(step, {found.distance, 0});
     ASSERT_FALSE(there.pairs.empty());
-    EXPECT_EQ(key(there.pairs.front()), key(*found.where));
+    EXPECT_TRUE(same({there.pairs.front()}, {*found.where}));
     if (found.distance == 0) continue;
     ++above;
     EXPECT_TRUE(judge(step, {std::nextafter(found.distance, 0), 0}).pairs.empty());

@@ -120,7 +120,6 @@ TEST(Layers, L9_LayersContinueAcrossLinks) {
       }
     }
   }
-  std::printf("%d pairs in one piece, %d pairs of two layers in one component\n", linked, several);
   EXPECT_GT(linked, 50);
   EXPECT_GT(several, 50);
 }
@@ -130,6 +129,7 @@ TEST(Layers, L9_LayersContinueAcrossLinks) {
 TEST(Winding, InsideOutsideOnTheSurface) {
   const Instant instant(tetrahedron());
   const WindingField field(instant, tetrahedron_triangles);
+
   EXPECT_EQ(field.at(detector::Point{0.5, 0.5, 0.5}), 1);
   EXPECT_EQ(field.at(detector::Point{-1, 0.5, 0.5}), 0);
   EXPECT_EQ(field.at(detector::Point{3, 3, 3}), 0);

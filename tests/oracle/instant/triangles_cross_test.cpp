@@ -1,38 +1,25 @@
-// Triangles that cross or only touch, held against rational arithmetic of this file.
-#include <gmpxx.h>
+// Triangles that cross or only touch, held against rational arithmetic.
 
 #include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
+#include "tests/detector/distance/rational_distance.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
 namespace assay::oracle {
 namespace {
 
-using detector::PairContact, detector::Point, detector::Positions, detector::Triangles,
-    test::positions, test::Random, test::triangles;
-using Vector = std::array<mpq_class, 3>;
-
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector exact(const Point& x) { return {mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])}; }
+using detector::PairContact, detector::Positions, detector::Triangles, test::positions,
+    test::Random, test::triangles;
+using tests::cross, tests::dot, tests::minus, tests::Rational;
+using Vector = tests::RationalPoint;
 
 struct Motion {
   Positions x_t0, x_t1;
   Triangles f;
   detector::SteppedMesh stepped() const { return {x_t0, x_t1}; }
   std::vector<PairContact> contacts() const { return judge_step(stepped(), f, {}).pairs; }
-  Vector at(std::int32_t v, double t) const {
-    const auto from = exact(detector::point_of(x_t0, v)), to = exact(detector::point_of(x_t1, v));
-    Vector x;
-    for (int k = 0; k < 3; ++k) x[k] = (1 - mpq_class(t)) * from[k] + mpq_class(t) * to[k];
-    return x;
-  }
+  Vector at_start(std::int32_t v) const { return tests::place_at(stepped().path(v), 0); }
 };
 
 // Two triangles of random corners, which may share one; every third at rest.
@@ -75,18 +62,18 @@ TEST(TrianglesCross, OnlyIfNoPlaneIsBetweenThem) {
 // By the line in which the planes of two triangles with area meet: on it the triangles have pieces,
 // which overlap in more than a point.
 bool cross_by_line(const std::array<Vector, 3>& a, const std::array<Vector, 3>& b) {
-  const Vector of_a = cross(a[1] - a[0], a[2] - a[0]), of_b = cross(b[1] - b[0], b[2] - b[0]),
-               line = cross(of_a, of_b);
+  const auto normal_of = [](const auto& x) { return cross(minus(x[1], x[0]), minus(x[2], x[0])); };
+  const Vector of_a = normal_of(a), of_b = normal_of(b), line = cross(of_a, of_b);
   const auto piece = [&](const auto& corners, const Vector& normal, const Vector& origin) {
-    std::vector<mpq_class> ends;
+    std::vector<Rational> ends;
     int above = 0, below = 0;
     for (int i = 0; i < 3; ++i) {
       const auto &p = corners[i], &q = corners[(i + 1) % 3];
-      const mpq_class h = dot(normal, p - origin), g = dot(normal, q - origin);
+      const Rational h = dot(normal, minus(p, origin)), g = dot(normal, minus(q, origin));
       above += h > 0 ? 1 : 0;
       below += h < 0 ? 1 : 0;
       if (h == 0) ends.push_back(dot(line, p));
-      if (h * g < 0) ends.push_back(dot(line, p) + h / (h - g) * dot(line, q - p));
+      if (h * g < 0) ends.emplace_back(dot(line, p) + h / (h - g) * dot(line, minus(q, p)));
     }
     if (above == 0 || below == 0) ends.clear();
     std::sort(ends.begin(), ends.end());
@@ -106,8 +93,8 @@ TEST(TrianglesCross, AsTheLineOfTheirPlanesSays) {
     bool has_area = true;
     for (int side = 0; side < 2; ++side) {
       auto& x = corners[side];
-      for (int k = 0; k < 3; ++k) x[k] = motion.at(motion.f(side, k), 0);
-      const auto normal = cross(x[1] - x[0], x[2] - x[0]);
+      for (int k = 0; k < 3; ++k) x[k] = motion.at_start(motion.f(side, k));
+      const auto normal = cross(minus(x[1], x[0]), minus(x[2], x[0]));
       has_area = has_area && dot(normal, normal) > 0;
     }
     if (!has_area) continue;

@@ -49,8 +49,7 @@ TEST(Loops, WalkGoesOnThroughRepeatedVertices) {
   // A bow tie: two triangles with one vertex in common.
   const Triangles f = triangles({{0, 1, 2}, {1, 3, 4}});
   EXPECT_EQ(boundary_loops(f), (Loops{{0, 1, 2}, {1, 3, 4}}));  // 1 leads to 2, the lower one
-  const Triangles g = triangles({{0, 1, 4}, {1, 2, 3}});
-  EXPECT_EQ(boundary_loops(g), (Loops{{0, 1, 2, 3, 1, 4}}));
+  EXPECT_EQ(boundary_loops(triangles({{0, 1, 4}, {1, 2, 3}})), (Loops{{0, 1, 2, 3, 1, 4}}));
 }
 
 TEST(Loops, FlippedNeighbourIsUnmatchedTwice) {

@@ -28,20 +28,13 @@ void expect_pairs(const StepJudgement& judgement, const Times& expected) {
     least = std::min(least, contact.time.lo);
     ++want;
   }
-  if (!expected.empty()) {
-    EXPECT_EQ(judgement.first.lo, least);
-  }
+  EXPECT_TRUE(expected.empty() || judgement.first.lo == least);
 }
 
 bool same_bytes(const StepJudgement& a, const StepJudgement& b) {
-  auto key = [](const PairContact& c) {
-    return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
-  };
   return a.answer == b.answer && a.complete == b.complete && a.first == b.first &&
-         a.feature_candidates == b.feature_candidates && a.rungs.axis == b.rungs.axis &&
-         a.rungs.interval == b.rungs.interval && a.rungs.quadratic == b.rungs.quadratic &&
-         std::equal(a.pairs.begin(), a.pairs.end(), b.pairs.begin(), b.pairs.end(),
-                    [&](const auto& x, const auto& y) { return key(x) == key(y); });
+         a.feature_candidates == b.feature_candidates && a.rungs == b.rungs &&
+         test::same(a.pairs, b.pairs);
 }
 
 Step tetrahedron(const detector::Point& top_t0, const detector::Point& top_t1) {
@@ -49,11 +42,18 @@ Step tetrahedron(const detector::Point& top_t0, const detector::Point& top_t1) {
           positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, top_t1}), test::tetrahedron_triangles};
 }
 
-TEST(JudgeStep, RestingTetrahedronIsFree) {
-  const StepJudgement judgement = judge(tetrahedron({1, 1, 3}, {1, 1, 3}));
-  EXPECT_EQ(judgement.answer, Answer::free);
-  EXPECT_TRUE(judgement.complete);
-  EXPECT_TRUE(judgement.pairs.empty());
+TEST(JudgeStep, WithoutAContactIsFree) {
+  Step resting = tetrahedron({1, 1, 3}, {1, 1, 3});
+  expect_pairs(judge(resting), {});
+  expect_pairs(judge({positions({}), positions({}), triangles({})}), {});
+  // A vertex of no triangle, in a face.
+  for (detector::Positions* x : {&resting.x_t0, &resting.x_t1}) {
+    x->conservativeResize(5, 3);
+    x->row(4) << 1, 1, 0;
+  }
+  expect_pairs(judge(resting), {});
+  const auto fan = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-4, 0, 0}, {0, -4, 0}});
+  expect_pairs(judge({fan, fan, triangles({{0, 1, 2}, {0, 3, 4}})}), {});
 }
 
 TEST(JudgeStep, PokedTetrahedron) {
@@ -72,9 +72,8 @@ TEST(JudgeStep, PairThatSharesAnEdgeFolds) {
   const Step step = {positions({{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {2, -4, 0}}),
                      positions({{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {2, 4, 0}}),
                      triangles({{0, 1, 2}, {1, 0, 3}})};
-  const StepJudgement judgement = judge(step);
   // In one plane throughout; vertex 3 first touches the edge 01 of the other triangle at t=1/2.
-  expect_pairs(judgement, {{{0, 1}, 0.5}});
+  expect_pairs(judge(step), {{{0, 1}, 0.5}});
 }
 
 TEST(JudgeStep, PairThatSharesAVertex) {
@@ -84,18 +83,10 @@ TEST(JudgeStep, PairThatSharesAVertex) {
   expect_pairs(judge(step), {{{0, 1}, 0.5}});
 }
 
-TEST(JudgeStep, SharedVertexAloneIsNoContact) {
-  const Step step = {positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-4, 0, 0}, {0, -4, 0}}),
-                     positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-4, 0, 0}, {0, -4, 0}}),
-                     triangles({{0, 1, 2}, {0, 3, 4}})};
-  EXPECT_EQ(judge(step).answer, Answer::free);
-}
-
 TEST(JudgeStep, PiercingAtTheStart) {
   // The edge 34 is through the inside of the first triangle and nothing moves.
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {9, 9, 9}});
-  const Step step = {x, x, triangles({{0, 1, 2}, {3, 4, 5}})};
-  const StepJudgement judgement = judge(step);
+  const StepJudgement judgement = judge({x, x, triangles({{0, 1, 2}, {3, 4, 5}})});
   expect_pairs(judgement, {{{0, 1}, 0}});
   EXPECT_EQ(judgement.pairs[0].feature.kind, FeatureKind::piercing);
   EXPECT_EQ(judgement.pairs[0].feature.vertices, (std::array<std::int32_t, 5>{3, 4, 0, 1, 2}));
@@ -103,25 +94,9 @@ TEST(JudgeStep, PiercingAtTheStart) {
 
 TEST(JudgeStep, SameThreeVertices) {
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
-  const Step step = {x, x, triangles({{0, 1, 2}, {2, 1, 0}, {1, 2, 0}})};
-  const StepJudgement judgement = judge(step);
+  const StepJudgement judgement = judge({x, x, triangles({{0, 1, 2}, {2, 1, 0}, {1, 2, 0}})});
   expect_pairs(judgement, {{{0, 1}, 0}, {{0, 2}, 0}, {{1, 2}, 0}});
   EXPECT_EQ(judgement.pairs[1].feature.kind, FeatureKind::same_vertices);
-}
-
-TEST(JudgeStep, EmptyMesh) {
-  const StepJudgement judgement = judge({positions({}), positions({}), triangles({})});
-  EXPECT_EQ(judgement.answer, Answer::free);
-  EXPECT_TRUE(judgement.complete);
-}
-
-TEST(JudgeStep, UnusedVertexTouchesNothing) {
-  Step step = tetrahedron({1, 1, 3}, {1, 1, 3});
-  for (detector::Positions* x : {&step.x_t0, &step.x_t1}) {
-    x->conservativeResize(5, 3);
-    x->row(4) << 1, 1, 0;
-  }
-  EXPECT_EQ(judge(step).answer, Answer::free);
 }
 
 TEST(JudgeStep, TurningTetrahedron) {
@@ -130,20 +105,14 @@ TEST(JudgeStep, TurningTetrahedron) {
 }
 
 TEST(JudgeStep, CollapsingOctahedron) {
-  expect_pairs(judge(test::collapsing_octahedron()), {{{0, 2}, 0.40179328},
-                                                      {{0, 3}, 0.40179328},
-                                                      {{0, 4}, 0.952755811},
-                                                      {{0, 6}, 0.40179328},
-                                                      {{0, 7}, 0.40179328},
-                                                      {{1, 4}, 0.645102508},
-                                                      {{1, 6}, 0.426479047},
-                                                      {{1, 7}, 0.426479047},
-                                                      {{2, 4}, 0.645102508},
-                                                      {{2, 6}, 0.426479047},
-                                                      {{2, 7}, 0.426479047},
-                                                      {{4, 5}, 0.645102508},
-                                                      {{4, 6}, 0.645102508},
-                                                      {{6, 7}, 0.858057737}});
+  Times times;
+  const auto rows = tests::positions_of(
+      "0 2 .40179328, 0 3 .40179328, 0 4 .952755811, 0 6 .40179328, 0 7 .40179328, "
+      "1 4 .645102508, 1 6 .426479047, 1 7 .426479047, 2 4 .645102508, 2 6 .426479047, "
+      "2 7 .426479047, 4 5 .645102508, 4 6 .645102508, 6 7 .858057737");
+  for (const auto& row : rows.rowwise())
+    times[{static_cast<int>(row[0]), static_cast<int>(row[1])}] = row[2];
+  expect_pairs(judge(test::collapsing_octahedron()), times);
 }
 
 TEST(JudgeStep, IntersectingOctahedron) {
@@ -168,8 +137,8 @@ Step random_soup(std::uint64_t seed, int vertices, int faces) {
   step.x_t0.resize(vertices, 3);
   step.x_t1.resize(vertices, 3);
   for (Eigen::Index i = 0; i < step.x_t0.size(); ++i) {
-    step.x_t0.data()[i] = random.integer(6);
-    step.x_t1.data()[i] = step.x_t0.data()[i] + random.integer(2);
+    const double x = step.x_t0.data()[i] = random.integer(6);
+    step.x_t1.data()[i] = x + random.integer(2);
   }
   step.f = random_triangles(random, vertices, faces);
   return step;
@@ -216,21 +185,16 @@ Times brute_force(const Step& step) {
 }
 
 TEST(JudgeStep, BruteForceAgrees) {
-  std::size_t pairs = 0;
-  constexpr int mesh_count = 12;
-  for (int seed = 0; seed < mesh_count; ++seed) {
+  for (int seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
     const Step step = random_soup(100 + seed, 14, 12);
-    const Times expected = brute_force(step);
-    pairs += expected.size();
-    expect_pairs(judge(step), expected);
+    expect_pairs(judge(step), brute_force(step));
   }
-  std::printf("%d meshes, %zu pairs in contact\n", mesh_count, pairs);
 }
 
 TEST(JudgeStep, JobsDoNotChangeAByte) {
   const Step step = random_soup(7, 150, 150);
   const StepJudgement one = judge(step, 1);
-  std::printf("%zu pairs\n", one.pairs.size());
   for (const int jobs : {0, 2, 3}) EXPECT_TRUE(same_bytes(one, judge(step, jobs))) << jobs;
 }
 
@@ -240,10 +204,9 @@ TEST(JudgeStep, TimeReversalKeepsTheSweptPairs) {
   const StepJudgement forward = judge(step);
   std::swap(step.x_t0, step.x_t1);
   const StepJudgement back = judge(step);
-  for (const PairContact& c : forward.pairs) {
+  for (const PairContact& c : forward.pairs)
     EXPECT_TRUE(std::any_of(back.pairs.begin(), back.pairs.end(),
                             [&](const PairContact& d) { return d.pair == c.pair; }));
-  }
 }
 
 TEST(JudgeStep, StoppedAtOnce) {
@@ -263,11 +226,9 @@ TEST(JudgeStep, StoppedLaterKeepsWhatItFound) {
   EXPECT_EQ(part.answer, Answer::undecided);
   EXPECT_FALSE(part.complete);
   EXPECT_LT(part.pairs.size(), whole.pairs.size());
-  std::printf("%zu of %zu pairs when stopped\n", part.pairs.size(), whole.pairs.size());
-  for (const PairContact& c : part.pairs) {
+  for (const PairContact& c : part.pairs)
     EXPECT_TRUE(std::binary_search(whole.pairs.begin(), whole.pairs.end(), c,
                                    [](const auto& x, const auto& y) { return x.pair < y.pair; }));
-  }
 }
 
 TEST(JudgeStep, ExceptionOfTheStopFunctionComesThrough) {

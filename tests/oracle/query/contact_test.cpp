@@ -1,6 +1,8 @@
 // Named queries: which answer, which first time, and which rung decides.
 #include "oracle/query/contact.h"
 
+#include <source_location>
+
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
@@ -19,22 +21,24 @@ struct Expected {
   TimeEnclosure first = {};
 };
 
-void expect(const ContactAnswer& yes_no, const ContactAnswer& timed, const Expected& expected) {
+// A failure names the line that expects it.
+template <class Query>
+void expect(const Query& query, const Expected& expected,
+            const std::source_location& at = std::source_location::current()) {
+  const testing::ScopedTrace trace(at.file_name(), static_cast<int>(at.line()), "expected here");
+  const auto q = four_points(query);
+  const ContactAnswer yes_no = contact_of(q, Want::yes_no), timed = contact_of(q, Want::first_time);
   EXPECT_EQ(yes_no.contact, expected.contact);
   EXPECT_EQ(timed.contact, expected.contact);
   EXPECT_EQ(static_cast<int>(yes_no.rung), static_cast<int>(expected.rung));
   EXPECT_EQ(static_cast<int>(timed.rung), static_cast<int>(expected.rung));
-  if (!expected.contact) return;
-  EXPECT_EQ(timed.first.lo, expected.first.lo);
-  EXPECT_EQ(timed.first.hi, expected.first.hi);
+  EXPECT_TRUE(!expected.contact || timed.first == expected.first) << timed.first.lo;
 }
 
-void expect(const VertexFace& q, const Expected& expected) {
-  expect(vertex_face_contact(q, Want::yes_no), vertex_face_contact(q, Want::first_time), expected);
-}
-
-void expect(const EdgeEdge& q, const Expected& expected) {
-  expect(edge_edge_contact(q, Want::yes_no), edge_edge_contact(q, Want::first_time), expected);
+template <class Query>
+void expect_none(const Query& query) {
+  for (const Want want : {Want::yes_no, Want::first_time})
+    EXPECT_FALSE(contact_of(four_points(query), want).contact);
 }
 
 TimeEnclosure at(double t) { return {t, t}; }
@@ -44,29 +48,18 @@ TimeEnclosure around(double t) { return {t, std::nextafter(t, 2)}; }
 
 constexpr double below_third = 0x1.5555555555555p-2;
 
-TEST(ContactAxis, OrderedAtBothEnds) {
+TEST(ContactAxis, SeparatesWhatIsOrderedAtBothEnds) {
   expect(over_resting_face({1, 1, 1}, {1, 1, 0.5}), {false, Rung::axis});
   expect(EdgeEdge{{rest({0, 0, 0}), rest({1, 0, 0})}, {rest({2, 0, 0}), rest({3, 0, 0})}},
          {false, Rung::axis});
-}
-
-TEST(ContactAxis, SwappedOrderIsNotSeparated) {
+  // The order is swapped; and one touches.
   expect(over_resting_face({1, 1, 3}, {1, 1, -1}), {true, Rung::interval, at(0.75)});
-}
-
-TEST(ContactAxis, TouchingIsNotSeparated) {
   expect(over_resting_face({1, 1, 1}, {1, 1, 0}), {true, Rung::quadratic, at(1)});
 }
 
-TEST(ContactInterval, PassesBeside) {
+TEST(ContactInterval, PassesBesideOrCrossesInside) {
   expect(over_resting_face({3, 3, 1}, {3, 3.5, -1}), {false, Rung::interval});
-}
-
-TEST(ContactInterval, CrossesInside) {
   expect(over_resting_face({1, 1, 1}, {1, 1, -2}), {true, Rung::interval, around(below_third)});
-}
-
-TEST(ContactInterval, EdgesCross) {
   expect(EdgeEdge{{rest({-1, 0, 0}), rest({1, 0.25, 0})},
                   {MovingPoint{{0.125, -1, 1}, {0.125, -1, -2}}, {{0, 1, 1}, {0, 1, -2}}}},
          {true, Rung::interval, around(below_third)});
@@ -84,19 +77,10 @@ TEST(ContactInterval, FirstOfThreeZeros) {
   EXPECT_LE(answer.first.hi, 0.5);
 }
 
-TEST(ContactQuadratic, ContactOnAnEdgeOfTheFace) {
+TEST(ContactQuadratic, AtABorderOfTheFaceOrOfTheStep) {
   expect(over_resting_face({2, 0, 1}, {2, 0, -1}), {true, Rung::quadratic, at(0.5)});
-}
-
-TEST(ContactQuadratic, ContactAtACornerOfTheFace) {
   expect(over_resting_face({4, 0, 3}, {4, 0, -1}), {true, Rung::quadratic, at(0.75)});
-}
-
-TEST(ContactQuadratic, StartsInContact) {
   expect(over_resting_face({1, 1, 0}, {1, 1, 5}), {true, Rung::quadratic, at(0)});
-}
-
-TEST(ContactQuadratic, EndsInContact) {
   expect(over_resting_face({1, 1, 5}, {1, 1, 0}), {true, Rung::quadratic, at(1)});
 }
 
@@ -108,14 +92,10 @@ VertexFace double_zero(double x) {
       {rest({0, 0, 0}), MovingPoint{{4, 0, -1}, {4, 0, 1}}, MovingPoint{{0, 0, -1}, {0, 0, 1}}}};
 }
 
-TEST(ContactQuadratic, DoubleZeroTouches) {
+TEST(ContactQuadratic, DoubleZeroTouchesOrHasNoContact) {
   expect(double_zero(1), {true, Rung::quadratic, at(0.5)});
   expect(double_zero(4), {true, Rung::quadratic, at(0.5)});
-}
-
-TEST(ContactQuadratic, DoubleZeroWithoutContact) {
-  EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::yes_no).contact);
-  EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::first_time).contact);
+  expect_none(double_zero(5));
 }
 
 // All in the plane y=0 but one corner. The point (2t, 0, 1) meets the line of the edge from the
@@ -128,43 +108,21 @@ VertexFace irrational_time(double length) {
 TEST(ContactQuadratic, IrrationalTimeOnAnEdge) {
   const double root_half = 0x1.6a09e667f3bccp-1;  // the double below the square root of 1/2
   expect(irrational_time(3), {true, Rung::quadratic, around(root_half)});
-  EXPECT_FALSE(vertex_face_contact(irrational_time(1), Want::first_time).contact);
+  expect_none(irrational_time(1));
 }
 
 TEST(ContactDegenerate, NoMotion) {
   expect(over_resting_face({1, 1, 0}, {1, 1, 0}), {true, Rung::quadratic, at(0)});
-  EXPECT_FALSE(vertex_face_contact(over_resting_face({3, 3, 0}, {3, 3, 0}), Want::yes_no).contact);
+  expect_none(over_resting_face({3, 3, 0}, {3, 3, 0}));
   EXPECT_TRUE(vertex_face_contact(over_resting_face({2, 2, 0}, {2, 2, 0}), Want::yes_no).contact);
 }
 
 TEST(ContactDegenerate, CoplanarThroughoutResting) {
   // In the plane of the face from outside over its edge x + y = 4.
   expect(over_resting_face({4, 4, 0}, {0, 0, 0}), {true, Rung::quadratic, at(0.5)});
-  // Past the corner.
-  EXPECT_FALSE(
-      vertex_face_contact(over_resting_face({5, -1, 0}, {-1, -1, 0}), Want::first_time).contact);
+  expect_none(over_resting_face({5, -1, 0}, {-1, -1, 0}));  // past the corner
   // Through the corner (4,0).
   expect(over_resting_face({5, -1, 0}, {3, 1, 0}), {true, Rung::quadratic, at(0.5)});
-}
-
-TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
-  // The same motion within a plane z = c that moves itself.
-  auto lifted = [](double x0, double y0, double x1, double y1) {
-    return MovingPoint{{x0, y0, 1}, {x1, y1, 7}};
-  };
-  const VertexFace q = {lifted(4, 4, 0, 0),
-                        {lifted(0, 0, 0, 0), lifted(4, 0, 4, 0), lifted(0, 4, 0, 4)}};
-  expect(q, {true, Rung::quadratic, at(0.5)});
-}
-
-TEST(ContactDegenerate, CollinearThroughout) {
-  const EdgeEdge meet = {{MovingPoint{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {4, 4, 4}}},
-                         {rest({2, 2, 2}), rest({9, 9, 9})}};
-  expect(meet, {true, Rung::quadratic, around(below_third)});
-  const EdgeEdge apart = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({1, 1, 1}), rest({2, 2, 2})}};
-  expect(apart, {true, Rung::quadratic, at(0)});
-  const EdgeEdge gap = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({2, 2, 2}), rest({3, 3, 3})}};
-  expect(gap, {false, Rung::axis});
 }
 
 TEST(ContactDegenerate, EdgesTurningOnOneLine) {
@@ -178,7 +136,7 @@ TEST(ContactDegenerate, EdgesTurningOnOneLine) {
   };
   EXPECT_TRUE(edge_edge_contact({turning(0, 2), resting(1, 3)}, Want::yes_no).contact);
   expect(EdgeEdge{turning(0, 2), resting(2, 3)}, {true, Rung::quadratic, at(0.5)});
-  EXPECT_FALSE(edge_edge_contact({turning(0, 2), resting(3, 4)}, Want::yes_no).contact);
+  expect_none(EdgeEdge{turning(0, 2), resting(3, 4)});
 }
 
 TEST(ContactDegenerate, AllPointsCoincide) {
@@ -192,22 +150,21 @@ TEST(ContactDegenerate, PointsMeetOnce) {
   expect(VertexFace{a, {b, b, b}}, {true, Rung::quadratic, at(0.5)});
   expect(EdgeEdge{{a, a}, {b, b}}, {true, Rung::quadratic, at(0.5)});
   const MovingPoint c = {{2, 4, 6}, {0, 1, 0}};
-  EXPECT_FALSE(edge_edge_contact({{a, a}, {c, c}}, Want::first_time).contact);
+  expect_none(EdgeEdge{{a, a}, {c, c}});
 }
 
 TEST(ContactDegenerate, ZeroLengthEdgeThroughAnEdge) {
   const MovingPoint p = {{1, 0, 1}, {1, 0, -1}};
   expect(EdgeEdge{{p, p}, {rest({0, 0, 0}), rest({2, 0, 0})}}, {true, Rung::quadratic, at(0.5)});
   const MovingPoint miss = {{1, 0.5, 1}, {1, 0.5, -1}};
-  EXPECT_FALSE(
-      edge_edge_contact({{miss, miss}, {rest({0, 0, 0}), rest({2, 0, 0})}}, Want::yes_no).contact);
+  expect_none(EdgeEdge{{miss, miss}, {rest({0, 0, 0}), rest({2, 0, 0})}});
 }
 
 TEST(ContactDegenerate, SliverFaceIsASegment) {
   VertexFace q = {{{1, 0, 1}, {1, 0, -1}}, {rest({0, 0, 0}), rest({1, 0, 0}), rest({2, 0, 0})}};
   expect(q, {true, Rung::quadratic, at(0.5)});
   q.vertex = {{3, 0, 1}, {3, 0, -1}};
-  EXPECT_FALSE(vertex_face_contact(q, Want::yes_no).contact);
+  expect_none(q);
 }
 
 TEST(ContactDegenerate, ParallelEdgesSlide) {
@@ -252,12 +209,9 @@ using Triangle = std::array<Point, 3>;
 
 constexpr Triangle pierced_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
-TEST(Piercing, ThroughTheInside) {
+TEST(Piercing, ThroughTheInsideAndNotBeside) {
   EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, pierced_face));
   EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, pierced_face));
-}
-
-TEST(Piercing, Beside) {
   EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, pierced_face));
   EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, pierced_face));
 }
@@ -267,9 +221,7 @@ TEST(Piercing, TouchingIsNotPiercing) {
   EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, pierced_face));  // through an edge
   EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, pierced_face));  // through a corner
   EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, pierced_face));  // in the plane
-}
-
-TEST(Piercing, DegenerateIsNotPiercing) {
+  // What has shrunk does not pierce.
   EXPECT_FALSE(
       segment_pierces_triangle({1, 0, -1}, {1, 0, 1}, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}));
   EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, pierced_face));
@@ -285,8 +237,7 @@ TEST(Piercing, OneUlpDecides) {
 TEST(Piercing, ScalesOfAllDoubles) {
   test::Random random(31);
   int pierced = 0;
-  constexpr int query_count = 2000;
-  for (int i = 0; i < query_count; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     std::array<Point, 5> x;
     for (Point& p : x) {
       for (double& c : p) c = i % 2 == 0 ? random.unit() : random.integer(3);
@@ -302,22 +253,16 @@ TEST(Piercing, ScalesOfAllDoubles) {
       EXPECT_EQ(segment_pierces_triangle(y[0], y[1], {y[2], y[3], y[4]}), expected) << i;
     }
   }
-  std::printf("%d queries, %d pierced\n", query_count, pierced);
   EXPECT_GT(pierced, 0);
 }
 
 // What is special about a contact.
 
 template <class Query>
-ContactShape shape(const Query& query, const ContactAnswer& answer) {
+ContactShape shape(const Query& query) {
+  const ContactAnswer answer = contact_of(four_points(query), Want::first_time);
   EXPECT_TRUE(answer.contact);
   return shape_of(query, answer.first);
-}
-ContactShape shape(const VertexFace& q) {
-  return shape(q, vertex_face_contact(q, detector::Want::first_time));
-}
-ContactShape shape(const EdgeEdge& q) {
-  return shape(q, edge_edge_contact(q, detector::Want::first_time));
 }
 
 TEST(ContactShape, OfAVertexThatFallsOnAFace) {
@@ -348,10 +293,8 @@ TEST(ContactShape, OfEdges) {
 TEST(ContactShape, OfADoubleRoot) {
   const EdgeEdge q{{MovingPoint{{-1, -1, 0}, {-1, 1, 0}}, MovingPoint{{1, -1, 0}, {1, 1, 0}}},
                    {MovingPoint{{0, 0, -1}, {0, 0, 1}}, MovingPoint{{1, 1, -1}, {-1, -1, 1}}}};
-  const auto answer = edge_edge_contact(q, detector::Want::first_time);
-  ASSERT_TRUE(answer.contact);
-  EXPECT_EQ(answer.first, (detector::TimeEnclosure{0.5, 0.5}));
-  EXPECT_EQ(shape_of(q, answer.first), ContactShape::double_root);
+  EXPECT_EQ(edge_edge_contact(q, Want::first_time).first, at(0.5));
+  EXPECT_EQ(shape(q), ContactShape::double_root);
 }
 
 }  // namespace

@@ -134,9 +134,8 @@ TEST(BoxTree, BruteForceAgrees) {
       std::vector<std::int32_t> expected;
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         bool meet = true;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 3; ++k)
           meet = meet && a.min[k] <= boxes[i].max[k] && boxes[i].min[k] <= a.max[k];
-        }
         if (meet) expected.push_back(static_cast<std::int32_t>(i));
       }
       tree.meeting(a, found);

@@ -50,8 +50,7 @@ TEST(QuadraticRung, CoplanarThroughout) {
 TEST(QuadraticRung, CoplanarThroughoutTouchingAtOneInstant) {
   // The face is a segment in the plane z = 0: one end rests, the other passes over the point.
   const MovingPoint passing = {{3, -1, 0}, {-1, 3, 0}};
-  const FourPoints q = {{rest({1, 1, 0}), passing, passing, rest({9, 9, 0})}, 1};
-  EXPECT_EQ(first_of(q), exactly(0.5));
+  EXPECT_EQ(first_of({{rest({1, 1, 0}), passing, passing, rest({9, 9, 0})}, 1}), exactly(0.5));
 }
 
 TEST(QuadraticRung, CoplanarThroughoutAtAnIrrationalTime) {
@@ -81,13 +80,11 @@ TEST(QuadraticRung, CoplanarThroughoutWithADoubleZero) {
 
 TEST(QuadraticRung, CollinearThroughout) {
   auto on_a_line = [](double a, double b) { return MovingPoint{{a, a, a}, {b, b, b}}; };
-  const FourPoints meet = {{on_a_line(0, 3), on_a_line(1, 4), on_a_line(2, 2), on_a_line(9, 9)}, 2};
-  EXPECT_EQ(first_of(meet), just_above(0x1.5555555555555p-2));
-  const FourPoints apart = {
-      {on_a_line(0, 0.5), on_a_line(1, 1.5), on_a_line(2, 2), on_a_line(9, 9)}, 2};
-  EXPECT_EQ(first_of(apart), std::nullopt);
-  const FourPoints same = {{on_a_line(1, 2), on_a_line(1, 2), on_a_line(1, 2), on_a_line(1, 2)}, 2};
-  EXPECT_EQ(first_of(same), exactly(0));
+  const MovingPoint two = on_a_line(2, 2), nine = on_a_line(9, 9), same = on_a_line(1, 2);
+  EXPECT_EQ(first_of({{on_a_line(0, 3), on_a_line(1, 4), two, nine}, 2}),
+            just_above(0x1.5555555555555p-2));
+  EXPECT_EQ(first_of({{on_a_line(0, 0.5), on_a_line(1, 1.5), two, nine}, 2}), std::nullopt);
+  EXPECT_EQ(first_of({{same, same, same, same}, 2}), exactly(0));
 }
 
 // The point (2t, 0, 1), the face (0,0,0), (length, 0, length t), (0, y, 0) where y goes from 4 to
@@ -171,16 +168,15 @@ TEST(QuadraticRung, AgreesWithTheAlgebraicKernel) {
   Random random(32);
   constexpr int queries_of_a_kind = tests::usual(120);
   for (int shape = 0; shape < shapes; ++shape) {
-    int queries = 0, contacts = 0;
+    int contacts = 0;
     for (int kind = 0; kind < test::coordinate_kinds; ++kind) {
-      for (int i = 0; i < queries_of_a_kind; ++i, ++queries) {
+      for (int i = 0; i < queries_of_a_kind; ++i) {
         contacts += first_of(random_query(random, static_cast<Coordinates>(kind),
                                           static_cast<Shape>(shape)))
                         .has_value();
         ASSERT_FALSE(testing::Test::HasFailure()) << shape << " " << kind << " " << i;
       }
     }
-    std::printf("shape %d: %d queries, %d in contact\n", shape, queries, contacts);
     EXPECT_GT(contacts, 0);
   }
 }

@@ -114,4 +114,18 @@ inline Points random_query(Random& random, QueryKind kind, int first_group) {
 inline detector::VertexFace vertex_face(const Points& x) { return {x[0], {x[1], x[2], x[3]}}; }
 inline detector::EdgeEdge edge_edge(const Points& x) { return {{x[0], x[1]}, {x[2], x[3]}}; }
 
+// Calls law(query) for so many queries of each kind, until one breaks it.
+template <class Law>
+void for_each_kind(Random& random, std::uint64_t queries, const Law& law) {
+  for (int kind = 0; kind < query_kinds; ++kind) {
+    for (std::uint64_t i = 0; i < queries; ++i) {
+      const int first_group = 1 + static_cast<int>(i % 2);
+      law(detector::FourPoints{random_query(random, static_cast<QueryKind>(kind), first_group),
+                               first_group});
+      ASSERT_FALSE(testing::Test::HasFailure())
+          << name_of(static_cast<QueryKind>(kind)) << " " << i;
+    }
+  }
+}
+
 }  // namespace assay::oracle::test

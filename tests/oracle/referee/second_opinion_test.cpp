@@ -45,11 +45,6 @@ TEST(SecondOpinion, AgreesOnSmallMeshes) {
     EXPECT_EQ(opinion.queries, opinion.contact + opinion.no_contact + opinion.open);
     EXPECT_GT(opinion.static_checks, 0u);
     EXPECT_TRUE(opinion.contradictions.empty());
-    std::printf("%llu queries, %llu contact, %llu open, %llu static checks\n",
-                static_cast<unsigned long long>(opinion.queries),
-                static_cast<unsigned long long>(opinion.contact),
-                static_cast<unsigned long long>(opinion.open),
-                static_cast<unsigned long long>(opinion.static_checks));
   }
 }
 

@@ -26,19 +26,12 @@ Flags touched(const Positions& x_t0, const Positions& x_t1, const Triangles& f,
   return touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts, {1, static_at_start});
 }
 
-int count(const Flags& flags) {
-  int n = 0;
-  for (const auto flag : flags) n += flag;
-  return n;
-}
+int count(const Flags& flags) { return std::accumulate(flags.begin(), flags.end(), 0); }
 
-TEST(TouchedByGhosts, LidTouchesNothing) {
+TEST(TouchedByGhosts, LidTouchesNothingUntilItsApexComesThroughTheBottom) {
   const auto apex = positions({{0, 0, 4}});
   EXPECT_EQ(count(touched(box(), box(), box_triangles, apex, apex, true)), 0);
-}
-
-TEST(TouchedByGhosts, ApexThroughTheBottom) {
-  // Touched from t=8/9 on, when the apex comes through.
+  // From t=8/9 on.
   const Flags flags =
       touched(box(), box(), box_triangles, positions({{1, 0, 4}}), positions({{1, 0, -5}}));
   EXPECT_EQ(flags, (Flags{1, 1, 0, 0, 0, 0, 0, 0, 0, 0}));
@@ -84,12 +77,11 @@ TEST(TouchedByGhosts, DegenerateGhosts) {
   // The apex lies on an edge of the loop: one ghost is a segment, which touches the triangle.
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
   const Triangles f = triangles({{0, 1, 2}});
-  const auto on_edge = positions({{2, 0, 0}});
-  EXPECT_EQ(touched(x, x, f, on_edge, on_edge), Flags{1});
-  const auto on_corner = positions({{4, 0, 0}});
-  EXPECT_EQ(touched(x, x, f, on_corner, on_corner), Flags{1});
-  const auto beside = positions({{6, 0, 0}});  // in line with an edge, beyond its end
-  EXPECT_EQ(touched(x, x, f, beside, beside), Flags{1});
+  // So it does from a corner, and in line with the edge, beyond its end.
+  for (const double at : {2, 4, 6}) {
+    const auto apex = positions({{at, 0, 0}});
+    EXPECT_EQ(touched(x, x, f, apex, apex), Flags{1}) << at;
+  }
 }
 
 TEST(TouchedByGhosts, PiercingAtTheStartOnRequest) {
@@ -148,7 +140,6 @@ TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
     }
     some += count(swept) > 0 && count(swept) < triangle_count;
   }
-  std::printf("%d meshes with some triangles touched and some not\n", some);
   EXPECT_GT(some, 40);
 }
 

@@ -51,7 +51,7 @@ TEST(DetectorBench, TheBuiltInAsAPluginHasNoErrorsAndItsOwnSpeed) {
   for (const auto* error : {"unsafe", "false_alarms", "missing", "spurious", "undecided"})
     EXPECT_EQ(done.sum(error), 0u) << error;
   // A public sequence that is not there is named.
-  EXPECT_NE(text_of(report).find("/nowhere/ipc-toolkit/bunny.ply is not there"), std::string::npos);
+  EXPECT_TRUE(says(text_of(report), "/nowhere/ipc-toolkit/bunny.ply is not there"));
 }
 
 TEST(DetectorBench, ErrorsStandBesideTimes) {
@@ -80,7 +80,7 @@ TEST(DetectorBench, WhatTheContractLeavesOutIsCounted) {
   ::unsetenv("ASSAY_BY_CONTRACT");
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   EXPECT_GT(done.sum("left_out"), 0u);
-  EXPECT_NE(text_of(report).find("are left out by the contract"), std::string::npos);
+  EXPECT_TRUE(says(text_of(report), "are left out by the contract"));
 }
 
 TEST(DetectorBench, ARunThatEndsEarlyHasNoTimes) {
@@ -109,8 +109,9 @@ TEST(DetectorBench, TheVerbWritesItsFiguresAndSaysWhatIsWrong) {
 
 TEST(DetectorBench, TheVerbRefusesInOneLine) {
   for (const std::string& arguments :
-       {std::string("--detector /nowhere/x.so"), "--detector " + plugin("without_entry"),
-        "--detector " + plugin("query_alone"), "--detector " + plugin("candidates_alone"),
+       {std::string(), std::string("--suite nonsense"), std::string("--detector /nowhere/x.so"),
+        "--detector " + plugin("without_entry"), "--detector " + plugin("query_alone"),
+        "--detector " + plugin("candidates_alone"),
         "--detector " + plugin("example") + " --suite sequences",
         "--detector " + plugin("example") + " --case-seconds 0",
         "--detector " + plugin("example") + " --threads 0"}) {

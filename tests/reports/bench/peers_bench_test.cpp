@@ -60,7 +60,7 @@ struct SmallRun {
 TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   const SmallRun run({"always_free", "always_collision"});
   EXPECT_TRUE(run.report.wrong_answers.empty());
-  EXPECT_EQ(run.remarks.find("by the oracle alone"), std::string::npos);
+  EXPECT_FALSE(says(run.remarks, "by the oracle alone"));
   ASSERT_EQ(run.rows.size(), 6u + 2u);
   for (const auto& row : run.rows) {
     EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject->name;
@@ -76,8 +76,7 @@ TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   std::uint64_t missed = 0, confirmed = 0;
   for (const auto& row : run.rows) {
     if (row.subject->detector.built_in) continue;
-    const bool is_free = row.counts.errors.missed > 0;
-    EXPECT_EQ(row.counts.errors.false_alarms, is_free ? 0u : 1u);
+    EXPECT_EQ(row.counts.errors.false_alarms, row.counts.errors.missed > 0 ? 0u : 1u);
     missed += row.counts.errors.missed;
     confirmed += row.counts.confirmed;
   }
@@ -99,11 +98,9 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
     EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
     EXPECT_FALSE(row.over) << row.subject->name;
   }
-  const auto& text = run.remarks;
-  EXPECT_NE(text.find("hung"), std::string::npos) << text;
-  EXPECT_NE(text.find("absent: plugin_query_alone: it holds no steps"), std::string::npos) << text;
-  EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
-  EXPECT_NE(text.find("absent: arcsim: its source was not found"), std::string::npos);
+  expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it holds no steps",
+                            "absent: fcl_elementary: libfcl-dev was not there",
+                            "absent: arcsim: its source was not found"});
 }
 
 TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
@@ -123,8 +120,7 @@ TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
   auto modest = *run.rows.back().subject;
   modest.error_claims.set(properties::Claim::free_sound, false);
   run.rows.back().subject = &modest;
-  const auto text = subjects_text(run.rows, "detector");
-  EXPECT_NE(text.find("(1)"), std::string::npos) << text;
+  EXPECT_TRUE(says(subjects_text(run.rows, "detector"), "(1)"));
   const auto json = to_json(run.report, "version");
   EXPECT_EQ(json["subjects"].size(), run.rows.size());
   EXPECT_EQ(json["subjects"][0]["time_over_reference"]["median"], 1);
@@ -159,10 +155,6 @@ TEST(PeersBench, AContactIsConfirmedOnlyWhereThereIsOne) {
   }
 }
 
-std::vector<fs::path> stored_meshes() {
-  return corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes").value();
-}
-
 // Whether the vertex and the face that the oracle finds within 1e-3 of each other, though their
 // triangles do not meet, are so near by the referee of distances.
 bool comes_within(const corpus::Case& c) {
@@ -181,7 +173,8 @@ bool comes_within(const corpus::Case& c) {
 
 // By the oracle with all facts, and by another method than the oracle.
 TEST(PeersBench, EveryStoredMeshHasTheContactThatIsMissed) {
-  const auto files = stored_meshes();
+  const auto files =
+      value_of(corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes"));
   EXPECT_GE(files.size(), 27u);
   for (const auto& file : files) {
     const auto c = corpus::read_case(file).value();

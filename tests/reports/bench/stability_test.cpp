@@ -1,6 +1,5 @@
 // Suite `stability`: right arithmetic is shown as right, and arithmetic that is wrong on purpose as
 // wrong in the way that it is.
-#include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
 #include "properties/judging/case_options.h"
@@ -14,11 +13,6 @@ namespace assay::reports {
 namespace {
 
 using corpus::HardFamily, detector::ContactResult, detector::FourPoints, detector::Want;
-
-const HardFamily& family_named(std::string_view name) {
-  const auto all = corpus::hard_families();
-  return *std::find_if(all.begin(), all.end(), [&](const auto& f) { return f.name == name; });
-}
 
 constexpr double tests_scale = 0.01;
 
@@ -36,7 +30,8 @@ struct Measured {
 };
 
 Measured report_of(std::string_view family, const BenchSubject& subject) {
-  return {stability_of({&family_named(family), 1}, {subject}, {"/nowhere", tests_scale}, {})};
+  const auto& found = *std::ranges::find(corpus::hard_families(), family, &HardFamily::name);
+  return {stability_of({&found, 1}, {subject}, {"/nowhere", tests_scale}, {})};
 }
 
 BenchSubject wrong(detector::Arithmetic arithmetic, MakeStages stages) {
@@ -74,7 +69,7 @@ TEST(Stability, AMissAtTheEndIsAMiss) {
   const auto& row = row_that_starts(done.report, "contact-at-end, wrong: wrong");
   EXPECT_STREQ(row.outcome(), "fails");
   // It breaks at the first strength that is not all right.
-  EXPECT_NE(row.note.find(" 0 (touching), right at 2^"), std::string::npos) << row.note;
+  EXPECT_TRUE(says(row.note, " 0 (touching), right at 2^"));
   EXPECT_FALSE(done.report.wrong_answers.empty());
   // Only what touches at t=1 is lost.
   for (const auto& cell : done.cells()) {
@@ -100,10 +95,8 @@ TEST(Stability, ALateTimeIsLateAndMeasured) {
   EXPECT_EQ(done.sum("errors/missed"), 0u);
   EXPECT_EQ(done.sum("right"), done.sum("cases"));
   EXPECT_LT(done.sum("exactly_right"), done.sum("cases"));
-  const auto& refuted = row_that_starts(done.report, "grazing, wrong: missed, late");
-  EXPECT_STREQ(refuted.outcome(), "fails");
-  EXPECT_NE(row_that_starts(done.report, "grazing, wrong: right").note.find("never wrong"),
-            std::string::npos);
+  EXPECT_STREQ(row_that_starts(done.report, "grazing, wrong: missed, late").outcome(), "fails");
+  EXPECT_TRUE(says(row_that_starts(done.report, "grazing, wrong: right").note, "never wrong"));
   // All first times are 1/2, where an ulp is 2^-53.
   for (const auto& cell : done.cells()) {
     const auto& off = cell["errors"]["late"];

@@ -37,10 +37,8 @@ TEST_F(HostilePlugin, NoneHoldsInACheck) {
 
 TEST_F(HostilePlugin, NoneHoldsInACampaign) {
   if (is_let_loose()) GTEST_SKIP() << properties::fault_of_bubblewrap();
-  for (const auto& mode : quick_modes()) {
-    const auto ended = judge("run", mode.name);
-    expect_no_verdict_bought("run", mode, ended);
-  }
+  for (const auto& mode : quick_modes())
+    expect_no_verdict_bought("run", mode, judge("run", mode.name));
 }
 
 // What the corpus shows takes a certificate half a minute; these end before.
@@ -58,8 +56,7 @@ TEST_F(HostilePlugin, WithoutBubblewrapThereAreLimitsAloneAndItIsSaid) {
       "check --detector " + hostile + " " + curated("A1_winding2_allpositive");
   does("");
   EXPECT_TRUE(contains(run_assay(check).out, "\nisolation: bubblewrap\n"));
-  EXPECT_TRUE(
-      contains(run_assay(check + " --isolation limits").out, "\nisolation: limits alone\n"));
+  expect_says(run_assay(check + " --isolation limits").out, {"\nisolation: limits alone\n"});
   EXPECT_TRUE(contains(run_assay(check, forbidden_bwrap).out, "\nisolation: limits alone\n"));
   const std::string line = "bubblewrap does not work here: bwrap: not permitted; see --isolation";
   expect_refused(run_assay(check + " --isolation bubblewrap", forbidden_bwrap), line);

@@ -16,74 +16,52 @@ class Power : public testing::Test {
   static void SetUpTestSuite() {
     shared = std::make_unique<Scratch>();
     const auto plan = shared->write("proof.json", faults_text("proof", 20, 1));
-    const auto made =
-        run_assay("run --seed 7 --jobs 2 --campaign " + plan + " --out " + proof_folder());
-    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-    ASSERT_TRUE(contains(made.out, " by their curated case alone\n")) << made.out;
+    expect_ended("run --seed 7 --jobs 2 --campaign " + plan + " --out " + proof_folder(), 0,
+                 {" by their curated case alone\n"});
   }
   static void TearDownTestSuite() { shared.reset(); }
   static std::string proof_folder() { return *shared / "proof"; }
 
-  // A campaign that plants faults. `half`: cases of one of its two families, in the other as many.
+  // A campaign that plants faults. `cases`: of each of its families.
   static std::string faults_text(const std::string& name, int cases_of_a_fault, int seeds,
-                                 int half = 8) {
-    const Json plan = {{"schema", "assay-campaign/1"},
-                       {"name", name},
-                       {"strata",
-                        {{{"family", "closed-generic"}, {"cases", half}},
-                         {{"family", "unclosed-generic"}, {"cases", half}},
-                         {{"family", "broken"}, {"cases", half}}}},
-                       {"seconds", nullptr},
-                       {"fault_cases", cases_of_a_fault},
-                       {"fault_seeds", seeds},
-                       {"policy", {{"self_test_queries", 20}}}};
+                                 int cases = 8) {
+    auto plan = Json::parse(R"({"schema": "assay-campaign/1", "seconds": null,
+                                "policy": {"self_test_queries": 20}})");
+    for (const char* family : {"closed-generic", "unclosed-generic", "broken"})
+      plan["strata"].push_back({{"family", family}, {"cases", cases}});
+    plan["name"] = name, plan["fault_cases"] = cases_of_a_fault, plan["fault_seeds"] = seeds;
     return plan.dump();
   }
 
-  static std::optional<properties::Store> open(const std::string& file) {
-    std::string binding;
-    {
-      const auto read = properties::Store::read(file);
-      EXPECT_TRUE(read) << read.error().message;
-      if (!read) return std::nullopt;
-      binding = read.value().binding();
-    }
-    auto opened = properties::Store::open(file, binding);
-    EXPECT_TRUE(opened) << opened.error().message;
-    if (!opened) return std::nullopt;
-    return std::move(opened.value());
+  static properties::Store open(const std::string& file) {
+    std::string binding = properties::Store::read(file).value().binding();
+    return std::move(properties::Store::open(file, binding).value());
   }
   static Rows rows_of(const std::string& file, const std::string& kind) {
-    Rows rows;
-    const auto store = open(file);
-    if (!store) return rows;
-    for (auto& row : store->evidence()) {
-      if (row.kind == kind) rows.push_back(std::move(row));
-    }
+    Rows rows = open(file).evidence();
+    std::erase_if(rows, [&](const auto& row) { return row.kind != kind; });
     return rows;
   }
   // Another binding of a folder's only store.
   static void rebind(const std::string& folder, const std::string& digest) {
     auto store = open(folder + "/run.sqlite");
-    ASSERT_TRUE(store);
-    auto binding = Json::parse(store->binding());
+    auto binding = Json::parse(store.binding());
     binding["digests"][digest] = std::string(64, '0');
-    store->set({"binding", "", 0, binding.dump()});
-    EXPECT_TRUE(store->seal());
+    store.set({"binding", "", 0, binding.dump()});
+    EXPECT_TRUE(store.seal());
   }
   // Makes of the first planted fault that a run took over one that was not found: its name.
   static std::string hide_a_fault(const std::string& file) {
+    auto rows = rows_of(file, "fault");
     auto store = open(file);
-    if (!store) return "";
-    for (auto& row : store->evidence()) {
-      if (row.kind != "fault") continue;
+    for (auto& row : rows) {
       auto facts = Json::parse(row.fields);
       if (facts["status"] != "planted") continue;
       facts["curated"] = false;
       for (auto& needed : facts["needed"]) needed = nullptr;
       row.fields = facts.dump();
-      store->set(row);
-      EXPECT_TRUE(store->seal());
+      store.set(row);
+      EXPECT_TRUE(store.seal());
       return row.key;
     }
     ADD_FAILURE() << file << " has no fault that was taken over";
@@ -95,13 +73,11 @@ class Power : public testing::Test {
     auto sources = rows_of(file, "power");
     ASSERT_EQ(sources.size(), 1u);
     auto store = open(file);
-    ASSERT_TRUE(store);
-    store->drop("power");
+    store.drop("power");
     auto fields = nlohmann::json::parse(sources[0].fields);
-    sources[0].key = key;
     fields["campaign"] = campaign;
-    sources[0].fields = fields.dump();
-    store->set(sources[0]);
+    sources[0].key = key, sources[0].fields = fields.dump();
+    store.set(sources[0]);
   }
 
   const Scratch scratch;
@@ -119,15 +95,12 @@ class Power : public testing::Test {
 };
 
 TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
-  const auto made = run(out, with_proof);
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made = expect_ended(run(out, with_proof), 0);
   EXPECT_TRUE(says(made.out,
                    "; planted faults as campaign proof, seed 7, of this build found "
                    "them; "));
   const auto proved = rows_of(proof_folder() + "/run.sqlite", "fault");
-  EXPECT_TRUE(
-      contains(made.out, " by their curated case alone; campaign proof, seed 7, of this build\n"))
-      << made.out;
+  expect_says(made.out, {" by their curated case alone; campaign proof, seed 7, of this build\n"});
   EXPECT_TRUE(
       contains(read_text(out + "/summary.md"),
                " by their curated case alone. Their proof is taken from campaign proof, seed 7, "
@@ -143,9 +116,8 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   }
   const auto sources = rows_of(store, "power");
   ASSERT_EQ(sources.size(), 1u);
-  const auto findings = properties::read_findings(proof_folder());
-  ASSERT_TRUE(findings) << findings.error().message;
-  EXPECT_EQ(Json::parse(sources[0].fields)["rows"], findings.value().rows);
+  const auto findings = value_of(properties::read_findings(proof_folder()));
+  EXPECT_EQ(Json::parse(sources[0].fields)["rows"], findings.rows);
 
   // The gates look at these rows.
   const auto hidden = hide_a_fault(store);
@@ -169,20 +141,19 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
   expect_ended(certify(" --time 1"), 3,
                {"\ncomplete   FAILS\n  closed-generic: ", "\nverdict: incomplete in "});
   const std::string certificate = out + "/certificate.json";
-  EXPECT_EQ(Json::parse(read_text(certificate))["predicate"]["verdict"], "incomplete");
+  EXPECT_EQ(predicate_in(out)["verdict"], "incomplete");
   const auto before = trials_of(out);
   EXPECT_GT(before.size(), 0u);
   EXPECT_LT(before.size(), 3600u);
 
-  const auto made = certify("");
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made = expect_ended(certify(""), 0);
   EXPECT_TRUE(says(made.out, " (" + std::to_string(before.size()) + " are stored, "));
   EXPECT_TRUE(contains(made.out, "; until done\n")) << made.out;
   const auto after = trials_of(out);
   EXPECT_EQ(after.size(), 3600u);
   EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
   expect_ended("verify " + certificate, 0, {"verified: mine of "});
-  const auto predicate = Json::parse(read_text(certificate))["predicate"];
+  const auto predicate = predicate_in(out);
   const auto& source = predicate["power"]["taken_from"];
   EXPECT_EQ(source["campaign"], "proof");
   EXPECT_EQ(source["seed"], 7);
@@ -260,15 +231,14 @@ TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
   std::string folders;
   for (const std::string seed : {"1", "2"}) {
     const auto folder = scratch / ("share" + seed);
-    const auto part = run(folder, with_proof + " --share 1/2 --seed " + seed);
-    ASSERT_EQ(part.exit_code, 3) << part.out << part.err;
+    expect_ended(run(folder, with_proof + " --share 1/2 --seed " + seed), 3);
     folders += folder + " ";
   }
   const auto both = [&](const std::string& name) {
     return run_assay("verify " + folders + "--out " + scratch / name);
   };
   expect_ended(both("both"), 0);
-  const auto predicate = Json::parse(read_text(scratch / "both/certificate.json"))["predicate"];
+  const auto predicate = predicate_in(scratch / "both");
   EXPECT_EQ(predicate["verdict"], "certified");
   EXPECT_EQ(predicate["power"]["taken_from"]["campaign"], "proof");
   EXPECT_EQ(predicate["power"]["planted"], predicate["power"]["found"]);

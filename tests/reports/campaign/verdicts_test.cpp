@@ -39,13 +39,11 @@ class GeneratedFolder {
     write(campaign_file(folder_), plan_text(request_.plan) + "\n");
   }
   RunFindings issue() const {
-    auto findings = read_findings(folder_);
-    EXPECT_TRUE(findings) << findings.error().message;
-    const auto statement = reports::make_statement(findings.value());
-    EXPECT_TRUE(statement) << statement.error().message;
-    write(certificate_file(folder_), reports::statement_text(statement.value()));
-    EXPECT_TRUE(reports::write_for_ci(statement.value()["predicate"], folder_));
-    return std::move(findings.value());
+    auto findings = value_of(read_findings(folder_));
+    const auto statement = value_of(reports::make_statement(findings));
+    write(certificate_file(folder_), reports::statement_text(statement));
+    EXPECT_TRUE(reports::write_for_ci(statement["predicate"], folder_));
+    return findings;
   }
 
  private:
@@ -55,15 +53,11 @@ class GeneratedFolder {
   static void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }
-  Store open(const std::filesystem::path& file, const std::string& binding) const {
-    auto store = Store::open(file, binding);
-    EXPECT_TRUE(store) << store.error().message;
-    return std::move(store.value());
-  }
+  Store open() const { return value_of(Store::open(store_file(folder_), binding())); }
 
   // A trial less is incomplete; a world with a counterexample breaks a claim.
   void store_trials(const States& states) {
-    auto store = open(store_file(folder_), binding());
+    auto store = open();
     const std::uint64_t trials = fails(states, Gate::complete) ? 1 : 2;
     for (const auto& stratum : request_.plan.strata) {
       for (std::uint64_t i = 0; i < std::min(stratum.cases, trials); ++i) {
@@ -89,7 +83,7 @@ class GeneratedFolder {
   }
 
   void store_checks(const States& states) {
-    auto checks = open(store_file(folder_), binding());
+    auto checks = open();
     checks.set(to_row(JudgedSource{.source = Source::self_test, .input = "line", .cases = 10}));
     JudgedSource row{.input = "curated cases", .configuration = "bvh", .cases = 1, .steps = 1};
     if (fails(states, Gate::corpus)) row.failed = {{"A1", "s", "a & b"}};
@@ -140,8 +134,7 @@ std::pair<std::string, int> expected_of(const States& states) {
 std::string junit_of(const std::string& junit, const std::string& gate) {
   const auto begin = junit.find("classname=\"assay.gates\" name=\"" + gate + "\"");
   EXPECT_NE(begin, std::string::npos);
-  const auto end = junit.find("<testcase", begin);
-  return junit.substr(begin, end - begin);
+  return junit.substr(begin, junit.find("<testcase", begin) - begin);
 }
 
 void expect_gate(const Json& gate, const GateResult& result, const std::string& where) {

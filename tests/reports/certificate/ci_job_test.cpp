@@ -57,10 +57,9 @@ TEST_F(CiJob, EndsWithTheVerdict) {
 
   copy_example();
   EXPECT_EQ(run("2"), 0) << printed;
-  EXPECT_TRUE(contains(printed, "\nown cases ")) << printed;
-  EXPECT_TRUE(
-      contains(printed, " by their curated case alone; campaign few, seed 1, of this build\n"));
-  EXPECT_TRUE(contains(printed, "\nverdict: certified in ")) << printed;
+  expect_says(printed, {"\nown cases ",
+                        " by their curated case alone; campaign few, seed 1, of this build\n",
+                        "\nverdict: certified in "});
   EXPECT_TRUE(contains(report("junit.xml"), "name=\"corpus\"/>"));
   EXPECT_TRUE(contains(report("summary.md"), "certified"));
   const auto certificate = read_text(scratch / "mine/certified-2/certificate.json");
@@ -117,6 +116,7 @@ TEST_F(CiJob, IsRunByTheFilesForGitHubAndGitLab) {
                 "#!/bin/sh\necho built; mkdir -p .package; touch .package/assay_1_amd64.deb\n");
   for (const std::string& file : {apt, scratch / "assay/reports/package/pack"})
     fs::permissions(file, fs::perms::owner_all);
+  std::string ran;
   for (const char* service : {"github.yml", "gitlab.yml"}) {
     const auto file = source / "detector/plugin/ci" / service;
     const auto install = shell_lines(file, "install.sh"), job = shell_lines(file, "job.sh");
@@ -132,7 +132,9 @@ TEST_F(CiJob, IsRunByTheFilesForGitHubAndGitLab) {
     const auto words = job[0].find("sh .assay/");
     ASSERT_NE(words, std::string::npos) << job[0];
     EXPECT_TRUE(says(job[0].substr(0, words), "SEED=$(od -An -N6 -tu8 /dev/urandom")) << job[0];
-    EXPECT_EQ(run_line("SEED=2 " + job[0].substr(words)), 0) << service << ": " << printed;
+    const auto line = "SEED=2 " + job[0].substr(words);
+    if (line == ran) continue;  // what two of them say ends alike
+    EXPECT_EQ(run_line(ran = line), 0) << service << ": " << printed;
     EXPECT_TRUE(contains(report("summary.md"), "certified"));
   }
 }

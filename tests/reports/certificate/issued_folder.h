@@ -13,22 +13,20 @@ inline void write_bytes(const std::filesystem::path& file, const std::string& by
 
 // The certificate of what the stores of the folder say now.
 inline void issue(const std::string& folder) {
-  const auto statement = reports::make_statement(folder);
-  ASSERT_TRUE(statement) << statement.error().message;
-  write_bytes(properties::certificate_file(folder), reports::statement_text(statement.value()));
-  ASSERT_TRUE(reports::write_for_ci(statement.value()["predicate"], folder));
+  const auto statement = value_of(reports::make_statement(folder));
+  write_bytes(properties::certificate_file(folder), reports::statement_text(statement));
+  ASSERT_TRUE(reports::write_for_ci(statement["predicate"], folder));
 }
 
 // Stores the run, what the checks of a certificate say of its paths, and its certificate.
 inline void store_and_issue(const RunToStore& run, const std::string& folder,
                             const properties::Issuance& paths) {
   run.store(folder);
-  auto store =
-      properties::Store::open(properties::store_file(folder), properties::binding_of(run.request));
-  ASSERT_TRUE(store) << store.error().message;
-  store.value().set(to_row(paths));
-  store.value().set(to_row(properties::asked_of_a_run()));
-  ASSERT_TRUE(store.value().seal());
+  auto store = value_of(
+      properties::Store::open(properties::store_file(folder), properties::binding_of(run.request)));
+  store.set(to_row(paths));
+  store.set(to_row(properties::asked_of_a_run()));
+  ASSERT_TRUE(store.seal());
   write_bytes(properties::campaign_file(folder), properties::plan_text(run.request.plan) + "\n");
   issue(folder);
 }

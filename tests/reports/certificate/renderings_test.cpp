@@ -29,23 +29,20 @@ RunFindings with_a_defect() {
 TEST(Junit, FailsWhereTheCertificateDoes) {
   const auto good = junit_text(judged(good_findings()));
   EXPECT_FALSE(contains(good, "<failure"));
-  EXPECT_TRUE(
-      contains(good, "<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"0\">"));
+  expect_says(good, {"<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"0\">"});
   const auto text = junit_text(judged(with_a_defect()));
-  for (const std::string word :
-       {"name=\"broken, bvh\">\n      <failure message=\"19 of 20 trials hold, 1 defects",
-        "name=\"free-sound: missing\">\n      <failure message=\"a &amp; b &lt; c (bvh), met once",
-        "replay, in the folder of the run: assay replay ", "name=\"claims\">\n      <failure"}) {
-    EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
-  }
+  expect_says(
+      text,
+      {"name=\"broken, bvh\">\n      <failure message=\"19 of 20 trials hold, 1 defects",
+       "name=\"free-sound: missing\">\n      <failure message=\"a &amp; b &lt; c (bvh), met once",
+       "replay, in the folder of the run: assay replay ", "name=\"claims\">\n      <failure"});
   EXPECT_EQ(xml_escaped("<a b=\"c\">&\x01"), "&lt;a b=&quot;c&quot;&gt;&amp;?");
 }
 
 TEST(Junit, WhatWasNotJudgedIsSkipped) {
   const auto text = junit_text(judged(good_findings(), properties::asked_of_a_run()));
-  EXPECT_TRUE(
-      contains(text, "<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"2\">"));
-  EXPECT_TRUE(contains(text, "name=\"speed\">\n      <skipped message=\"not judged: "));
+  expect_says(text, {"<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"2\">",
+                     "name=\"speed\">\n      <skipped message=\"not judged: "});
 }
 
 TEST(Junit, OfAShareByItselfNoBoundIsWanted) {
@@ -77,14 +74,13 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   findings.failures = {failure("a|b"), failure("c", "corpus/A1")};
   findings.times_met = {{"a|b", 1}};
   const auto text = summary_text(judged(findings));
-  for (const std::string word :
-       {"## Assay: defect\n", "| claims | **fails** | a\\|b, met once; tiny:1:broken:3 (bvh)",
-        "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
-        "2 of 2 planted faults found: 0 by random cases, 2 by their curated case alone.",
-        "**c** (bvh), met in the corpus alone\n",
-        "All 3 bounds together hold with confidence 95 %"}) {
-    EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
-  }
+  expect_says(
+      text,
+      {"## Assay: defect\n", "| claims | **fails** | a\\|b, met once; tiny:1:broken:3 (bvh)",
+       "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
+       "2 of 2 planted faults found: 0 by random cases, 2 by their curated case alone.",
+       "**c** (bvh), met in the corpus alone\n",
+       "All 3 bounds together hold with confidence 95 %"});
 }
 
 TEST(Summary, ACertificateTellsItsDayAndARunThatOfItsBegin) {
@@ -105,9 +101,8 @@ TEST(Summary, NamesClaimsContractAndCampaign) {
   detector.configurations = {{"plug-in", {"no-spurious", "total"}}};
   detector.contract.margin = 1e300;
   const auto text = summary_text(judged(findings));
-  EXPECT_TRUE(contains(text, "built-in: claims total; not judged: no-spurious (")) << text;
-  EXPECT_TRUE(contains(text, "; contract margin 1e+300; ")) << text;
-  EXPECT_TRUE(contains(text, "; campaign tiny, seed 1")) << text;
+  expect_says(text, {"built-in: claims total; not judged: no-spurious (",
+                     "; contract margin 1e+300; ", "; campaign tiny, seed 1"});
 }
 
 // The largest of each, be it of a trial, of the corpus or of a mesh that was repeated.

@@ -27,12 +27,10 @@ class Tampering : public testing::Test {
   const Scratch scratch;
   const std::string good = scratch / "good", bad = scratch / "bad";
   Random random{7, 1};
-  int tried = 0;
 
   void SetUp() override {
     store_and_issue(good_run(), good, {good, ""});
-    const auto verified = run_assay("verify " + good + "/certificate.json");
-    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    expect_ended("verify " + good + "/certificate.json", 0);
   }
 
   // A copy of the folder, changed by `change`, does not verify.
@@ -41,7 +39,6 @@ class Tampering : public testing::Test {
     fs::remove_all(bad);
     fs::copy(good, bad, fs::copy_options::recursive);
     change();
-    ++tried;
     const auto seen = run_assay("verify " + bad + "/certificate.json");
     if (seen.exit_code == 1) {
       const auto last = seen.out.rfind('\n', seen.out.size() - 2);
@@ -121,14 +118,12 @@ class Tampering : public testing::Test {
       marked[chosen[static_cast<std::size_t>(random.below(static_cast<int>(chosen.size())))]] =
           "MARK";
       auto text = marked.dump(1) + "\n";
-      const auto at = text.find("\"MARK\"");
-      return text.replace(at, 6, word);
+      return text.replace(text.find("\"MARK\""), 6, word);
     };
     for (const std::string word :
          {"NaN", "Infinity", "1e999", "-1e999", "123456789012345678901234567890", "\"\xff\xfe\"",
-          "\"\\ud800\"", "{", "]", "'x'"}) {
+          "\"\\ud800\"", "{", "]", "'x'"})
       expect_text_seen(file, word, with(word));
-    }
     expect_text_seen(file, "deep lists", with(deep_lists));
     expect_text_seen(file, "deep objects", with(deep_objects()));
     expect_text_seen(file, "nothing but deep lists", deep_lists);
@@ -209,13 +204,11 @@ class Tampering : public testing::Test {
 TEST_F(Tampering, OfTheCertificateIsSeen) {
   damage("certificate.json");
   change_json("certificate.json", 120);
-  std::printf("%d changes, none passed\n", tried);
 }
 
 TEST_F(Tampering, OfTheCampaignIsSeen) {
   damage("campaign.json");
   change_json("campaign.json", 40);
-  std::printf("%d changes, none passed\n", tried);
 }
 
 TEST_F(Tampering, OfTheStoreIsSeen) {
@@ -228,12 +221,10 @@ TEST_F(Tampering, OfTheStoreIsSeen) {
       bind_to(file, place, value);
   }
   for (const std::uint64_t shares : {0, 2, 1'000'001}) bind_to(file, "/shares", shares);
-  std::printf("%d changes, none passed\n", tried);
 }
 
 TEST_F(Tampering, OfItsRenderingsIsSeen) {
   for (const std::string file : {"junit.xml", "summary.md"}) damage(file);
-  std::printf("%d changes, none passed\n", tried);
 }
 
 }  // namespace

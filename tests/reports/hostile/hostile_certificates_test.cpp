@@ -20,11 +20,8 @@ TEST_F(HostilePlugin, LimitsOfTheUserBuyNoCertificate) {
   if (is_let_loose()) GTEST_SKIP() << properties::fault_of_bubblewrap();
   for (const char* limit : {"--nofile=8", "--nofile=10", "--nofile=16", "--as=46000000",
                             "--as=100000000", "--fsize=512", "--fsize=50000", "--fsize=500000"}) {
-    for (const char* mode : {"overwrite", "exit-at-evaluate"}) {
-      const int code = expect_no_excuse("certify", mode, limit);
-      std::printf("certify %s under %-16s exit code %d\n", mode, limit, code);
-      std::fflush(stdout);
-    }
+    for (const char* mode : {"overwrite", "exit-at-evaluate"})
+      expect_no_excuse("certify", mode, limit);
   }
 }
 

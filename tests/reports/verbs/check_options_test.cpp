@@ -2,8 +2,6 @@
 // that it is of: every pair of a kind and an option, and every two options that do not go together.
 #include <fmt/format.h>
 
-#include <set>
-
 #include "tests/recorded_log.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -34,7 +32,7 @@ class CheckOptions : public testing::Test {
 
   static inline const Scratch scratch;
   const std::string a = scratch.write("a.obj", mesh(2)), b = scratch.write("b.obj", mesh(1));
-  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
+  const std::string queries = example_queries();
   const std::string table = scratch.write("table.csv", "1,free,\n");
   const std::string truths = scratch.write("truths.json", "[true, false, true, true, false]");
   const std::string recorded = log();

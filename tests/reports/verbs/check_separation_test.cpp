@@ -7,7 +7,7 @@
 namespace assay::tests {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 // A triangle at rest in the plane z = 0 and one above it, whose corner moves from z = 3 to z = 1
 // above the inside of the first; its other two corners are at z = 4.
@@ -28,7 +28,7 @@ TEST_F(SeparationCommand, SaysWhenFirstAndHowNear) {
                {"step 1: near at t = 0.5, 1 pair\n",
                 "least distance 1: triangles 0 and 1 at t = 1 (vertex-face)",
                 "near at t = 0.5 of step 1; least distance 1\n"});
-  const auto report = json::parse(read_text(scratch / "r.json"));
+  const auto report = read_json(scratch / "r.json");
   EXPECT_EQ(report["separation"], 2.0);
   EXPECT_EQ(report["outcome"], "near");
   const auto& step = report["steps"][0];
@@ -54,24 +54,19 @@ TEST_F(SeparationCommand, OffsetsOfTwoBodiesAddUp) {
                              body("high.obj", "4", "3") + " " + body("low.obj", "4", "1") + " ";
   expect_ended(bodies + "--offset 0.5 --offset 1.5 --json " + (scratch / "r.json"), 0,
                {"step 1: near at t = 0.5, 1 pair\n"});
-  const auto report = json::parse(read_text(scratch / "r.json"));
+  const auto report = read_json(scratch / "r.json");
   EXPECT_EQ(report["offsets"], json::array({0.5, 1.5}));
   EXPECT_TRUE(report["separation"].is_null());
   EXPECT_TRUE(says(run_assay(bodies + "--offset 0 --offset 0.5").out,
                    "apart: never within the offsets of two bodies together; least distance 1\n"));
   EXPECT_TRUE(says(run_assay(bodies + "--offset 1").err, "1 offsets for 2 bodies"));
-  EXPECT_EQ(run_assay(bodies + "--offset 1 --offset 1 --separation 1").exit_code, 2);
 }
 
 TEST_F(SeparationCommand, TheExitCodeSaysWhatIsAskedFor) {
   EXPECT_EQ(check("--separation 2 --fail-on-collision").exit_code, 5);
   EXPECT_EQ(check("--separation 0.5 --fail-on-collision").exit_code, 0);
-  for (const char* wrong :
-       {"--separation -1", "--separation nan", "--separation 1e999", "--separation x",
-        "--separation 1 --culling bvh", "--separation 1 --no-oracle"}) {
-    SCOPED_TRACE(wrong);
-    expect_one_line(check(wrong));
-  }
+  for (const std::string wrong : {"-1", "nan", "1e999", "x"})
+    expect_one_line(check("--separation " + wrong));
 }
 
 TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {
@@ -83,15 +78,14 @@ TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {
     question.files = files;
     question.wants_report = true;
     std::string told;
-    const auto answer =
+    const auto answer = value_of(
         reports::check_separation(question, {2, {}}, false, input,
                                   {[&](const std::string& text) { told += text; },
-                                   [&] { return stops && contains(told, "step 1: near"); }});
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer.value().report["steps"][0]["least_distance"], 1.0);
-    EXPECT_EQ(answer.value().report["least_distance"], stops ? json() : json(0.5)) << told;
+                                   [&] { return stops && contains(told, "step 1: near"); }}));
+    EXPECT_EQ(answer.report["steps"][0]["least_distance"], 1.0);
+    EXPECT_EQ(answer.report["least_distance"], stops ? json() : json(0.5)) << told;
     EXPECT_NE(contains(told, "of step 1; least distance"), stops) << told;
-    EXPECT_EQ(answer.value().exit_code, stops ? 3 : 0);
+    EXPECT_EQ(answer.exit_code, stops ? 3 : 0);
   }
 }
 
@@ -110,8 +104,7 @@ TEST_F(SeparationCommand, TheSeparationOfACaseIsWhatEveryVerbAsks) {
   expect_ended("shrink " + file + " --out " + (scratch / "small.json"), 0);
   // Without one it is asked for contacts.
   const auto contacts = scratch.write("contacts.json", corpus::case_text(sinking_corner(1, bvh)));
-  EXPECT_TRUE(says(run_assay("check " + contacts + " --json " + (scratch / "r.json")).out,
-                   "; culling bvh\n"));
+  expect_ended("check " + contacts + " --json " + (scratch / "r.json"), 0, {"; culling bvh\n"});
   EXPECT_EQ(json::parse(read_text(scratch / "r.json"))["separation"], 0.0);
   EXPECT_TRUE(says(run_assay("replay " + contacts).out, "oracle free\n"));
 }
@@ -131,7 +124,7 @@ class QueriesWithin : public testing::Test {
     return run_assay("check " + scratch.write("vf.csv", text) + " --json " + (scratch / "q.json") +
                      " " + options);
   }
-  json report() const { return json::parse(read_text(scratch / "q.json")); }
+  json report() const { return read_json(scratch / "q.json"); }
   const Scratch scratch;
 };
 
@@ -166,18 +159,14 @@ TEST_F(QueriesWithin, RowsWithASeparationGoBeforeTheOption) {
 }
 
 TEST_F(QueriesWithin, WhatKnowsNoDistanceIsRefusedInOneLine) {
-  const auto expect_refused = [&](const std::string& text, const std::string& options,
-                                  const std::string& word) {
-    SCOPED_TRACE(options);
-    expect_one_line(check(text, options), word);
-  };
   for (const std::string method : {"detector-bounded", "detector-double", "detector-float"}) {
-    const auto knows_none = "--method " + method + " knows no separation";
-    expect_refused(rows(",1"), "--separation 1 --method " + method, "query 0: " + knows_none);
-    expect_refused(rows("") + rows(",1,2"), "--method " + method, "query 1: " + knows_none);
+    SCOPED_TRACE(method);
+    const auto asked = "--method " + method, knows_none = asked + " knows no separation";
+    expect_one_line(check(rows(",1"), "--separation 1 " + asked), "query 0: " + knows_none);
+    expect_one_line(check(rows("") + rows(",1,2"), asked), "query 1: " + knows_none);
   }
   for (const std::string word : {"-1", "nan", "1e999", "x"})
-    expect_refused(rows(",1"), "--separation=" + word, "--separation");
+    expect_one_line(check(rows(",1"), "--separation=" + word), "--separation");
 }
 
 }  // namespace

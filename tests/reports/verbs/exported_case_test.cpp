@@ -1,8 +1,6 @@
 // What `assay replay --export` writes compiles against the detector alone, and passes.
 #include "reports/steps/exported_case.h"
 
-#include <map>
-
 #include "properties/claims/claims.h"
 #include "tests/reports/tiny_campaign.h"
 #include "tests/sinking_corner.h"
@@ -15,12 +13,11 @@ class ExportedCase : public testing::Test {
   // Exports the case, compiles its test and runs it: what it prints, or nothing.
   void expect_passes(const std::string& id_or_file) const {
     SCOPED_TRACE(id_or_file);
-    const auto exported = run_assay("replay " + id_or_file + " --export " + (scratch / "case"));
-    ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+    expect_ended("replay " + id_or_file + " --export " + (scratch / "case"), 0);
     ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
     EXPECT_EQ(exit_code_of((scratch / "test >") + (scratch / "printed")), 0)
         << read_text(scratch / "printed");
-    EXPECT_NE(read_text(scratch / "printed").find("1 test from"), std::string::npos);
+    EXPECT_TRUE(says(read_text(scratch / "printed"), "1 test from"));
   }
   int compile() const {
     return exit_code_of(std::string(ASSAY_COMPILER) +
@@ -45,7 +42,7 @@ TEST_F(ExportedCase, CompilesAndPasses) {
   EXPECT_TRUE(contains(read_text(scratch / "case/case.cpp"),
                        "{{Claim::deterministic, \"deterministic\"}, {Claim::total, \"total\"}},"));
   // With a line as its view, given, and several steps.
-  expect_passes(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/B1_one_vertex_own_nearest.json");
+  expect_passes(curated("B1_one_vertex_own_nearest"));
 }
 
 TEST_F(ExportedCase, SaysWhichPairsCount) {
@@ -55,8 +52,7 @@ TEST_F(ExportedCase, SaysWhichPairsCount) {
   const std::string level = "\"level\": \"";
   const auto begin = text.find(level);
   ASSERT_NE(begin, std::string::npos);
-  const auto end = text.find("\"", begin + level.size());
-  text.replace(begin, end - begin, level + "features");
+  text.replace(begin, text.find("\"", begin + level.size()) - begin, level + "features");
   text.insert(text.find(",", begin),
               ", \"bodies\": [[9, 0]], \"rest_distance\": 0.5, \"vertex_faces\": [[0, 1], [0, 2]], "
               "\"edge_pairs\": [[0, 1, 1, 2]]");
@@ -73,8 +69,7 @@ TEST_F(ExportedCase, AsksForTheSeparationOfTheCase) {
 }
 
 TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
-  const std::string file = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json";
-  expect_passes(file);
+  expect_passes(curated("A4_endpoints_only"));
   // The same test asked of another answer.
   std::string text = read_text(scratch / "case/case.cpp");
   const std::string collides = "{0, 1, true, true, ", is_free = "{0, 1, true, false, ";
@@ -112,7 +107,7 @@ class ExportedPlugIn : public testing::Test {
   int filled_in(const std::string& lines) const {
     std::string text = read_text(scratch / "case/case.cpp");
     const std::string unfilled = "  return found;";
-    EXPECT_NE(text.find(unfilled), std::string::npos);
+    EXPECT_TRUE(says(text, unfilled));
     text.replace(text.find(unfilled), unfilled.size(),
                  "  found.filled_in = true;\n" + lines + "\n  return found;");
     scratch.write("case/filled.cpp", text);
@@ -124,17 +119,15 @@ class ExportedPlugIn : public testing::Test {
 };
 
 TEST_F(ExportedPlugIn, IsPlainArrays) {
-  const auto exported =
-      export_case("slow:1:closed-generic:19", "by_contract", "ASSAY_BY_CONTRACT=miss-inside");
-  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  expect_ended(
+      export_case("slow:1:closed-generic:19", "by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
   EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
   EXPECT_FALSE(contains(read_text(scratch / "case/case.json"), "\"answer\""))
       << "nobody stated what is expected";
   compile("case.cpp");
   EXPECT_EQ(exit_code_of(scratch / "program >/dev/null"), 2);
   EXPECT_EQ(filled_in(""), 1);
-  EXPECT_TRUE(contains(printed(), "breaks free-sound\n")) << printed();
-  EXPECT_TRUE(contains(printed(), "answered free, exact collision at ")) << printed();
+  expect_says(printed(), {"breaks free-sound\n", "answered free, exact collision at "});
   compile_plugin();
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=claims=255"), 0) << printed();
   EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
@@ -143,9 +136,9 @@ TEST_F(ExportedPlugIn, IsPlainArrays) {
 }
 
 TEST_F(ExportedPlugIn, IsToldWhichPairsCount) {
-  const auto exported =
-      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores");
-  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  expect_ended(
+      export_case(curated("F_ignored_contact"), "takes_relations", "ASSAY_TAKES_RELATIONS=ignores"),
+      1);
   compile_plugin();
   EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS="), 0) << printed();
   EXPECT_EQ(judged("takes_relations", "ASSAY_TAKES_RELATIONS=ignores"), 1) << printed();
@@ -175,6 +168,7 @@ TEST(ExportedAnswers, AreAskedForEveryClaim) {
   };
   const auto to_the_end = changed([](auto& found) { found.stop = {1, 1, 1}; });
   const auto silent = changed([](auto& found) { found.pairs.clear(); });
+  const auto more = changed([](auto& found) { found.pairs.push_back({0, 2, 0, 1, -1}); });
   using enum properties::Claim;
   const std::map<properties::Claim, x::Found> wrong = {
       {free_sound, x::Found()},
@@ -182,9 +176,7 @@ TEST(ExportedAnswers, AreAskedForEveryClaim) {
       {first_time, changed([](auto& found) { found.lo = found.hi = 0.25; })},
       {first_pairs, silent},
       {all_pairs, changed([](auto& found) { found.pairs[0].lo = 0.75; })},
-      {no_spurious, changed([](auto& found) {
-         found.pairs.push_back({0, 2, 0, 1, -1});
-       })},
+      {no_spurious, more},
       {total, changed([](auto& found) { found.error = "none"; })},
       {candidates, changed([](auto& found) { found.candidates.clear(); })},
       {commit_free, to_the_end},
@@ -232,11 +224,9 @@ TEST_F(ExportedPlugIn, AsksForEachClaim) {
       return "ASSAY_BY_CONTRACT='" + given + "' ASSAY_TEST_WRONG='" + given +
              "' ASSAY_CANDIDATES=" + given.substr(0, given.find(' '));
     };
-    const auto exported = export_case(curated("D6_fast_passage"), name, words(wrong));
-    ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
-    EXPECT_TRUE(contains(exported.out, std::string("DEFECT ") + claim)) << exported.out;
-    EXPECT_TRUE(
-        contains(read_text(scratch / "case/case.cpp"), std::string(", \"") + claim + "\"}},\n"));
+    expect_ended(export_case(curated("D6_fast_passage"), name, words(wrong)), 1,
+                 {std::string("DEFECT ") + claim});
+    expect_says(read_text(scratch / "case/case.cpp"), {std::string(", \"") + claim + "\"}},\n"});
     compile_plugin();
     EXPECT_EQ(judged(name, words(wrong)), 1) << printed();
     EXPECT_TRUE(contains(printed(), std::string("breaks ") + claim)) << printed();
@@ -246,8 +236,7 @@ TEST_F(ExportedPlugIn, AsksForEachClaim) {
 
 TEST_F(ExportedPlugIn, WhoClaimsLittleDoesNotFailByItsOwnTest) {
   const std::string words = "ASSAY_BY_CONTRACT='claims=1 whenever'";
-  const auto exported = export_case(curated("A4_endpoints_only"), "by_contract", words);
-  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+  expect_ended(export_case(curated("A4_endpoints_only"), "by_contract", words), 0);
   EXPECT_EQ(filled_in("  found.collision = true;"), 0) << printed();
   compile_plugin();
   EXPECT_EQ(judged("by_contract", words), 0) << printed();
@@ -273,9 +262,8 @@ TEST_F(ExportedPlugIn, MayReportWhatComesWithinItsSlack) {
 
 TEST_F(ExportedPlugIn, LeavesOutWhatTheContractDoes) {
   const std::string words = "ASSAY_BY_CONTRACT=strangers";
-  const auto exported = export_case(curated("A1_winding2_allpositive"), "by_contract", words);
-  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
-  EXPECT_TRUE(says(exported.out, " left out by the contract, the first at t = "));
+  expect_ended(export_case(curated("A1_winding2_allpositive"), "by_contract", words), 0,
+               {" left out by the contract, the first at t = "});
   compile_plugin();
   EXPECT_EQ(judged("by_contract", words), 0) << printed();
   EXPECT_EQ(judged("wrapped_builtin", ""), 0) << "who reports them is not wrong\n" << printed();

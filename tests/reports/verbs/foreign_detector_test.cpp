@@ -1,5 +1,7 @@
 // What the owner of a detector is told of it: rates that it never claimed, claims of which nothing
 // is known, and the cases on which it takes longest.
+#include <sys/stat.h>
+
 #include "properties/campaign/gates/findings.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -20,17 +22,16 @@ class ForeignDetector : public testing::Test {
                          " --detector " + library + " " + more,
                      "ASSAY_BY_CONTRACT=\"" + words + "\" ");
   }
-  Json predicate() const { return Json::parse(read_text(out + "/certificate.json"))["predicate"]; }
 };
 
 // Claims free-sound, not-late and total.
 constexpr const char* modest = "claims=131 ";
 
 TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
-  const auto made = judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  const auto made =
+      expect_ended(judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120)), 0);
   std::uint64_t alarms = 0, free_steps = 0;
-  const Json stated = predicate();
+  const Json stated = predicate_in(out);
   for (const auto& stratum : stated["strata"]) {
     const auto& rate = stratum["measures"]["false_alarms"];
     EXPECT_LE(rate["interval"][0].get<double>(), 0.1) << rate;
@@ -56,8 +57,7 @@ void expect_no_empty_table(const std::string& text) {
        {"stratum ", "law ", "fault ", "input ", "whatever is claimed", "gate ", "speed ("}) {
     for (auto at = text.find("\n" + head); at != std::string::npos;
          at = text.find("\n" + head, at + 1)) {
-      const auto next = text.find('\n', at + 1) + 1;
-      EXPECT_NE(text[next], '\n') << head << "\n" << text;
+      EXPECT_NE(text[text.find('\n', at + 1) + 1], '\n') << head << "\n" << text;
     }
   }
 }
@@ -65,9 +65,7 @@ void expect_no_empty_table(const std::string& text) {
 TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
   for (const std::string words : {"claims=128 no-pairs", "claims=1 no-pairs start=free"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", words, plan_text(6));
-    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-    expect_no_empty_table(made.out);
+    expect_no_empty_table(expect_ended(judge("run", words, plan_text(6)), 0).out);
     const auto checked = run_assay("check " + curated("D6_fast_passage") + " --detector " + library,
                                    "ASSAY_BY_CONTRACT='" + words + "' ");
     expect_no_empty_table(checked.out);
@@ -77,14 +75,13 @@ TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
       expect_no_empty_table(run_assay("list " + list + " " + out).out);
   }
   const auto made =
-      run_assay("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +
-                (scratch / "certified") + " --detector " + plugin("misses_on_97"));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+      expect_ended("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +
+                       (scratch / "certified") + " --detector " + plugin("misses_on_97"),
+                   0);
   expect_no_empty_table(made.out);
   EXPECT_FALSE(contains(read_text(scratch / "certified/junit.xml"), "tests=\"0\""));
-  const auto stated = Json::parse(read_text(scratch / "certified/certificate.json"))["predicate"];
-  EXPECT_TRUE(stated["laws"].is_null());
-  EXPECT_TRUE(stated["cases"]["set_pairs"].empty());
+  EXPECT_TRUE(predicate_in(scratch / "certified")["laws"].is_null());
+  EXPECT_TRUE(predicate_in(scratch / "certified")["cases"]["set_pairs"].empty());
 }
 
 TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
@@ -124,13 +121,11 @@ TEST_F(ForeignDetector, CheckTellsTheExactTimeBesideItsOwn) {
         .out;
   };
   const auto wide = check("whenever");
-  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto step = read_json(scratch / "check.json")["steps"][0];
   const auto exact = step["oracle"]["first_time"][0].get<double>();
   EXPECT_GT(exact, 0);
   EXPECT_EQ(step["diff"]["first"]["early_by"].get<double>(), exact) << "by the lower end";
-  EXPECT_TRUE(contains(wide, "  first time [0, 1], exact ")) << wide;
-  EXPECT_TRUE(contains(wide, ": early by ")) << wide;
-  EXPECT_TRUE(contains(wide, "early in 1 step, by ")) << wide;
+  expect_says(wide, {"  first time [0, 1], exact ", ": early by ", "early in 1 step, by "});
   const auto right = check("");
   EXPECT_TRUE(contains(right, "  first time 0.") && contains(right, ", exact 0.")) << right;
   EXPECT_FALSE(contains(right, "early") || contains(right, "late")) << right;
@@ -145,7 +140,7 @@ TEST_F(ForeignDetector, CheckObeysTheContract) {
                                  library + " --json " + (scratch / "check.json"),
                              "ASSAY_BY_CONTRACT=strangers "),
                    0);
-  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto step = read_json(scratch / "check.json")["steps"][0];
   const auto left_out = step["diff"]["left_out"].get<int>();
   EXPECT_GT(left_out, 0);
   EXPECT_EQ(step["oracle"]["pairs"].get<int>() + left_out, 10);
@@ -154,12 +149,12 @@ TEST_F(ForeignDetector, CheckObeysTheContract) {
 
 TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   // It always answers collision at [0, 1], under the widest contract that loads.
-  const auto made =
+  const auto made = expect_ended(
       judge("certify", "claims=255 whenever no-pairs margin=1e300 tolerance=1e-3 start=free",
-            plan_text(12));
-  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+            plan_text(12)),
+      0);
   std::vector<std::string> not_judged;
-  const Json stated = predicate();
+  const Json stated = predicate_in(out);
   for (const auto& one : stated["not_judged"])
     not_judged.push_back(one["claim"].get<std::string>());
   EXPECT_EQ(not_judged,
@@ -212,6 +207,75 @@ TEST_F(ForeignDetector, WhatClaimsNothingThatIsLeftIsRefused) {
   expect_refused(run_assay("check " + curated("A4_endpoints_only") + " --detector " + library,
                            "ASSAY_BY_CONTRACT=\"claims=32 margin=1\" "),
                  "it claims nothing that its contract leaves to be judged");
+}
+
+// `assay check --detector`: a plug-in through the command line, as its owner runs it.
+class Plugin : public testing::Test {
+ protected:
+  // On a scene that collides or one that does not, with a report.
+  static Outcome check(const std::string& name, bool collides, const std::string& more = "") {
+    return run_assay("check --detector " + plugin(name) + " --json " + (scratch / "report.json") +
+                     " " + (collides ? colliding : free) + " " + more);
+  }
+  static Json report() { return read_json(scratch / "report.json"); }
+
+  static inline const Scratch scratch;
+  static inline const std::string colliding = make_scene(scratch, "folding-sheet", 200, 5);
+  static inline const std::string free = make_scene(scratch, "breathing-sphere", 200, 5);
+};
+
+TEST_F(Plugin, TheBuiltInHoldsAsAPlugIn) {
+  expect_ended(check("wrapped_builtin", true), 0,
+               {"plug-in built-in as a plug-in 1", "all claims hold"});
+  EXPECT_EQ(check("wrapped_builtin", true, "--fail-on-collision").exit_code, 5);
+  EXPECT_EQ(report()["outcome"], "holds");
+  EXPECT_EQ(report()["culling"], nullptr);
+  EXPECT_EQ(report()["detector"]["claims"].size(), 12u);
+  EXPECT_EQ(report()["detector"]["contract"]["adjacency"], "all");
+}
+
+TEST_F(Plugin, WhatItsContractLeavesOutIsSaid) {
+  expect_ended(check("example", true), 0,
+               {"contract: neighbours no-shared-vertex", "collision at t = [0, 1] of step"});
+  EXPECT_EQ(report()["steps"][0]["first_time"], Json::array({0, 1}));
+}
+
+TEST_F(Plugin, ABrokenClaimIsNamed) {
+  expect_ended(check("always_free", true), 1, {"broken: free-sound first-pairs all-pairs"});
+  const auto steps = report()["steps"];
+  EXPECT_TRUE(std::any_of(steps.begin(), steps.end(), [](const Json& step) {
+    return step["diff"]["broken"] == Json::array({"free-sound", "first-pairs", "all-pairs"});
+  }));
+  expect_ended(check("always_collision", false), 1, {"broken: no-spurious"});
+}
+
+TEST_F(Plugin, ACrashAndARefusalAreDefectsAHangIsUndecided) {
+  expect_ended(check("exit", true), 1, {"DEFECT: exited with code 0; broken: total"});
+  EXPECT_EQ(report()["outcome"], "defect");
+  EXPECT_EQ(report()["detector_ended"], "exited with code 0; broken: total");
+  expect_ended(check("refuse", true), 1, {"too many triangles"});
+  expect_ended(check("hang", true, "--time 0.3"), 3, {"undecided: no answer in 0.3 s"});
+}
+
+TEST_F(Plugin, AStepWithoutAnAnswerBreaksTotal) {
+  expect_ended(check("fail", true), 1, {"step 1: evaluate returned 3"});
+  EXPECT_EQ(report()["steps"][0]["diff"]["broken"], Json::array({"total"}));
+}
+
+TEST_F(Plugin, CaseFilesAreRunByTheirScript) {
+  for (const std::string name : {"B1_one_vertex_own_nearest", "D8_release_arm_sequence"})
+    expect_ended("check --detector " + plugin("wrapped_builtin") + " " + curated(name), 0);
+}
+
+TEST_F(Plugin, WhatCannotBeUsedIsRefusedInOneLine) {
+  const auto words = "check " + free + " ";
+  expect_refused(words + "--detector /nowhere/lib.so", "/nowhere/lib.so: no such file");
+  expect_refused(words + "--detector " ASSAY_SOURCE_DIR "/README.md", "not a detector plug-in");
+  const std::string pipe = scratch / "pipe.so";
+  ASSERT_EQ(mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  expect_refused(words + "--detector " + pipe, "not a detector plug-in: not a file");
+  expect_refused(words + "--detector " + plugin("without_entry"), "exports no assay_detector()");
+  expect_refused(words + "--detector " + plugin("wrong_abi"), "built for ABI version 99");
 }
 
 }  // namespace

@@ -71,16 +71,14 @@ TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
   int number = 0;
   for (const auto& input : inputs) {
     SCOPED_TRACE(input);
-    const auto told = expect_ended(run("check " + input), 1);
-    expect_same(told.out, 1, 1);
+    expect_same(expect_ended(run("check " + input), 1).out, 1, 1);
     const auto kept = folder / fmt::format("kept {}", ++number), report = kept / "r.json";
-    const auto words = fmt::format("check {} --keep '{}' --json '{}'", input,
-                                   kept.filename().string(), report.string());
-    const auto made = expect_ended(run(words), 1);
-    const bool is_plugin = contains(input, "--detector");
-    expect_same(made.out, 1, is_plugin ? 2 : 1);
+    const auto made = expect_ended(run(fmt::format("check {} --keep '{}' --json '{}'", input,
+                                                   kept.filename().string(), report.string())),
+                                   1);
+    expect_same(made.out, 1, contains(input, "--detector") ? 2 : 1);
     // The same lines stand in the report and on the page, and the kept case names all files.
-    const auto step = nlohmann::json::parse(read_text(report)).at("kept").at(0);
+    const auto step = read_json(report).at("kept").at(0);
     const auto page = read_text(kept / "page.html");
     for (const char* line : {"again", "replay"}) {
       const auto text = step.at(line).get<std::string>();
@@ -88,8 +86,7 @@ TEST_F(LinesToPaste, OfCheckNameFramesBodiesAndAnswers) {
       EXPECT_EQ(text.empty() ? 1 : code_of(text, "/"), 1) << text;
     }
     EXPECT_TRUE(contains(page, "<pre>cd ")) << page;
-    const auto c = nlohmann::json::parse(read_text(kept / "step-1" / "case.json"));
-    const auto source = c.at("source").get<std::string>();
+    const std::string source = read_json(kept / "step-1" / "case.json").at("source");
     for (const std::string name :
          {"a 0.obj", "b 0.obj", "b 1.obj", "f 0.obj", "f 1.obj", "free.csv", "late.csv"})
       EXPECT_EQ(contains(source, name), contains(input, name)) << source;
@@ -118,12 +115,9 @@ TEST_F(LinesToPaste, OfACaseFileKeepItsRelation) {
 }
 
 TEST_F(LinesToPaste, OfCheckNameTheLogAndTheStep) {
-  const auto path = (folder / "my log").string();
-  write_missed_contact(path);
-  for (const std::string word : {"'my log'", "'my log#2'"}) {
-    const auto judged = expect_ended(run("check " + word + " --keep judged"), 1);
-    expect_same(judged.out, 1, 1);
-  }
+  write_missed_contact((folder / "my log").string());
+  for (const std::string word : {"'my log'", "'my log#2'"})
+    expect_same(expect_ended(run("check " + word + " --keep judged"), 1).out, 1, 1);
   const auto shrunk =
       expect_ended(run("shrink 'my log#2' --out 'small one.json' --isolation limits --detector " +
                        plugin("always_free")),
@@ -157,17 +151,14 @@ TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
   const auto made = expect_ended(run(check + detector, state), 1,
                                  {"not reproduced: asked about this step alone"});
   EXPECT_FALSE(contains(made.out, "replay: ")) << made.out;
-  const auto step = nlohmann::json::parse(read_text(folder / "state/r.json")).at("kept").at(0);
-  EXPECT_EQ(step.at("reproduced"), false);
+  EXPECT_EQ(read_json(folder / "state/r.json").at("kept").at(0).at("reproduced"), false);
   EXPECT_TRUE(contains(read_text(folder / "state/page.html"), "not reproduced"));
   ::setenv("ASSAY_QUERY", "claims=129 free-after-calls=2", 1);
   expect_same(made.out, 1, 1);
   ::unsetenv("ASSAY_QUERY");
 
-  expect_ended(run("check --json q.json " + std::string(ASSAY_SOURCE_DIR) +
-                       "/corpus/queries/example_vf.csv" + detector,
-                   state),
-               1, {"asked again by itself"});
+  expect_ended(run("check --json q.json " + example_queries() + detector, state), 1,
+               {"asked again by itself"});
   EXPECT_TRUE(contains(read_text(folder / "q.json"), "asked again by itself"));
 
   file("plan.json", plan_text(8));

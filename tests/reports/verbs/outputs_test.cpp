@@ -22,7 +22,6 @@ class Outputs : public testing::Test {
   const std::string frames = frame("a.obj", 1) + " " + frame("b.obj", -0.5);
   const std::string right = scratch.write("right.csv", "1,collision,0.6\n");
   const std::string wrong = scratch.write("wrong.csv", "1,free,\n");
-  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
   const std::string plan = scratch.write("plan.json", plan_text(8));
   int folders_ = 0;
 
@@ -53,7 +52,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefusedBeforeTheWork) {
   }
   const std::string files[] = {check + " --json ",
                                "check " + frames + " --separation 1 --json ",
-                               "check " + queries + " --json ",
+                               "check " + example_queries() + " --json ",
                                judge + " --json ",
                                judge + " --junit ",
                                judge + " " + (scratch / "steps.log") + " --junit ",

@@ -13,7 +13,7 @@ class Parts : public testing::Test {
   const Scratch scratch;
   const std::string plan = scratch.write(
       "plan.json", plan_text(24, R"(, "shrink_share": 0.3, "policy": {"self_test_queries": 20})"));
-  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
+  const std::string queries = example_queries();
   const std::string broad = " --detector " + plugin("candidates_alone");
   const std::string query = " --detector " + plugin("query_alone");
 
@@ -45,22 +45,19 @@ corpus::Case query_with_a_contact() {
 }
 
 void expect_valid_certificate(const std::string& file) {
-  expect_certificate_schema(Json::parse(read_text(file)));
+  expect_certificate_schema(read_json(file));
 }
 
 TEST_F(Parts, ABroadPhaseIsCheckedByWhatItLoses) {
-  const std::string folder = scratch / "scene";
-  ASSERT_EQ(run_assay("scene folding-sheet --size 200 --frames 5 --out " + folder).exit_code, 0);
-  const std::string check = "check " + folder + "/frame_*.ply --json " + (scratch / "report.json");
+  const std::string check = "check " + make_scene(scratch, "folding-sheet", 200, 5) + " --json " +
+                            (scratch / "report.json");
   expect_ended(
       candidates("threads=4", check + " --threads 4"), 0,
       {"\nthreads: 4", "no answer; agree", " needed, 0 lost", "candidate pairs; all claims hold"});
-  auto report = Json::parse(read_text(scratch / "report.json"));
-  EXPECT_EQ(report["outcome"], "holds");
+  EXPECT_EQ(read_json(scratch / "report.json")["outcome"], "holds");
   expect_ended(candidates("every-second", check), 1,
                {"broken: candidates", "no candidate: triangles "});
-  report = Json::parse(read_text(scratch / "report.json"));
-  const auto& last = report["steps"].back()["diff"]["candidates"];
+  const auto last = read_json(scratch / "report.json")["steps"].back()["diff"]["candidates"];
   EXPECT_GT(last["given"], last["least"]);
   EXPECT_GT(last["missing"].size(), 0u);
 }
@@ -71,8 +68,7 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
                    {"claims: deterministic, total, candidates\n", "candidates / least"});
   EXPECT_FALSE(contains(right.out, "not judged: candidates")) << right.out;
   expect_valid_certificate(out("right") + "/certificate.json");
-  const auto statement = Json::parse(read_text(out("right") + "/certificate.json"));
-  const auto& measures = statement["predicate"]["strata"][0]["measures"]["candidates"];
+  const auto measures = predicate_in(out("right"))["strata"][0]["measures"]["candidates"];
   EXPECT_GT(measures["least"], 0);
   EXPECT_GT(measures["over_least"], 1);
   expect_ended(candidates("", "verify --again 1 " + out("right") + "/certificate.json"), 0);
@@ -82,14 +78,11 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   const auto lines = replay_lines(wrong.out);
   ASSERT_FALSE(lines.empty());
   expect_ended(lines[0], 1, {"DEFECT candidates: missing candidate"});
-  const auto page =
-      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page"));
-  ASSERT_EQ(page.exit_code, 0) << page.err;
+  expect_ended(
+      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page")), 0);
   // The page tells what is no candidate, and never that a pair is missing.
-  const auto text = read_text(out("page"));
-  EXPECT_TRUE(contains(text, R"("reports_pairs":false)"));
-  EXPECT_TRUE(contains(text, R"("candidates":[)"));
-  EXPECT_TRUE(contains(text, R"("over_least":)"));
+  expect_says(read_text(out("page")),
+              {R"("reports_pairs":false)", R"("candidates":[)", R"("over_least":)"});
 }
 
 // A library with whole steps and a query that is wrong in its query alone.
@@ -99,7 +92,7 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
                {"\nclosed-generic ", "\nquery-ulp ", "\ncurated cases ", "\nnamed queries ",
                 "; of its elementary query free-sound, "});
   expect_valid_certificate(out("both") + "/certificate.json");
-  const auto stated = Json::parse(read_text(out("both") + "/certificate.json"))["predicate"];
+  const auto stated = predicate_in(out("both"));
   EXPECT_EQ(stated["detector"]["configurations"][0]["claims"].size(), 8u);
   EXPECT_EQ(stated["detector"]["query_claims"].size(), 6u);
   EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array());
@@ -110,10 +103,10 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
   const auto wrong =
       expect_ended(with("ASSAY_QUERY", "miss-coplanar", campaign("certify", "wrong") + both), 1,
                    {"verdict: defect"});
-  const auto found = Json::parse(read_text(out("wrong") + "/certificate.json"))["predicate"];
-  ASSERT_FALSE(found["failures"].empty());
+  const auto failures = predicate_in(out("wrong"))["failures"];
+  ASSERT_FALSE(failures.empty());
   // Of the trials of its query, or of the corpus' named queries: none is of its steps.
-  for (const auto& failure : found["failures"])
+  for (const auto& failure : failures)
     EXPECT_TRUE(contains(failure["case"], "query-") || contains(failure["case"], "corpus/example-"))
         << failure["case"];
   const auto lines = replay_lines(wrong.out);
@@ -133,7 +126,7 @@ TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
   const std::string check = "check " + queries + " --json " + (scratch / "report.json");
   expect_ended(asked("", check), 0,
                {"0 false positives, 0 false negatives", "all claims hold in 5 queries"});
-  const auto report = Json::parse(read_text(scratch / "report.json"));
+  const auto report = read_json(scratch / "report.json");
   EXPECT_EQ(report["method"], "query alone 1");
   EXPECT_EQ(report["detector"]["judged"], 5);
   EXPECT_EQ(report["detector"]["broken"], Json::object());
@@ -159,7 +152,7 @@ TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
       {"5 queries (5 within 3), 5 yes, 5 without a label", "all claims hold in 5 queries"});
   expect_ended(asked(within, check + " --separation 3"), 0,
                {"5 yes, 0 without a label", "2 disputed labels"});
-  EXPECT_EQ(Json::parse(read_text(scratch / "report.json"))["separation"], Json::array({3.0, 3.0}));
+  EXPECT_EQ(read_json(scratch / "report.json")["separation"], Json::array({3.0, 3.0}));
   expect_ended(asked(within + " miss-inside miss-at-start", check), 1,
                {"broken: free-sound, by 5 queries"});
   expect_refused(asked(within, check + " --separation 2"),
@@ -182,7 +175,7 @@ TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
   for (const auto& line : lines) expect_ended(line, 1, {"DEFECT free-sound: answered free"});
   // Simpler than it was drawn, and still the query that it says.
   const auto file = lines[0].substr(lines[0].find(' ') + 1);
-  const auto smallest = Json::parse(read_text(file.substr(0, file.find(' '))));
+  const auto smallest = read_json(file.substr(0, file.find(' ')));
   EXPECT_EQ(smallest["triangles"], Json::parse("[[0, 1, 2], [1, 3, 2]]"));
   EXPECT_TRUE(smallest["options"].contains("query"));
   const auto of_trial = asked("miss-inside", "replay tiny:1:query-constructed:0");
@@ -190,12 +183,8 @@ TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
 }
 
 TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
-  const auto replayed = [&](const std::string& words) {
-    return asked(words, "replay " + scratch.write("query.json", case_text(query_with_a_contact())) +
-                            " --export " + out("case"));
-  };
-  const auto missed = replayed("miss-inside");
-  ASSERT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  const auto query = scratch.write("query.json", case_text(query_with_a_contact()));
+  expect_ended(asked("miss-inside", "replay " + query + " --export " + out("case")), 1);
   const auto compiles = [&](const std::string& file, const std::string& more) {
     EXPECT_EQ(exit_code_of(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") +
                            file + more + " -o " + out("program") + " 2>" + out("compiler")),
@@ -232,13 +221,11 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
 }
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
-  const std::string frames = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
   expect_refused(candidates("", "check " + queries), "it holds no elementary query");
   expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
                  "it holds no elementary query");
-  expect_refused(asked("", "check " + frames + "B1_one_vertex_own_nearest.json"),
-                 "but a query alone");
+  expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "but a query alone");
   expect_refused("replay tiny:1:query-ulp:0", "--detector");
   expect_refused(asked("claims=8", "check " + queries), "claims nothing of its query");
 }

@@ -1,5 +1,4 @@
 // `assay replay`: by id, by file, with --why and --export.
-#include <regex>
 
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/trials/trials.h"
@@ -56,7 +55,7 @@ TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
   ASSERT_NE(about, std::string::npos);
   text.insert(about + 10, "\\u001b[2Jgone");
   const auto outcome = expect_ended("replay " + scratch.write("case.json", text), 0, {"?[2Jgone"});
-  EXPECT_EQ(outcome.out.find('\033'), std::string::npos) << outcome.out;
+  EXPECT_FALSE(says(outcome.out, '\033'));
 }
 
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
@@ -110,13 +109,7 @@ TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
                {"no built-in campaign is called smok; did you mean smoke?"});
   expect_refused("replay", "CASE is required");
   expect_refused("replay /tmp", "directory");
-  expect_refused("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so",
-                 "no such file");
   const Scratch scratch;
-  std::string text = read_text(curated("A4_endpoints_only"));
-  const std::string known = "\"culling\": \"view-point\"";
-  text.replace(text.find(known), known.size(), "\"culling\": \"fast\"");
-  expect_refused("replay " + scratch.write("option.json", text), "fast");
   expect_refused("replay " + scratch.write("bad.json", "{"), "bad.json");
 }
 
@@ -129,8 +122,7 @@ TEST(Replay, WhyTellsOfAPair) {
   EXPECT_EQ(run_assay("replay " + file + " --why 1,0").out, outcome.out);
   // What it says of being reported is what the step says.
   const bool reported = contains(outcome.out, "detector: reported");
-  const bool in_contact = contains(outcome.out, "oracle: in contact at t = ");
-  EXPECT_EQ(reported, in_contact) << outcome.out;
+  EXPECT_EQ(reported, contains(outcome.out, "oracle: in contact at t = ")) << outcome.out;
   for (const std::string pair : {"0,99", "-1,2", "1,1", "1", "a,b", "1,2,3", "'1;2'", "''"}) {
     SCOPED_TRACE(pair);
     expect_refused("replay " + file + " --why=" + pair, "--why");
@@ -172,11 +164,10 @@ TEST(Replay, WhyTellsOfADistanceWhereTheCaseHasASeparation) {
 TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {
   // All pairs of a small mesh in contact: those that the oracle has are reported, the others not.
   const auto file = curated("A4_endpoints_only");
-  const auto c = corpus::read_case(file);
-  ASSERT_TRUE(c);
+  const auto c = value_of(corpus::read_case(file));
   int met = 0, apart = 0;
-  for (int a = 0; a < c.value().triangles.rows(); ++a) {
-    for (int b = a + 1; b < c.value().triangles.rows(); ++b) {
+  for (int a = 0; a < c.triangles.rows(); ++a) {
+    for (int b = a + 1; b < c.triangles.rows(); ++b) {
       const auto out =
           run_assay("replay " + file + " --why " + std::to_string(a) + "," + std::to_string(b)).out;
       const bool contact = contains(out, "oracle: in contact at t = ");
@@ -195,29 +186,14 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
                                "tiny:1:broken:1", "tiny:1:closed-far-large-step:2"}) {
     SCOPED_TRACE(id);
     const std::string folder = scratch / id;
-    const auto outcome = run_assay("replay " + id + " --export " + folder);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    const auto outcome = expect_ended("replay " + id + " --export " + folder, 0);
     EXPECT_TRUE(contains(outcome.out, "exported to " + folder)) << outcome.out;
-    const auto c = corpus::read_case(folder + "/case.json");
-    ASSERT_TRUE(c) << c.error().message;
-    for (std::size_t f = 0; f < c.value().frames.size(); ++f) {
-      std::ostringstream name;
-      name << folder << "/frame_000" << f << ".obj";
-      std::ifstream in(name.str());
-      std::vector<double> numbers;
-      std::vector<int> corners;
-      for (std::string word; in >> word;) {
-        for (int i = 0; i < 3; ++i) {
-          std::string number;
-          in >> number;
-          if (word == "v") numbers.push_back(std::strtod(number.c_str(), nullptr));
-          if (word == "f") corners.push_back(std::stoi(number) - 1);
-        }
-      }
-      const auto& x = c.value().frames[f];
-      const auto& triangles = c.value().triangles;
-      EXPECT_EQ(numbers, std::vector<double>(x.data(), x.data() + x.size()));
-      EXPECT_EQ(corners, std::vector<int>(triangles.data(), triangles.data() + triangles.size()));
+    const auto c = value_of(corpus::read_case(folder + "/case.json"));
+    for (std::size_t f = 0; f < c.frames.size(); ++f) {
+      const auto frame =
+          value_of(corpus::read_mesh(folder + "/frame_000" + std::to_string(f) + ".obj"));
+      EXPECT_EQ(frame.positions, c.frames[f]);
+      EXPECT_EQ(frame.triangles, c.triangles);
     }
     // check reads them and comes to the oracle's answer of the first step.
     const auto checked = run_assay("check " + folder + "/frame_0000.obj " + folder +
@@ -226,21 +202,12 @@ TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
         contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle collision");
     EXPECT_EQ(checked.exit_code, collides ? 5 : 0) << checked.out << checked.err;
     collisions += collides;
-    const auto at = outcome.out.find("oracle collision at t = ");
-    if (collides && at != std::string::npos) {
-      const auto begin = at + std::string("oracle collision at t = ").size();
-      const auto time = outcome.out.substr(begin, outcome.out.find(", ", begin) - begin);
-      EXPECT_TRUE(contains(checked.out, "collision at t = " + time)) << checked.out << time;
-    }
+    std::smatch time;
+    const bool tells =
+        std::regex_search(outcome.out, time, std::regex("oracle (collision at t = [^,]*), "));
+    EXPECT_TRUE(!collides || !tells || contains(checked.out, time.str(1))) << checked.out;
   }
   EXPECT_GT(collisions, 0);
-}
-
-TEST(Replay, ExportThatCannotBeWritten) {
-  const Scratch scratch;
-  const auto file = scratch.write("file", "");
-  expect_refused(std::string("replay ") + some_id + " --export " + file, "cannot be made");
-  expect_refused(std::string("replay ") + some_id + " --export /proc/nowhere", "cannot be made");
 }
 
 }  // namespace

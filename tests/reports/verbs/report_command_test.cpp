@@ -20,8 +20,7 @@ TEST_F(Report, OnePageOfTwoRunsAndNothingElse) {
   const auto page = scratch / "page.html";
   const auto outcome = expect_ended("report " + tiny("a") + " " + tiny("b") + " --out " + page, 0);
   EXPECT_EQ(outcome.err, "");
-  EXPECT_TRUE(contains(outcome.out, "a: defect")) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "page " + page)) << outcome.out;
+  expect_says(outcome.out, {"a: defect", "page " + page});
   const auto text = read_text(page);
   EXPECT_TRUE(text.starts_with("<!doctype html>"));
   EXPECT_EQ(count_of(text, "\"signature\":\"all-pairs: missing\""), 2u);
@@ -60,8 +59,6 @@ TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {
   expect_refused("report " + (scratch / "empty") + " --out " + page, "no run is stored here");
   expect_refused("report " + tiny("a"), "--out");
   expect_refused("report --out " + page, "DIR is required");
-  expect_refused("report " + tiny("a") + " --out " + (scratch / "no/such/page.html"),
-                 "folder does not exist");
   expect_refused("report " + tiny("a") + " " + (scratch / "empty") + " --out " + page,
                  "no run is stored here");
   EXPECT_FALSE(std::filesystem::exists(page)) << "a page of some of the runs is none";

@@ -6,8 +6,6 @@
 namespace assay::tests {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 class Shares : public testing::Test {
  protected:
   // An eighth of a campaign of 16 cases in each of two families, as a run of it leaves it.
@@ -40,9 +38,6 @@ class Shares : public testing::Test {
   Outcome judge(const std::string& folders) const {
     return run_assay("verify " + folders + "--out " + out);
   }
-  Json predicate(const std::string& folder) const {
-    return Json::parse(read_text(folder + "/certificate.json"))["predicate"];
-  }
   bool has_a_store() const { return properties::stored_runs(out).has_value(); }
   const Scratch scratch;
   const std::string out = scratch / "all";
@@ -51,10 +46,10 @@ class Shares : public testing::Test {
 TEST_F(Shares, OfEightSeedsComeToTheWhole) {
   const auto folders = good(1, 8);
   expect_ended("verify " + scratch / "share3", 3);
-  EXPECT_EQ(predicate(scratch / "share3")["verdict"], "incomplete");
+  EXPECT_EQ(predicate_in(scratch / "share3")["verdict"], "incomplete");
   expect_ended(judge(folders), 0,
                {"verdict: holds; " + out + "/certificate.json\n", "seeds 1, 2, 3, 4, 5, 6, 7, 8"});
-  const auto stated = predicate(out);
+  const auto stated = predicate_in(out);
   EXPECT_EQ(stated["campaign"]["is_whole"], true);
   EXPECT_EQ(stated["strata"][1]["trials"], 16);
   EXPECT_EQ(stated["strata"][1]["bounds"][0]["holds"], 16);
@@ -63,7 +58,7 @@ TEST_F(Shares, OfEightSeedsComeToTheWhole) {
   for (const auto& part : stated["campaign"]["parts"]) {
     const auto seed = std::to_string(part["seed"].get<int>());
     EXPECT_EQ(part["share"], "1/8");
-    EXPECT_EQ(part["rows"], predicate(scratch / ("share" + seed))["digests"]["rows"]) << seed;
+    EXPECT_EQ(part["rows"], predicate_in(scratch / ("share" + seed))["digests"]["rows"]) << seed;
   }
   EXPECT_EQ(run_assay("verify " + out).exit_code, 0);
   // It depends on the runs alone, and what it was computed from is part of a larger sum.
@@ -71,14 +66,14 @@ TEST_F(Shares, OfEightSeedsComeToTheWhole) {
   EXPECT_EQ(judge(folders).exit_code, 0);
   EXPECT_EQ(read_text(out + "/certificate.json"), certificate);
   expect_ended("verify " + out + " " + good(9) + "--out " + scratch / "more", 0);
-  EXPECT_EQ(predicate(scratch / "more")["strata"][1]["trials"], 18);
+  EXPECT_EQ(predicate_in(scratch / "more")["strata"][1]["trials"], 18);
 }
 
 TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
   expect_ended(judge(good(1, 7)), 3,
                {"complete   FAILS\n  a whole campaign is more than the shares "
                 "that are there: 1/8 under seed 1, "});
-  EXPECT_EQ(predicate(out)["verdict"], "incomplete");
+  EXPECT_EQ(predicate_in(out)["verdict"], "incomplete");
   // A share that was not judged to its end.
   const auto half =
       store(eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H'), "half");
@@ -97,8 +92,7 @@ TEST_F(Shares, OfOneSeedDoNotCountTwice) {
                         (good(1, 2), std::filesystem::copy_options::recursive));
   const auto twice = expect_ended(
       judge(scratch / "share1" + (" " + scratch / "share2") + " " + (scratch / "copy") + " "), 2);
-  EXPECT_TRUE(contains(twice.err, "share2/run.sqlite and ")) << twice.err;
-  EXPECT_TRUE(contains(twice.err, "copy/run.sqlite: both are of seed 2, ")) << twice.err;
+  expect_says(twice.err, {"share2/run.sqlite and ", "copy/run.sqlite: both are of seed 2, "});
   EXPECT_FALSE(has_a_store());
 }
 
@@ -106,7 +100,7 @@ TEST_F(Shares, OfWhichOneHasADefectAreADefect) {
   auto run = eighth(8).judge("closed-generic", 2, 'H').judge("broken", 1, 'H');
   run.judge("broken", 1, 'D').fail("B1_one_vertex_own_nearest", "all-pairs: missing pair", "lost");
   expect_ended(judge(good(1, 7) + store(run, "share8")), 1, {"verdict: defect; "});
-  const auto stated = predicate(out);
+  const auto stated = predicate_in(out);
   ASSERT_EQ(stated["failures"].size(), 1u);
   EXPECT_TRUE(
       std::filesystem::exists(out + "/" + stated["failures"][0]["file"].get<std::string>()));
@@ -151,10 +145,9 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   EXPECT_EQ(properties::stored_runs(out).value().size(), 2u);
   EXPECT_EQ(run_assay("verify " + out).exit_code, 3);
   // No run goes on there, which would be judged with them.
-  for (const std::string verb : {"run", "certify"}) {
+  for (const std::string verb : {"run", "certify"})
     expect_problem(run_assay(verb + " --campaign smoke --out " + out),
                    "seed-1.sqlite: is of another run");
-  }
   std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);

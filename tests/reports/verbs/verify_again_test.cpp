@@ -77,9 +77,8 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   // A defect becomes a success.
   std::string id;
   {
-    const auto store = Store::read(store_file(out));
-    ASSERT_TRUE(store);
-    store.value().for_each_trial([&](const TrialRecord& r) {
+    const auto store = value_of(Store::read(store_file(out)));
+    store.for_each_trial([&](const TrialRecord& r) {
       if (r.outcomes == "D" && id.empty()) id = r.id;
     });
   }

@@ -88,9 +88,7 @@ void ask_about(const Batch& batch, Settled& settled) {
     const bool pierces =
         segment_pierces_triangle(point(0), point(1), {point(2), point(3), point(4)});
     ASSERT_NE(rungs[i], LaneRung::axis);
-    if (rungs[i] == LaneRung::filter) {
-      ASSERT_FALSE(pierces) << "query " << i;
-    }
+    ASSERT_FALSE(pierces && rungs[i] == LaneRung::filter) << "query " << i;
     settled.piercings += rungs[i] == LaneRung::filter;
     settled.pierced += pierces;
   }
@@ -124,10 +122,8 @@ TEST(QueryLanes, ReadRowsAtAnyStride) {
                              std::numeric_limits<double>::quiet_NaN());
   const Eigen::Map<const Positions, 0, Eigen::OuterStride<>> wide(padded.data(), n, 3,
                                                                   Eigen::OuterStride<>(5));
-  for (Eigen::Index v = 0; v < n; ++v) {
-    for (Eigen::Index k = 0; k < 3; ++k)
-      padded[static_cast<std::size_t>(5 * v + k)] = batch.x_t0(v, k);
-  }
+  for (Eigen::Index i = 0; i < 3 * n; ++i)
+    padded[static_cast<std::size_t>(i / 3 * 5 + i % 3)] = batch.x_t0.data()[i];
   for (const auto kernel :
        {&QueryKernels::vertex_face, &QueryKernels::edge_edge, &QueryKernels::piercing}) {
     std::vector<LaneRung> rungs(batch.queries.size());

@@ -94,7 +94,6 @@ TEST(CubicTimes, AgreeWithTheAlgebraicKernel) {
       }
     }
   }
-  std::printf("%d zeros, %d of these of other polynomials too\n", zeros, common);
   EXPECT_GT(common, zeros / 2);
 }
 
@@ -213,7 +212,6 @@ TEST(QuadraticTimes, AgreeWithTheAlgebraicKernel) {
       }
     }
   }
-  std::printf("%d zeros, %d of these and other polynomials\n", zeros, common);
   EXPECT_GT(common, zeros);
 }
 
