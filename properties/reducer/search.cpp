@@ -1,86 +1,23 @@
 #include "properties/reducer/search.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
+#include "properties/random.h"
 #include "properties/reducer/case_edits.h"
+#include "properties/worker/messages.h"
 
 namespace assay::properties {
 namespace {
 
 using corpus::Case;
 
-// A hash of 64 bits over everything that a pass may change. Among a million contents two are taken
-// for one another with a chance of 3e-8. The price is that one proposal is not judged.
-class ContentHash {
- public:
-  void add(std::uint64_t word) {
-    state_ = (std::rotl(state_, 23) ^ word) * 0x9e3779b97f4a7c15u;
-    state_ ^= state_ >> 32;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const std::vector<detector::Point>& points) {
-    add(static_cast<std::uint64_t>(points.size()));
-    for (const auto& point : points) {
-      for (const double value : point) add(value);
-    }
-  }
-  void add(const detector::Triangles& triangles) {
-    add(static_cast<std::uint64_t>(triangles.rows()));
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) {
-      add(static_cast<std::uint64_t>(triangles.data()[i]));
-    }
-  }
-  // In order, with the number of members in front.
-  template <class List, class Members>
-  void add_list(const List& list, const Members& members) {
-    add(static_cast<std::uint64_t>(list.size()));
-    for (const auto& item : list) {
-      for (const std::int32_t member : members(item)) add(static_cast<std::uint64_t>(member));
-    }
-  }
-  void add(const detector::CountedPairs& pairs) {
-    const auto as_it_is = [](const auto& item) { return item; };
-    add(static_cast<std::uint64_t>(pairs.level));
-    add_list(pairs.body, [](std::int32_t body) { return std::array{body}; });
-    add_list(pairs.apart, as_it_is);
-    add(static_cast<std::uint64_t>(pairs.rings));
-    add(pairs.rest_distance);
-    add(pairs.rest);
-    add_list(pairs.triangle_pairs, [](const auto& p) { return std::array{p.a, p.b}; });
-    add_list(pairs.vertex_faces, [](const auto& p) { return std::array{p.vertex, p.face}; });
-    add_list(pairs.edge_pairs, [](const auto& p) {
-      return std::array{p.a[0], p.a[1], p.b[0], p.b[1]};
-    });
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0x243f6a8885a308d3u;
-};
-
+// Returns a hash of 64 bits over everything that a pass may change. Among a million contents two are
+// taken for one another with a chance of 3e-8. The price is that one proposal is not judged.
 std::uint64_t hash_of(const Case& c) {
-  ContentHash hash;
-  hash.add(c.triangles);
-  hash.add(static_cast<std::uint64_t>(c.frames.size()));
-  for (const auto& frame : c.frames) {
-    for (Eigen::Index i = 0; i < frame.size(); ++i) hash.add(frame.data()[i]);
-  }
-  for (const auto& step : corpus::steps_of(c)) {
-    hash.add((static_cast<std::uint64_t>(step.from) << 33) ^
-             (static_cast<std::uint64_t>(step.to) << 1) ^ (step.commit ? 1u : 0u));
-  }
-  if (c.view) {
-    hash.add(c.view->q0);
-    hash.add(c.view->q1);
-  }
-  if (c.ghosts) {
-    hash.add(c.ghosts->triangles);
-    for (const auto& apexes : c.ghosts->apexes) hash.add(apexes);
-  }
-  if (c.counted) hash.add(c.counted->pairs);
-  return hash.value();
+  Numbers script;  // without the padding of a step
+  for (const auto& [from, to, commit] : corpus::steps_of(c))
+    script.insert(script.end(), {from, to, commit});
+  return Random::hash(encode(c.triangles, c.frames, script, c.view, c.ghosts, c.counted));
 }
 
 }  // namespace

@@ -188,6 +188,7 @@ void fields(Archive& archive, CaseRun& run) {
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed, asks_limits)
 ASSAY_FIELDS(corpus::CaseView, q0, q1)
+ASSAY_FIELDS(corpus::CaseGhosts, apexes, triangles)
 ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
