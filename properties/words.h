@@ -15,13 +15,6 @@ namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 
-// Returns the word of a value; "unknown" for a value that the enum does not have.
-template <class Enum, std::size_t n>
-constexpr const char* word_of(const char* const (&words)[n], Enum value) {
-  const auto place = static_cast<std::size_t>(value);
-  return place < n ? words[place] : "unknown";
-}
-
 // The rows of an enum whose list has more than names, in the order of its values.
 template <Listed Enum>
 inline constexpr auto all_rows = names_of(Enum{});

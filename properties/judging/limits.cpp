@@ -167,8 +167,7 @@ class LimitComparison {
 
   std::string cause_of_stall() const {
     if (!truth_.first) return "nothing is in the way";
-    return text_of(
-        cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0));
+    return cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0);
   }
 
   const LimitAnswer& answer_;

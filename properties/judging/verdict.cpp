@@ -55,12 +55,10 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
   const bool of_distance = contract.separation > 0;
   const detector::SteppedMesh motion{x_t0, x_t1};
   const auto query = query_of(c);
-  const bool meets = contact != pairs.end();
-  failure.cause =
-      text_of(query   ? meets ? cause_of_query(c.triangles, motion, *contact, of_distance)
-                              : cause_of_query(c.triangles, motion, features_of(*query), of_distance)
-                : meets ? cause_of(c.triangles, motion, *contact, of_distance)
-                      : cause_of(c.triangles, motion, *failure.pair, of_distance));
+  failure.cause = contact != pairs.end()
+                      ? cause_of(c.triangles, motion, *contact, of_distance, query.has_value())
+                      : cause_of(c.triangles, motion, *failure.pair, of_distance,
+                                 query ? std::optional(features_of(*query)) : std::nullopt);
 }
 
 // Rewrites the explanation of a failed query in terms of features, because the two triangles of a
@@ -94,8 +92,8 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
     if (detector.built_in) {
       if (configuration.fault.empty()) find_stage(failure, c, step, *diff, configuration.options);
     } else if (failure.claim == Claim::commit_free) {
-      failure.cause = text_of(cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
-                                       *diff->limit->hit, detector.contract.separation > 0));
+      failure.cause = cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
+                               *diff->limit->hit, detector.contract.separation > 0);
     } else {
       find_cause(failure, c, step, truth[s], detector.contract);
     }

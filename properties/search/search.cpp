@@ -154,10 +154,7 @@ std::optional<Entry> entry_of(const CaseResults& one, const SearchSpace& space, 
   if (focus->contact) {
     const auto step = corpus::steps_of(c)[focus->step];
     const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
-    const auto& contact = *focus->contact;
-    entry.cause =
-        text_of(says_query(c) ? cause_of_query(c.triangles, motion, contact, separation > 0)
-                              : cause_of(c.triangles, motion, contact, separation > 0));
+    entry.cause = cause_of(c.triangles, motion, *focus->contact, separation > 0, says_query(c));
   }
   if (space.gives_views && focus->contact && !says_query(c)) {
     entry.is_within_a_component = is_within_a_component(c, *focus);

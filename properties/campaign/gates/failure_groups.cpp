@@ -112,8 +112,7 @@ std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
       if (alone && contact.pair != *alone) continue;
       auto& words = contacts.emplace_back();
       words.insert(name_of(contact.feature.kind));
-      add_cause(words, text_of(is_query ? cause_of_query(c.triangles, motion, contact, of_distance)
-                                        : cause_of(c.triangles, motion, contact, of_distance)));
+      add_cause(words, cause_of(c.triangles, motion, contact, of_distance, is_query));
       mesh.add_to(words, contact.pair);
       if (!is_query) add_motion(words, c.triangles, motion, contact.pair);
     }

@@ -144,7 +144,7 @@ class Peers : public testing::Test {
       for (const auto& contact : asks_all ? way.pairs : way.asked_pairs) {
         if (contact.pair != *verdict.failure->pair) continue;
         EXPECT_GT(contact.time.hi, 0) << signature;
-        return text_of(cause_of(c.triangles, {start_of(c, step), end_of(c, step)}, contact));
+        return cause_of(c.triangles, {start_of(c, step), end_of(c, step)}, contact);
       }
       return std::nullopt;
     };
