@@ -64,15 +64,13 @@ bool is_unanswered_contact(const detector::StepResult& result, const StepTruth& 
 
 // The parts of compare(), which states their order.
 struct Comparison {
-  Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract,
-             const detector::TrianglesView& triangles)
-      : result_(result),
-        judgement_(judgement),
-        claims_(claims),
-        contract_(contract),
-        times_{claims.has(Claim::times_unique), contract.time_tolerance},
-        truth_(truth_of(judgement, contract, triangles)) {}
+  const detector::StepResult& result_;
+  const oracle::StepJudgement& judgement_;
+  const Claims& claims_;
+  const Contract& contract_;
+  Times times_;
+  StepTruth truth_;
+  StepDiff diff_ = {};
 
   // What may be reported: whatever is there, or is so within the slack.
   const std::vector<PairContact>& allowed_pairs() const {
@@ -182,14 +180,6 @@ struct Comparison {
     weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);
     return std::move(diff_);
   }
-
-  const detector::StepResult& result_;
-  const oracle::StepJudgement& judgement_;
-  const Claims& claims_;
-  const Contract& contract_;
-  Times times_;
-  StepTruth truth_;
-  StepDiff diff_;
 };
 
 // The place of a finite double among all of them. -0 and 0 have the same place.
@@ -210,7 +200,12 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  Comparison comparison(result, judgement, claims, contract, triangles);
+  Comparison comparison{result,
+                        judgement,
+                        claims,
+                        contract,
+                        {claims.has(Claim::times_unique), contract.time_tolerance},
+                        truth_of(judgement, contract, triangles)};
   auto& diff = comparison.diff_;
   auto& truth = comparison.truth_;
   diff.answer = result.answer;
@@ -266,65 +261,74 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
   return finds(detector::Culling::none) ? "pair search" : "elementary test";
 }
 
-void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
-                      const Claims& claims, const Contract& contract,
-                      const detector::TrianglesView& triangles, StepDiff& diff) {
-  if (!claims.has(Claim::candidates)) return;
-  const StepTruth truth = truth_of(judgement, contract, triangles);
+namespace {
+
+void judge_candidates(const CandidatePairs* candidates, const JudgedStep& step, StepDiff& diff) {
+  if (!step.claims.has(Claim::candidates)) return;
+  const StepTruth truth = step.truth();
   diff.starts_near = truth.starts_near;
-  if (candidates) {
-    auto ours = candidates->begin();
+  const bool are_given = candidates && *candidates;
+  if (are_given) {
+    auto ours = (*candidates)->begin();
+    const auto end = (*candidates)->end();
     for (const auto& contact : truth.pairs) {
-      while (ours != candidates->end() && *ours < contact.pair) ++ours;
-      const bool is_there = ours != candidates->end() && *ours == contact.pair;
-      if (!is_there) diff.missing_candidates.push_back(contact);
+      while (ours != end && *ours < contact.pair) ++ours;
+      if (ours == end || *ours != contact.pair) diff.missing_candidates.push_back(contact);
     }
-    diff.candidates = {candidates->size(), truth.pairs.size()};
+    diff.candidates = {(*candidates)->size(), truth.pairs.size()};
   }
-  weigh(claims.only(claims_about({About::broad_phase})), diff);
-  if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+  weigh(step.claims.only(claims_about({About::broad_phase})), diff);
+  if (diff.outcome == Outcome::holds && !(are_given && step.judgement.complete)) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   }
 }
 
-StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
-                         const Contract& contract, const detector::TrianglesView& triangles) {
+StepDiff diff_of_refusal(const JudgedStep& step) {
   StepDiff diff;
   diff.answer = Answer::error;
-  diff.oracle_complete = judgement.complete;
-  const StepTruth truth = truth_of(judgement, contract, triangles);
+  diff.oracle_complete = step.judgement.complete;
+  const StepTruth truth = step.truth();
   diff.starts_near = truth.starts_near;
-  diff.overload = {static_cast<std::uint64_t>(triangles.rows()), truth.pairs.size(),
-                   judgement.feature_candidates};
-  if (beyond_capacity(contract, *diff.overload)) {
+  diff.overload = {static_cast<std::uint64_t>(step.triangles.rows()), truth.pairs.size(),
+                   step.judgement.feature_candidates};
+  if (beyond_capacity(step.contract, *diff.overload)) {
     diff.outcome = Outcome::refused;
-  } else if (!judgement.complete) {
+  } else if (!step.judgement.complete) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   } else {
     diff.owes_answer = true;
     diff.outcome = Outcome::error;
-    weigh(claims, diff);
+    weigh(step.claims, diff);
   }
   return diff;
 }
 
-StepDiff diff_without_answer(const detector::StepResult& result,
-                             const oracle::StepJudgement& judgement, const Claims& claims,
-                             const Contract& contract, const detector::TrianglesView& triangles) {
+StepDiff diff_without_answer(const detector::StepResult& result, const JudgedStep& step) {
   StepDiff diff;
   diff.has_answer = false;
-  if (result.answer != detector::Answer::error) return diff;
-  diff.unanswered_contact = is_unanswered_contact(result, truth_of(judgement, contract, triangles));
+  if (result.answer != Answer::error) return diff;
+  diff.unanswered_contact = is_unanswered_contact(result, step.truth());
   diff.owes_answer = true;
   diff.outcome = Outcome::error;
-  weigh(claims, diff);
+  weigh(step.claims, diff);
   return diff;
 }
 
-using detector::Answer;
-using detector::PairContact;
+}  // namespace
+
+StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& step) {
+  if (is_over_capacity(run, place)) return diff_of_refusal(step);
+  const auto& result = run.steps[place];
+  StepDiff diff = run.has_answers
+                      ? compare(result, step.judgement, step.claims, step.contract, step.triangles)
+                      : diff_without_answer(result, step);
+  diff.oracle_complete = step.judgement.complete;
+  judge_candidates(place < run.candidates.size() ? &run.candidates[place] : nullptr, step, diff);
+  if (place < run.limits.size()) judge_limit(run.limits[place], step, diff);
+  return diff;
+}
 
 Answer StepTruth::answer() const {
   if (first) return Answer::collision;

@@ -104,25 +104,36 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair,
                             detector::Options options = {});
 
-// Judges the candidates of a step and adds the result to its diff: each pair in contact that counts
-// under the contract must be among them. If no candidates were given, or the oracle was stopped, a
-// step that would hold is undecided. REQUIRES a judgement by asked_features(contract). O(n) in both
-// numbers of pairs.
-void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
-                      const Claims& claims, const Contract& contract,
-                      const detector::TrianglesView& triangles, StepDiff& diff);
-
-// The step that a limiter is asked about. `options` say which pairs count and are tested.
-struct LimitedStep {
+// A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's way
+// is judged by them. REQUIRES a judgement by asked_features(contract).
+struct JudgedStep {
   detector::SteppedMesh motion;
-  const detector::TrianglesView& triangles;
+  detector::TrianglesView triangles;
   const oracle::JudgeOptions& options;
+  const oracle::StepJudgement& judgement;
+  const Claims& claims;
+  const Contract& contract;
+  StepTruth truth() const { return truth_of(judgement, contract, triangles); }
 };
 
+// Returns the diff of the step at this place of the run: of its answer (compare), its candidates
+// and its limit (judge_limit). REQUIRES a run that has this step.
+//
+// Each pair in contact that counts under the contract must be among the candidates, if they are
+// claimed. If none were given, or the oracle was stopped, a step that would hold is undecided.
+//
+// A step that was refused as beyond the capacity has the outcome `refused` if a number of the
+// contract's capacity is exceeded, and undecided if the oracle was stopped before it had counted
+// that far. Else it breaks `total`, or is an error without that claim.
+//
+// A step of a library that gives candidates or limits but no answers holds, or was an error, which
+// breaks `total`. O(n) in the numbers of pairs and candidates.
+StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& step);
+
 // Judges the limit of a step and adds the result to its diff. A step that starts in contact, or
-// within the separation of the contract, is not judged. `judgement` is of the whole step under the
-// contract. If the limiter stops short of x_t1, the oracle is asked once more, about the step from
-// x_t0 to that place. If the oracle was stopped, a step that would hold is undecided.
+// within the separation of the contract, is not judged. The judgement is of the whole step under
+// the contract. If the limiter stops short of x_t1, the oracle is asked once more, about the step
+// from x_t0 to that place. If the oracle was stopped, a step that would hold is undecided.
 //
 // Here t* is the first contact time of the whole step, or 1 if there is none. The share is too
 // short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding
@@ -130,20 +141,6 @@ struct LimitedStep {
 // gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more, and
 // the oracle finds the way free to each of eight equally spaced places from that share to t*,
 // rounded. Else the share is only counted.
-void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
-                 const oracle::StepJudgement& judgement, const Claims& claims,
-                 const Contract& contract, StepDiff& diff);
-
-// Returns the diff of a step that was refused as beyond the capacity. The outcome is `refused` if a
-// number of the contract's capacity is exceeded, and undecided if the oracle was stopped before it
-// had counted that far. Else the step breaks `total`, or is an error without that claim.
-StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
-                         const Contract& contract, const detector::TrianglesView& triangles);
-
-// Returns the diff of a step of a library that gives candidates or limits but no answers: the step
-// holds, or was an error, which breaks `total`.
-StepDiff diff_without_answer(const detector::StepResult& result,
-                             const oracle::StepJudgement& judgement, const Claims& claims,
-                             const Contract& contract, const detector::TrianglesView& triangles);
+void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff);
 
 }  // namespace assay::properties

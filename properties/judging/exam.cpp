@@ -174,24 +174,6 @@ StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement
   return truth_of(judgement, says_query(c) ? on_queries(contract) : contract, c.triangles);
 }
 
-StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& step,
-                    const oracle::StepJudgement& judgement, const Claims& claims,
-                    const Contract& contract) {
-  const auto& triangles = step.triangles;
-  if (is_over_capacity(run, place)) return diff_of_refusal(judgement, claims, contract, triangles);
-  const auto& result = run.steps[place];
-  StepDiff diff = run.has_answers
-                      ? compare(result, judgement, claims, contract, triangles)
-                      : diff_without_answer(result, judgement, claims, contract, triangles);
-  diff.oracle_complete = judgement.complete;
-  const CandidatePairs none;
-  const auto& candidates = place < run.candidates.size() ? run.candidates[place] : none;
-  judge_candidates(candidates, judgement, claims, contract, triangles, diff);
-  if (place < run.limits.size())
-    judge_limit(run.limits[place], step, judgement, claims, contract, diff);
-  return diff;
-}
-
 Verdict judge_run(const corpus::Case& c, const CaseRun& run,
                   std::span<const oracle::StepJudgement> judgements, const Claims& claims,
                   const Contract& contract, const CaseRun* again) {
@@ -226,13 +208,16 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
   }
   const Contract of_case = says_query(c) ? on_queries(contract) : contract;
   const auto script = corpus::steps_of(c);
-  const detector::TrianglesView triangles(c.triangles);
   std::optional<AskedPairs> pairs;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
     if (!pairs) pairs.emplace(c, contract, 1);
-    const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
-    auto diff =
-        judge_step(run, s, {motion, triangles, pairs->options}, judgements[s], claims, of_case);
+    auto diff = judge_step(run, s,
+                           {{start_of(c, script[s]), end_of(c, script[s])},
+                            c.triangles,
+                            pairs->options,
+                            judgements[s],
+                            claims,
+                            of_case});
     verdict.outcome = worse(verdict.outcome, diff.outcome);
     for (const auto claim : diff.breaches) add_broken(verdict, claim);
     verdict.left_out_misses += diff.left_out_missed ? 1 : 0;

@@ -77,12 +77,6 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contr
 StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
                    const Contract& contract);
 
-// Returns the diff of the step at this place of the run: of its answer, its candidates and its
-// limit (agreement.h). REQUIRES a run that has this step.
-StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& step,
-                    const oracle::StepJudgement& judgement, const Claims& claims,
-                    const Contract& contract);
-
 // Judges a run. The way in which the run ended decides first:
 // - A crash breaks `total`, and so does a refusal, unless the case is expected to be refused. If
 //   `total` is not claimed, both are Outcome::error.

@@ -44,9 +44,8 @@ bool is_before(double share, const detector::TimeEnclosure& time) {
 
 class LimitComparison {
  public:
-  LimitComparison(const LimitAnswer& answer, const LimitedStep& step, const StepTruth& truth,
-                  const Claims& claims, const Contract& contract)
-      : answer_(answer), step_(step), truth_(truth), claims_(claims), contract_(contract) {}
+  LimitComparison(const LimitAnswer& answer, const JudgedStep& step, const StepTruth& truth)
+      : answer_(answer), step_(step), truth_(truth), contract_(step.contract) {}
 
   void judge(StepDiff& diff) {
     LimitDiff& limit = diff.limit.emplace();
@@ -73,11 +72,11 @@ class LimitComparison {
     limit.too_far = answer_.share >= 0 && first && !is_before(answer_.share, first->time);
     // The sign of this is exact but for the least of all doubles.
     const bool is_short = answer_.share >= 0 && std::fma(progress, possible, -limit.way) > 0;
-    if (is_short && claims_.has(Claim::progress)) {
+    if (is_short && step_.claims.has(Claim::progress)) {
       limit.too_short = is_owed(progress * possible, possible);
       limit.is_excused = !limit.too_short;
     }
-    weigh(claims_.only(claims_on_limits), diff);
+    weigh(step_.claims.only(claims_on_limits), diff);
     if (was_stopped_ && diff.outcome == Outcome::holds) {
       diff.partial = true;
       diff.outcome = Outcome::undecided;
@@ -171,27 +170,24 @@ class LimitComparison {
   }
 
   const LimitAnswer& answer_;
-  const LimitedStep& step_;
+  const JudgedStep& step_;
   const StepTruth& truth_;
-  const Claims& claims_;
   const Contract& contract_;
   bool was_stopped_ = false;
 };
 
 }  // namespace
 
-void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
-                 const oracle::StepJudgement& judgement, const Claims& claims,
-                 const Contract& contract, StepDiff& diff) {
+void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff) {
   if (diff.outcome == Outcome::error) return;
-  const StepTruth truth = truth_of(judgement, contract, step.triangles);
+  const StepTruth truth = step.truth();
   if (!diff.first_contact) diff.first_contact = truth.first;
   if (answer && truth.first && truth.first->time.hi == 0) {
     diff.starts_near |= !diff.has_answer && !diff.candidates;
     return;
   }
-  if (answer && judgement.complete) {
-    LimitComparison(*answer, step, truth, claims, contract).judge(diff);
+  if (answer && step.judgement.complete) {
+    LimitComparison(*answer, step, truth).judge(diff);
   } else if (diff.outcome == Outcome::holds) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;

@@ -179,15 +179,18 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
   const TestedContacts is_tested(contract, c);
-  const detector::TrianglesView triangles(c.triangles);
   const auto script = corpus::steps_of(c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
     auto answer = step_alone(run, s);
     answer.limits.clear();  // which the oracle alone judges
-    const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
-    const auto diff = judge_step(answer, 0, {motion, triangles, {}},
-                                 truth_by(answers.steps[s], is_tested), detector.claims, contract);
+    const auto diff = judge_step(answer, 0,
+                                 {{start_of(c, script[s]), end_of(c, script[s])},
+                                  c.triangles,
+                                  {},
+                                  truth_by(answers.steps[s], is_tested),
+                                  detector.claims,
+                                  contract});
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {

@@ -237,8 +237,13 @@ std::string fault_of(const StepLimit& limit, const PosedCase& p, const corpus::C
   const auto& x_t0 = start_of(p.judged_case, step);
   StepDiff diff;
   judge_limit(LimitAnswer{limit.share, limit.positions.topRows(x_t0.rows())},
-              {{x_t0, end_of(p.judged_case, step)}, p.judged_case.triangles, options}, truth,
-              claims, contract, diff);
+              {{x_t0, end_of(p.judged_case, step)},
+               p.judged_case.triangles,
+               options,
+               truth,
+               claims,
+               contract},
+              diff);
   return diff.breaches.empty() ? "" : fmt::format("limit: {}", name_of(diff.breaches.front()));
 }
 
