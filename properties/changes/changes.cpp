@@ -22,8 +22,7 @@ double largest_along(const Case& c, int axis) {
 
 bool is_finite(const Case& c) {
   const auto numbers = numbers_along(c);
-  return std::all_of(numbers.begin(), numbers.end(),
-                     [](const double* x) { return std::isfinite(*x); });
+  return std::ranges::all_of(numbers, [](const double* x) { return std::isfinite(*x); });
 }
 
 namespace {
@@ -242,7 +241,7 @@ MaybeForm if_exact(const std::optional<Case>& c) {
 }
 
 Numbers reversed(Numbers numbers) {
-  std::reverse(numbers.begin(), numbers.end());
+  std::ranges::reverse(numbers);
   return numbers;
 }
 
@@ -358,9 +357,9 @@ MaybeForm halve_steps(const Case& c, Random&) {
 MaybeForm play_back(const Case& c, Random&) {
   Form form = unchanged(c);
   form.same_times = false;
-  std::reverse(form.c.frames.begin(), form.c.frames.end());
-  std::reverse(form.c.script.begin(), form.c.script.end());
-  std::reverse(form.step.begin(), form.step.end());
+  std::ranges::reverse(form.c.frames);
+  std::ranges::reverse(form.c.script);
+  std::ranges::reverse(form.step);
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
   for (auto& step : form.c.script) step = {last - step.to, last - step.from, step.commit};
   return form;

@@ -36,10 +36,10 @@ struct TakenAsClosed : BoundaryHandler {
 
 bool always(const std::vector<std::size_t>&) { return true; }
 bool edges_used_evenly(const std::vector<std::size_t>& uses) {
-  return std::all_of(uses.begin(), uses.end(), [](auto n) { return n % 2 == 0; });
+  return std::ranges::all_of(uses, [](auto n) { return n % 2 == 0; });
 }
 bool no_edge_used_once(const std::vector<std::size_t>& uses) {
-  return std::all_of(uses.begin(), uses.end(), [](auto n) { return n > 1; });
+  return std::ranges::all_of(uses, [](auto n) { return n > 1; });
 }
 
 // Places the apexes as if the mesh rested where it is at one end of the step.
@@ -113,8 +113,7 @@ using GhostIndices = std::span<const std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;
 
 std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
-  return std::count_if(a.begin(), a.end(),
-                       [&](auto v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+  return std::ranges::count_if(a, [&](auto v) { return std::ranges::find(b, v) != b.end(); });
 }
 
 struct NothingSwept : BoundaryHandler {
@@ -184,8 +183,8 @@ struct GhostsSkipped : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     std::vector<std::int32_t> first_ghosts;
-    std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(first_ghosts),
-                 [&](std::int32_t ghost) { return !skips(s, ghost); });
+    std::ranges::copy_if(ghosts, std::back_inserter(first_ghosts),
+                         [&](std::int32_t ghost) { return !skips(s, ghost); });
     return BoundaryHandler::sweep(s, first_ghosts, stop, touched, counts);
   }
 };

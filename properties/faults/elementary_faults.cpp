@@ -135,7 +135,7 @@ bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
     const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
     sum[a + b + c] += determinant(edges[0][a], edges[1][b], edges[2][c]);
   }
-  const auto [least, greatest] = std::minmax_element(sum.begin(), sum.end());
+  const auto [least, greatest] = std::ranges::minmax_element(sum);
   constexpr double unit = 0x1p-53;
   const double bound = 22 * unit * std::max(std::abs(*least), std::abs(*greatest));
   return *least > bound || *greatest < -bound;

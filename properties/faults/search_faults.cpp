@@ -270,9 +270,9 @@ struct FirstWalk : ContourMaker {
     if (boundary.empty()) return;
     std::vector<std::int32_t> walk = {from(boundary[0])};
     for (;;) {
-      const auto leaves = std::find_if(boundary.begin(), boundary.end(),
-                                       [&](DirectedEdge e) { return from(e) == walk.back(); });
-      const auto again = std::find(walk.begin(), walk.end(), to(*leaves));
+      const auto leaves =
+          std::ranges::find_if(boundary, [&](DirectedEdge e) { return from(e) == walk.back(); });
+      const auto again = std::ranges::find(walk, to(*leaves));
       if (again != walk.end()) {
         out.insert(out.end(), again, walk.end());
         return;

@@ -52,9 +52,8 @@ struct StartHalfChecked : ReleaseRule {
                                      marks.clean);
       if (layers == StartLayers::by_piece) continue;
       const auto own = step.own_triangles(c);
-      const bool some =
-          layers == StartLayers::not_looked_at ||
-          std::any_of(own.begin(), own.end(), [&](auto t) { return marks.clean[at(t)] != 0; });
+      const bool some = layers == StartLayers::not_looked_at ||
+                        std::ranges::any_of(own, [&](auto t) { return marks.clean[at(t)] != 0; });
       for (const auto t : own) marks.clean[at(t)] = some && !touched[at(t)];
     }
     return true;
@@ -99,8 +98,8 @@ struct StartNotChecked : ReleaseRule {
 };
 
 bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangles) {
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
+  return std::ranges::all_of(
+      triangles, [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
 }
 
 // `surface` is the surface of the step, or its mesh without ghosts.

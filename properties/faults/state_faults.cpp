@@ -44,7 +44,7 @@ struct ReleasedOnNoContact : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
-    if (pairs.empty()) std::fill(state.clean.begin(), state.clean.end(), 1);
+    if (pairs.empty()) std::ranges::fill(state.clean, 1);
   }
 };
 
@@ -78,10 +78,10 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
     std::vector<std::int32_t> triangles;
     const auto is_met = [&](std::int32_t t) {
-      return std::any_of(step.last_state->contacts.begin(), step.last_state->contacts.end(),
-                         [&](const auto& pair) { return pair.a == t || pair.b == t; });
+      return std::ranges::any_of(step.last_state->contacts,
+                                 [&](const auto& pair) { return pair.a == t || pair.b == t; });
     };
-    std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(triangles), is_met);
+    std::ranges::copy_if(in_doubt, std::back_inserter(triangles), is_met);
     return triangles;
   }
 };
@@ -108,7 +108,7 @@ class EvaluationKept : public ReleaseRule {
     if (!ReleaseRule::release(step, marks, cost, components)) return false;
     const bool is_known =
         free_from_.rows() == step.motion.size() && free_from_ == step.motion.vertices_t0;
-    if (is_known) std::fill(marks.clean.begin(), marks.clean.end(), 1);
+    if (is_known) std::ranges::fill(marks.clean, 1);
     return true;
   }
 
@@ -221,8 +221,8 @@ struct ReleaseHalfChecked : ReleaseRule {
         if (marks.clean[at(t)] || touched[at(t)]) continue;
         for (const auto edge : mesh.triangle_edges[at(t)]) {
           const auto around = mesh.edge_triangles.row(edge);
-          marks.clean[at(t)] |= std::any_of(around.begin(), around.end(),
-                                            [&](auto s) { return marks.clean[at(s)] != 0; });
+          marks.clean[at(t)] |=
+              std::ranges::any_of(around, [&](auto s) { return marks.clean[at(s)] != 0; });
         }
         grows |= marks.clean[at(t)] != 0;
       }

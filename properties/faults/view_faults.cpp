@@ -55,7 +55,7 @@ ViewSign touching_zero_is_positive(const ViewPolynomials& view) {
 }
 
 ViewSign sign_of_coefficients(const detector::Cubic& f, int depth) {
-  const auto [least, greatest] = std::minmax_element(f.begin(), f.end());
+  const auto [least, greatest] = std::ranges::minmax_element(f);
   if (*least > 0) return ViewSign::positive;
   if (*greatest < 0) return ViewSign::negative;
   if (depth == 10) return ViewSign::zero;

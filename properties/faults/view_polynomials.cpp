@@ -105,7 +105,7 @@ ViewSign sign_of(const ViewPieces& p) {
   const auto vanishes = [](const Polynomial& h, auto is_active, const Polynomial& region) {
     if (h.is_zero()) return region.is_zero() || detector::has_root_in_unit_interval(region);
     const auto roots = detector::roots_in_unit_interval(h);
-    return std::any_of(roots.begin(), roots.end(), is_active);
+    return std::ranges::any_of(roots, is_active);
   };
   const bool at_ends = vanishes(
                            p.h0, [&](const auto& root) { return root.sign_of(p.g0) <= 0; }, p.g0) ||
@@ -135,9 +135,8 @@ ViewSign sign_at(Sample sample, const MovingTriangle& triangle, const ViewPrimit
 
 ViewSign common_sign(std::initializer_list<ViewSign> signs) {
   const ViewSign first = *signs.begin();
-  return std::all_of(signs.begin(), signs.end(), [&](ViewSign s) { return s == first; })
-             ? first
-             : ViewSign::zero;
+  return std::ranges::all_of(signs, [&](ViewSign s) { return s == first; }) ? first
+                                                                            : ViewSign::zero;
 }
 
 bool TriangleSigns::classify(const detector::Topology& surface,

@@ -23,7 +23,7 @@ void tell_of_added(corpus::Case& c, std::int32_t first) {
     auto& [pairs, steps] = *c.counted;
     steps.clear();
     if (!pairs.body.empty()) {
-      const auto fresh = *std::max_element(pairs.body.begin(), pairs.body.end()) + 1;
+      const auto fresh = *std::ranges::max_element(pairs.body) + 1;
       pairs.body.resize(static_cast<std::size_t>(c.frames.front().rows()), fresh);
     }
     if (!pairs.rest.empty()) {

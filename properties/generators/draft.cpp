@@ -44,7 +44,7 @@ void drop_unused_vertices(Draft& draft) {
 void drop_invalid_faces(Draft& draft) {
   std::set<Face> faces;
   std::erase_if(draft.faces, [&](Face face) {
-    std::sort(face.begin(), face.end());
+    std::ranges::sort(face);
     const bool repeats = face[0] == face[1] || face[1] == face[2];
     return repeats || !faces.insert(face).second;
   });
@@ -59,7 +59,7 @@ bool is_cycle(const std::vector<Face>& faces) {
       edges.push_back({std::min(u, v), std::max(u, v), u < v ? 1 : -1});
     }
   }
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   for (std::size_t i = 0; i < edges.size();) {
     int sum = 0;
     std::size_t j = i;
@@ -110,7 +110,7 @@ RandomCase finished(Draft draft, std::string id) {
     c.frames.push_back(std::move(frame));
   }
   if (!draft.q0.empty()) c.view = corpus::CaseView{std::move(draft.q0), std::move(draft.q1)};
-  std::sort(draft.tags.begin(), draft.tags.end());
+  std::ranges::sort(draft.tags);
   draft.tags.erase(std::unique(draft.tags.begin(), draft.tags.end()), draft.tags.end());
   random_case.tags = std::move(draft.tags);
   for (const auto& tag : random_case.tags) c.about += (c.about.empty() ? "" : ", ") + tag;

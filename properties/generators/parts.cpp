@@ -250,7 +250,7 @@ void add_relation(Random& random, RandomCase& random_case) {
   if (!pairs.apart.empty()) random_case.tags.push_back("relation:bodies");
   if (pairs.rings > 0) random_case.tags.push_back("relation:rings");
   if (pairs.rest_distance > 0) random_case.tags.push_back("relation:rest-distance");
-  std::sort(random_case.tags.begin(), random_case.tags.end());
+  std::ranges::sort(random_case.tags);
   c.counted = corpus::CaseRelation{std::move(pairs), {}};
 }
 

@@ -47,7 +47,7 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   for (const auto& contact : missing) losses.insert(contact.pair);
   const auto is_lost = [&](const auto& contact) { return losses.contains(contact.pair); };
   for (const auto& part : contact_parts(pairs, first)) {
-    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
+    if (!std::ranges::all_of(part, is_lost)) continue;
     for (const auto& contact : part) of_lost_parts.insert(contact.pair);
   }
   const auto begin = std::stable_partition(
@@ -252,8 +252,8 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
     auto creation = detector::Detector::create(triangles, x_t0, options);
     if (!creation) return false;
     const auto result = creation.value().evaluate(x_t0, x_t1);
-    return std::any_of(result.pairs.begin(), result.pairs.end(),
-                       [&](const PairContact& contact) { return contact.pair == pair; });
+    return std::ranges::any_of(result.pairs,
+                               [&](const PairContact& contact) { return contact.pair == pair; });
   };
   constexpr Eigen::Index most_triangles_without_tree = 2000;
   if (finds(detector::Culling::bvh)) return "view sets";
@@ -383,9 +383,8 @@ StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contr
                         !(contact.time < counted_pair->time);
     if (!counts) truth.left_out.push_back(contact);
   }
-  const auto first =
-      std::min_element(truth.pairs.begin(), truth.pairs.end(),
-                       [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
+  const auto first = std::ranges::min_element(
+      truth.pairs, [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
   if (first != truth.pairs.end()) truth.first = *first;
   truth.starts_near = contract.separation > 0 && truth.first && truth.first->time.hi == 0;
   return truth;

@@ -103,9 +103,8 @@ class PairOfStep {
   }
 
   bool moves() const {
-    return std::any_of(std::begin(corners), std::end(corners), [&](int k) {
-      return moves(corner(pair_.a, k)) || moves(corner(pair_.b, k));
-    });
+    return std::ranges::any_of(
+        corners, [&](int k) { return moves(corner(pair_.a, k)) || moves(corner(pair_.b, k)); });
   }
 
   const char* numbers() const {
@@ -233,8 +232,8 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
   const PairOfStep pair(triangles, motion, contact.pair,
                         of_query ? std::optional(contact.feature) : std::nullopt);
   const char* const time = time_of(contact.time);
-  const bool moves = std::any_of(vertices.begin(), vertices.end(),
-                                 [&](std::int32_t v) { return v >= 0 && pair.moves(v); });
+  const bool moves =
+      std::ranges::any_of(vertices, [&](std::int32_t v) { return v >= 0 && pair.moves(v); });
   const bool has_shape = kind == FeatureKind::vertex_face || kind == FeatureKind::edge_edge;
   const char* shape = has_shape ? pair.shape(contact, of_distance) : "";
   // Features that rest and meet are coplanar anyway, so that says nothing.

@@ -111,7 +111,7 @@ bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& 
 // contract's coordinates.
 bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
   const auto steps = corpus::steps_of(c);
-  return std::all_of(steps.begin(), steps.end(), [&](const corpus::CaseStep& step) {
+  return std::ranges::all_of(steps, [&](const corpus::CaseStep& step) {
     const detector::Positions way = end_of(c, step) - start_of(c, step);
     return contract.coordinates == Coordinates::float32 ? way.cast<float>().allFinite()
                                                         : way.allFinite();

@@ -24,8 +24,7 @@ std::uint64_t time_of(const Work& work) {
 }
 
 bool has_an_answer(const CaseResults& results) {
-  return std::any_of(results.runs.begin(), results.runs.end(),
-                     [](const CaseRun& run) { return !run.steps.empty(); });
+  return std::ranges::any_of(results.runs, [](const CaseRun& run) { return !run.steps.empty(); });
 }
 
 // The worse of two outcomes.
@@ -33,9 +32,7 @@ Outcome worse(Outcome a, Outcome b) {
   // A case of which a step is refused speaks for nothing, although its other steps hold.
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::refused, Outcome::undecided,
                                    Outcome::error, Outcome::defect};
-  const auto rank = [&](Outcome outcome) {
-    return std::find(std::begin(ascending), std::end(ascending), outcome);
-  };
+  const auto rank = [&](Outcome outcome) { return std::ranges::find(ascending, outcome); };
   return rank(a) < rank(b) ? b : a;
 }
 
@@ -138,10 +135,10 @@ std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cas
   auto first = runs(*exam.worker);
   std::vector<std::vector<CaseRun>> again(cases.size());
   if (exam.second) {
-    std::reverse(cases.begin(), cases.end());
+    std::ranges::reverse(cases);
     again = runs(*exam.second);
-    std::reverse(cases.begin(), cases.end());
-    std::reverse(again.begin(), again.end());
+    std::ranges::reverse(cases);
+    std::ranges::reverse(again);
   }
   std::vector<CaseResults> results(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -159,8 +159,8 @@ class LimitComparison {
     }
     return [this, features, relations](std::int32_t a, std::int32_t b) {
       return !leaves_out(contract_, step_.triangles, {a, b}) &&
-             std::all_of(relations.begin(), relations.end(),
-                         [&](const auto& relation) { return relation->counts_faces(a, b); });
+             std::ranges::all_of(
+                 relations, [&](const auto& relation) { return relation->counts_faces(a, b); });
     };
   }
 

@@ -182,7 +182,7 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
 }
 
 bool has_judged_contact(std::span<const StepDiff> diffs) {
-  return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
+  return std::ranges::any_of(diffs, [](const StepDiff& diff) {
     if (diff.starts_near) return false;
     return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
            : diff.limit    ? diff.limit->ahead && !diff.partial

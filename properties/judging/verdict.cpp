@@ -16,7 +16,7 @@ BodyNames::BodyNames(const detector::CountedPairs* counted_pairs,
                      const detector::TrianglesView& triangles) {
   if (!counted_pairs || counted_pairs->body.empty()) return;
   const auto& body = counted_pairs->body;
-  std::vector<std::int32_t> sizes(at(*std::max_element(body.begin(), body.end())) + 1, 0);
+  std::vector<std::int32_t> sizes(at(*std::ranges::max_element(body)) + 1, 0);
   by_triangle_.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const auto of = body[at(triangles(t, 0))];
@@ -35,8 +35,8 @@ namespace {
 // Adds the stage that lost the pair, which tells one failure of this kind from another.
 void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
                 const StepDiff& diff, detector::Options options) {
-  const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
-                                   [&](const auto& miss) { return miss.pair == failure.pair; });
+  const bool is_lost = std::ranges::any_of(
+      diff.missing, [&](const auto& miss) { return miss.pair == failure.pair; });
   options.counted = corpus::counted_of(c);
   if (is_lost)
     failure.stage =
@@ -50,8 +50,8 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
   if (!failure.pair) return;
   const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
   const auto pairs = truth_of(c, truth, contract).pairs;
-  const auto contact = std::find_if(pairs.begin(), pairs.end(),
-                                    [&](const auto& exact) { return exact.pair == *failure.pair; });
+  const auto contact =
+      std::ranges::find_if(pairs, [&](const auto& exact) { return exact.pair == *failure.pair; });
   const bool of_distance = contract.separation > 0;
   const detector::SteppedMesh motion{x_t0, x_t1};
   const auto query = query_of(c);

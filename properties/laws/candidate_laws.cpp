@@ -18,8 +18,8 @@ using detector::PairContact;
 using detector::TimeEnclosure;
 
 bool all_outside(const ContactPart& part, const oracle::Candidates& k) {
-  return std::none_of(part.begin(), part.end(),
-                      [&](const PairContact& contact) { return k.holds(contact.pair); });
+  return std::ranges::none_of(part,
+                              [&](const PairContact& contact) { return k.holds(contact.pair); });
 }
 
 Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
@@ -57,7 +57,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
     for (const auto& part : contact_parts(own, time)) {
       if (!all_outside(part, facts.candidates(s))) continue;
       premise_held = true;
-      const bool earlier = std::any_of(part.begin(), part.end(), [&](const PairContact& contact) {
+      const bool earlier = std::ranges::any_of(part, [&](const PairContact& contact) {
         return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
       if (!earlier) {
@@ -126,7 +126,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   if (about_contacts && !contact) return not_met();
   if (claim == Claim::free_sound && result.answer != Answer::free && !contact) return not_met();
   const auto diff = compare(result, judgement, claims_of(facts.options()));
-  const bool is_broken = std::count(diff.breaches.begin(), diff.breaches.end(), claim) != 0;
+  const bool is_broken = std::ranges::count(diff.breaches, claim) != 0;
   return holds_if(!is_broken, "refuted");
 }
 

@@ -39,7 +39,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;
     };
-    if (std::none_of(pairs.begin(), pairs.end(), same)) {
+    if (std::ranges::none_of(pairs, same)) {
       return fmt::format("({}, {}) of two components is missing or has another time",
                          contact.pair.a, contact.pair.b);
     }

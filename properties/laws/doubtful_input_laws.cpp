@@ -32,8 +32,8 @@ bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   for (const auto& component : facts.surface().mesh.components) {
     for (const auto v : component.vertices) places.push_back(detector::point_of(facts.x_t0(s), v));
   }
-  std::sort(places.begin(), places.end());
-  return std::adjacent_find(places.begin(), places.end()) != places.end();
+  std::ranges::sort(places);
+  return std::ranges::adjacent_find(places) != places.end();
 }
 
 // Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each

@@ -41,8 +41,7 @@ bool is_checked_on(const Law& law, std::string_view case_id) {
 
 const Law* law_named(std::string_view name) {
   const auto all = laws();
-  const auto place =
-      std::find_if(all.begin(), all.end(), [&](const Law& law) { return law.name == name; });
+  const auto place = std::ranges::find_if(all, [&](const Law& law) { return law.name == name; });
   return place == all.end() ? nullptr : &*place;
 }
 
@@ -76,8 +75,7 @@ bool same(const PairContact& a, const PairContact& b) {
 
 template <class List>
 bool same_lists(const List& a, const List& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return same(x, y); });
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same(x, y); });
 }
 
 // The counts that are compared. Those of marking depend on earlier steps too

@@ -68,7 +68,7 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
     const std::array<ExactInteger, 3> at_corners = {view.by_region(view.corner(0)),
                                                     view.by_region(view.corner(1)),
                                                     view.by_region(view.corner(2))};
-    const auto [least, greatest] = std::minmax_element(at_corners.begin(), at_corners.end());
+    const auto [least, greatest] = std::ranges::minmax_element(at_corners);
     const ExactInteger inside = view.by_region(view.inner_point(any_weights(random)));
     if (inside < *least || inside > *greatest) return "an inner value is beyond the corners'";
     return {};
@@ -214,9 +214,8 @@ bool is_any(const ViewPrimitive&) { return true; }
 
 bool is_all_of(CaseFacts& facts, std::size_t s, std::size_t component, ViewSign sign) {
   const auto& own = facts.surface().mesh.components[component].triangles;
-  return std::all_of(own.begin(), own.end(), [&](std::int32_t t) {
-    return !facts.in_doubt(s, t) && facts.signs(s)[at(t)] == sign;
-  });
+  return std::ranges::all_of(
+      own, [&](std::int32_t t) { return !facts.in_doubt(s, t) && facts.signs(s)[at(t)] == sign; });
 }
 
 template <ViewSign sign, bool (*applies)(const ViewPrimitive&)>

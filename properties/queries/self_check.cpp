@@ -313,7 +313,7 @@ bool SmallWorld::is_least_of_its_class(const Arranged& query) const {
           : p == sort_paths(p, query.first_group);
   if (!in_order) return false;
   const Paths own = sort_paths(p, query.first_group);
-  return std::all_of(symmetries_.begin(), symmetries_.end(), [&](const std::vector<int>& image) {
+  return std::ranges::all_of(symmetries_, [&](const std::vector<int>& image) {
     Paths other;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t e = 0; e < 2; ++e) other[i][e] = image[static_cast<std::size_t>(p[i][e])];

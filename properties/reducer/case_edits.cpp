@@ -59,7 +59,7 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
   ghosts.apexes.resize(before.frames.size());
   for (const auto& loop : loops) {
     const auto place =
-        std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
+        std::ranges::find_if(loop, [&](std::int32_t v) { return apex_at.contains(v); });
     for (std::size_t f = 0; f < before.frames.size(); ++f) {
       if (place != loop.end()) {
         ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*place))]);
@@ -246,7 +246,7 @@ Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   result.pending = "{}";
   Numbers frames;
   for (const auto& step : steps) frames.insert(frames.end(), {step.from, step.to});
-  std::sort(frames.begin(), frames.end());
+  std::ranges::sort(frames);
   take_frames(result, frames, steps);
   return result;
 }

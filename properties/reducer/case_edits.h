@@ -36,7 +36,7 @@ corpus::Case with_triangles(const corpus::Case& c,
 std::vector<std::array<std::int32_t, 3>> triangles_of(const corpus::Case& c);
 
 inline std::array<std::int32_t, 3> as_set(std::array<std::int32_t, 3> corners) {
-  std::sort(corners.begin(), corners.end());
+  std::ranges::sort(corners);
   return corners;
 }
 

@@ -282,8 +282,8 @@ std::vector<double> simpler_values(double value) {
   const auto cost = number_cost(value);
   std::erase_if(values, [&](double v) { return number_cost(v) >= cost; });
   // Shorter numbers come first. Among equals the order above stays.
-  std::stable_sort(values.begin(), values.end(),
-                   [](double a, double b) { return number_cost(a) < number_cost(b); });
+  std::ranges::stable_sort(values,
+                           [](double a, double b) { return number_cost(a) < number_cost(b); });
   values.erase(std::unique(values.begin(), values.end()), values.end());
   for (double& v : values) v += 0.0;  // no negative zero
   return values;

@@ -123,7 +123,7 @@ Rings rings_of(const ReductionSearch& search) {
     }
   }
   for (auto& row : rings.neighbours) {
-    std::sort(row.begin(), row.end());
+    std::ranges::sort(row);
     row.erase(std::unique(row.begin(), row.end()), row.end());
   }
 
@@ -150,16 +150,17 @@ Rings rings_of(const ReductionSearch& search) {
     }
   }
   rings.far_first = in_order(vertices);
-  std::stable_sort(rings.far_first.begin(), rings.far_first.end(),
-                   [&](auto a, auto b) { return rings.distance[at(a)] > rings.distance[at(b)]; });
+  std::ranges::stable_sort(rings.far_first, [&](auto a, auto b) {
+    return rings.distance[at(a)] > rings.distance[at(b)];
+  });
   return rings;
 }
 
 corpus::Case within(const corpus::Case& c, const Rings& rings, int ring) {
   std::vector<std::uint8_t> keep;
   for (const auto& corners : triangles_of(c)) {
-    keep.push_back(std::all_of(corners.begin(), corners.end(),
-                               [&](std::int32_t v) { return rings.distance[at(v)] <= ring; }));
+    keep.push_back(std::ranges::all_of(
+        corners, [&](std::int32_t v) { return rings.distance[at(v)] <= ring; }));
   }
   return keep_triangles(c, keep);
 }

@@ -64,7 +64,7 @@ class Sides {
       }
       exponents_[static_cast<std::size_t>(axis)] = exponent;
     }
-    greatest_ = *std::max_element(exponents_.begin(), exponents_.end());
+    greatest_ = *std::ranges::max_element(exponents_);
   }
 
   struct Place {

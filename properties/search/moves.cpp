@@ -42,8 +42,8 @@ class NearestFeatures {
  private:
   void take(const Vertices& vertices, int first_group) {
     auto ascending = vertices;
-    std::sort(ascending.begin(), ascending.end());
-    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) return;
+    std::ranges::sort(ascending);
+    if (std::ranges::adjacent_find(ascending) != ascending.end()) return;
     Focus candidate = focus_;
     candidate.vertices = vertices;
     candidate.first_group = first_group;
@@ -172,7 +172,7 @@ bool is_within_a_component(const corpus::Case& c, const Focus& focus) {
   if (focus.pairs.empty()) return false;
   const auto component =
       detector::make_topology(c.triangles, c.frames.front().rows()).component_of_triangle;
-  return std::all_of(focus.pairs.begin(), focus.pairs.end(), [&](const auto& pair) {
+  return std::ranges::all_of(focus.pairs, [&](const auto& pair) {
     return component[detector::at(pair.a)] == component[detector::at(pair.b)];
   });
 }

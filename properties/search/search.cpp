@@ -140,7 +140,7 @@ struct Entry {
 };
 
 std::string word_of_hardest(const Gap& gap) {
-  const auto least = std::min_element(gap.share.begin(), gap.share.end());
+  const auto least = std::ranges::min_element(gap.share);
   return name_of(static_cast<Hardness>(least - gap.share.begin()));
 }
 
@@ -309,7 +309,7 @@ class LaneSearch {
     const auto is_open = [](const Verdict& trial) {
       return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
     };
-    if (std::any_of(results.verdicts.begin(), results.verdicts.end(), is_open)) {
+    if (std::ranges::any_of(results.verdicts, is_open)) {
       ++result_.open;
       return;
     }

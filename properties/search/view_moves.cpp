@@ -110,9 +110,8 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
     const double length = way.norm();
     if (!(length > 0) || tries == most_tries) return std::nullopt;
     way /= length;
-    const auto worst =
-        std::min_element(sides.begin(), sides.end(),
-                         [&](const Side& a, const Side& b) { return cosine(a) < cosine(b); });
+    const auto worst = std::ranges::min_element(
+        sides, [&](const Side& a, const Side& b) { return cosine(a) < cosine(b); });
     if (cosine(*worst) > least_cosine) break;
     way += worst->normal;
   }

@@ -115,7 +115,7 @@ bool same_limit(const std::optional<LimitAnswer>& a, const std::optional<LimitAn
 
 bool same_result(const StepResult& a, const StepResult& b) {
   const auto equal = [](const auto& x, const auto& y, auto same) {
-    return std::equal(x.begin(), x.end(), y.begin(), y.end(), same);
+    return std::ranges::equal(x, y, same);
   };
   return a.answer == b.answer && a.first == b.first && a.signs == b.signs &&
          a.view_positive == b.view_positive && a.view_negative == b.view_negative &&
@@ -173,7 +173,7 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration
       return !same_answers(without_marking_counts({disturbed}),
                            without_marking_counts({undisturbed[s]}));
     };
-    const auto other = std::find_if(after_stops.begin(), after_stops.end(), differs);
+    const auto other = std::ranges::find_if(after_stops, differs);
     if (other != after_stops.end() && !differs(results.back())) results.back() = *other;
   }
   return results;
@@ -189,10 +189,8 @@ CaseRun without_marking_counts(std::vector<StepResult> results) {
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.over_capacity == b.over_capacity &&
-         a.candidates == b.candidates &&
-         std::equal(a.limits.begin(), a.limits.end(), b.limits.begin(), b.limits.end(),
-                    same_limit) &&
-         std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
+         a.candidates == b.candidates && std::ranges::equal(a.limits, b.limits, same_limit) &&
+         std::ranges::equal(a.steps, b.steps, same_result);
 }
 
 namespace {

@@ -66,8 +66,7 @@ ChildEnd end_of_child(pid_t id) {
 
 bool was_killed_from_outside(const ChildEnd& end) {
   constexpr std::array from_outside = {SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
-  return !end.by_host &&
-         std::find(from_outside.begin(), from_outside.end(), end.signal) != from_outside.end();
+  return !end.by_host && std::ranges::find(from_outside, end.signal) != from_outside.end();
 }
 
 Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
@@ -290,8 +289,7 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
   std::vector<Row> tree;
   const auto belongs = [&](const Row& row) {
     return row.id == root || row.group == root ||
-           std::any_of(tree.begin(), tree.end(),
-                       [&](const Row& member) { return member.id == row.parent; });
+           std::ranges::any_of(tree, [&](const Row& member) { return member.id == row.parent; });
   };
   // A child may stand before its parent, because numbers are used again.
   for (bool has_more = true; has_more;) {
@@ -310,7 +308,7 @@ bool waits(const Row& row) { return std::strchr("SDTIZX", row.state) != nullptr;
 bool all_wait(const Row& process) {
   if (process.threads <= 1) return waits(process);
   const auto threads = rows_in("/proc/" + std::to_string(process.id) + "/task");
-  return std::all_of(threads.begin(), threads.end(), waits);
+  return std::ranges::all_of(threads, waits);
 }
 
 }  // namespace
@@ -325,7 +323,7 @@ ProcessTree look_at(pid_t root, pid_t apart) {
   ProcessTree next;
   next.descendant_seconds =
       static_cast<double>(ticks) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  next.is_asleep = !tree.empty() && std::all_of(tree.begin(), tree.end(), all_wait);
+  next.is_asleep = !tree.empty() && std::ranges::all_of(tree, all_wait);
   return next;
 }
 

@@ -35,17 +35,17 @@ bool fits(const CaseRun& run, const corpus::Case& c) {
   return run.steps.size() == steps && fit(run.candidates.size()) && fit(run.limits.size()) &&
          run.errors.size() <= steps && fit(run.over_capacity.size()) &&
          (!run.times || fit(run.times->steps.size())) &&
-         std::all_of(run.steps.begin(), run.steps.end(),
-                     [&](const detector::StepResult& step) {
-                       return std::all_of(
-                           step.pairs.begin(), step.pairs.end(),
-                           [&](const PairContact& contact) { return is_pair(contact.pair); });
-                     }) &&
-         std::all_of(run.candidates.begin(), run.candidates.end(),
-                     [&](const CandidatePairs& pairs) {
-                       return !pairs || std::all_of(pairs->begin(), pairs->end(), is_pair);
-                     }) &&
-         std::all_of(run.limits.begin(), run.limits.end(), [&](const auto& limit) {
+         std::ranges::all_of(
+             run.steps,
+             [&](const detector::StepResult& step) {
+               return std::ranges::all_of(
+                   step.pairs, [&](const PairContact& contact) { return is_pair(contact.pair); });
+             }) &&
+         std::ranges::all_of(run.candidates,
+                             [&](const CandidatePairs& pairs) {
+                               return !pairs || std::ranges::all_of(*pairs, is_pair);
+                             }) &&
+         std::ranges::all_of(run.limits, [&](const auto& limit) {
            return !limit || limit->positions.rows() == c.frames.front().rows();
          });
 }

@@ -82,7 +82,7 @@ TetrahedronMotions::Paths TetrahedronMotions::image(const Paths& paths,
                                                     const Symmetry& symmetry) const {
   Paths to;
   for (std::size_t i = 0; i < 4; ++i) to[i] = symmetry.path[at(paths[i])];
-  std::sort(to.begin(), to.end());
+  std::ranges::sort(to);
   return to;
 }
 
@@ -98,7 +98,7 @@ void TetrahedronMotions::for_each(
     for (std::size_t i = 0; i < moving; ++i) {
       paths[4 - moving + i] = moving_paths_[at(movers[i])];
     }
-    std::sort(paths.begin(), paths.end());
+    std::ranges::sort(paths);
     if (!visit_class(paths, visit)) return;
     // The first of the moving paths belongs to the block, so only the others are counted up.
     more = moving > 1 && next_ascending(std::span(movers).subspan(1, moving - 1),
@@ -130,7 +130,7 @@ bool TetrahedronMotions::visit_class(
   for (int q = 0; q < views_; ++q) {
     std::vector<int> images;
     for (const auto* s : own) images.push_back(s->view[at(q)]);
-    std::sort(images.begin(), images.end());
+    std::ranges::sort(images);
     if (images.front() < q) continue;
     const auto last = std::unique(images.begin(), images.end());
     motion.views.push_back(
@@ -288,7 +288,7 @@ class Check {
   const char* check_laws(std::size_t orientation, const ViewPrimitive& q) {
     const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1}, 1);
     const auto all = [&](ViewSign sign) {
-      return std::all_of(signs.begin(), signs.end(), [=](ViewSign s) { return s == sign; });
+      return std::ranges::all_of(signs, [=](ViewSign s) { return s == sign; });
     };
     counts_.collisions += collides_ ? 1 : 0;
     const bool positive = all(ViewSign::positive);

@@ -211,7 +211,7 @@ std::uint64_t Store::trial_count() const {
 std::vector<FailureRecord> Store::failures() const {
   std::vector<FailureRecord> list;
   for_each(failure_kind, [&](const Row& row) { list.push_back(failure_of(row)); });
-  std::sort(list.begin(), list.end(), [](const FailureRecord& a, const FailureRecord& b) {
+  std::ranges::sort(list, [](const FailureRecord& a, const FailureRecord& b) {
     const auto key = [](const FailureRecord& f) {
       return std::tuple(f.signature(), f.id(), f.shown_configuration());
     };
@@ -257,7 +257,7 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
   }
   if (error) return Problem{fmt::format("{}: {}", folder.string(), error.message())};
   if (stores.empty()) return Problem{fmt::format("{}: no run is stored here", folder.string())};
-  std::sort(stores.begin(), stores.end());
+  std::ranges::sort(stores);
   return stores;
 }
 

@@ -165,8 +165,8 @@ std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t w
 
 std::uint64_t broken_laws(const TrialCounts& counts) {
   const auto laws = laws_in(counts);
-  return static_cast<std::uint64_t>(std::count_if(
-      laws.begin(), laws.end(), [](const auto& law) { return law.second.broken > 0; }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(laws, [](const auto& law) { return law.second.broken > 0; }));
 }
 
 }  // namespace assay::properties

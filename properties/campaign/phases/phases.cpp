@@ -79,8 +79,8 @@ struct CampaignRun {
     if (!before.power.empty()) {
       drop_proofs();
     } else if (!before.faults.empty() &&
-               std::none_of(before.faults.begin(), before.faults.end(),
-                            [](const FaultProof& proof) { return proof.time_over; })) {
+               std::ranges::none_of(before.faults,
+                                    [](const FaultProof& proof) { return proof.time_over; })) {
       return;
     }
     const FaultHunt hunt{plan.name,        request_.seed,

@@ -193,7 +193,7 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
                                   contract});
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) {
     return answers.steps[a].pairs.size() < answers.steps[b].pairs.size();
   });
   places.resize(std::min(places.size(), most_differing));
@@ -340,7 +340,7 @@ class Repetitions {
     auto places = differing_steps(c, request_.detector, run, answers);
     const auto plain = plain_steps(c, contract(), answers);
     places.insert(places.end(), plain.begin(), plain.end());
-    std::sort(places.begin(), places.end());
+    std::ranges::sort(places);
     places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }

@@ -32,7 +32,7 @@ Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgemen
     most.valence = std::max<std::uint64_t>(most.valence, mesh.vertex_triangles.row(v).size());
   if (c.counted && !c.counted->pairs.count_all() && !c.counted->pairs.body.empty()) {
     const auto& body = c.counted->pairs.body;
-    most.bodies = 1 + static_cast<std::uint64_t>(*std::max_element(body.begin(), body.end()));
+    most.bodies = 1 + static_cast<std::uint64_t>(*std::ranges::max_element(body));
   }
   most.components = mesh.components.size();
   for (const auto& step : truth)

@@ -178,8 +178,7 @@ namespace {
 bool is_clean(const detector::Positions& all, const detector::Triangles& triangles,
               const detector::Triangles& ghosts) {
   const auto layers = oracle::layers_at(oracle::Instant(all), triangles, ghosts);
-  return std::all_of(layers.clean.begin(), layers.clean.end(),
-                     [](std::uint8_t is_clean) { return is_clean != 0; });
+  return std::ranges::all_of(layers.clean, [](std::uint8_t is_clean) { return is_clean != 0; });
 }
 
 // The same with the ghosts of the built-in detector, which it places by this arithmetic.
@@ -196,7 +195,7 @@ bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithm
     ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
   const auto starts = new_starts(c);
   const auto script = corpus::steps_of(c);
-  return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+  return std::ranges::all_of(starts, [&](std::size_t s) {
     const auto& start = start_of(c, script[s]);
     const auto result = creation.value().evaluate(start, start);
     return is_clean(detector::with_apexes(start, result.apexes, false), c.triangles, ghosts);
@@ -210,7 +209,7 @@ bool starts_clean(const corpus::Case& c) {
   if (oracle::closes(c.triangles, no_ghosts)) {
     const auto starts = new_starts(c);
     const auto script = corpus::steps_of(c);
-    return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+    return std::ranges::all_of(starts, [&](std::size_t s) {
       return is_clean(start_of(c, script[s]), c.triangles, no_ghosts);
     });
   }

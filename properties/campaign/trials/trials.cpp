@@ -26,7 +26,7 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   // A plug-in's one configuration has its name.
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
                (detector.built_in ? ", " + configuration.name : "");
-  std::replace(out.id.begin(), out.id.end(), ':', '-');
+  std::ranges::replace(out.id, ':', '-');
   if (detector.built_in) out.options = configuration_text(configuration);
   return out;
 }
@@ -369,9 +369,8 @@ class Trials {
   static std::size_t place_of(const Configuration& configuration,
                               const DetectorUnderTest& detector) {
     const auto& all = detector.configurations;
-    const auto place = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
-      return one.name == configuration.name;
-    });
+    const auto place = std::ranges::find_if(
+        all, [&](const Configuration& one) { return one.name == configuration.name; });
     return static_cast<std::size_t>(place - all.begin());
   }
 

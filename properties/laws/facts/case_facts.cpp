@@ -98,8 +98,7 @@ bool CaseFacts::has_broken_edges() const {
     if (around.size() < 2) continue;
     const auto runs_upward = [&](std::int32_t t) {
       const auto& v = mesh.triangles[at(t)];
-      const auto i =
-          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
+      const auto i = static_cast<std::size_t>(std::ranges::find(v, mesh.edges[e][0]) - v.begin());
       return v[(i + 1) % 3] == mesh.edges[e][1];
     };
     if (runs_upward(around[0]) == runs_upward(around[1])) return true;
@@ -124,7 +123,7 @@ bool CaseFacts::is_trusted(std::size_t s) {
   // A step without views does not tell its apexes, so nothing can be said of an unclosed mesh.
   if (!surface_.is_closed() && !has_views(s)) return *(trusted = false);
   const auto& clean = layers_at_start(s).clean;
-  trusted = std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+  trusted = std::ranges::all_of(clean, [](std::uint8_t c) { return c != 0; });
   return *trusted;
 }
 
@@ -185,8 +184,8 @@ std::optional<int> CaseFacts::winding_at_start(std::size_t s, std::size_t compon
 bool CaseFacts::is_free_by_view(std::size_t s, std::size_t component) {
   const auto& triangles = surface_.all().components[component].triangles;
   const auto& of_step = signs(s);
-  return std::all_of(
-             triangles.begin(), triangles.end(),
+  return std::ranges::all_of(
+             triangles,
              [&](std::int32_t t) { return of_step[at(t)] == detector::ViewSign::positive; }) &&
          winding_at_start(s, component) == 1;
 }
@@ -281,7 +280,7 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   const auto x = facts.all_t0(s);
   const auto& surface = facts.surface().all();
   const auto& triangles = surface.components[component].triangles;
-  return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
+  return std::ranges::all_of(triangles, [&](std::int32_t t) {
     const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return detector::SteppedMesh{x, x}.path(v[i]); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==

@@ -121,10 +121,9 @@ std::string difference_in_form(const StepResult& of_case, const Form& form,
   if (!pairs) return {};
   const auto before = pairs_of_parents(of_case, nullptr);
   const auto after = pairs_of_parents(of_form, &form.parent);
-  const bool same = std::equal(
-      before.begin(), before.end(), after.begin(), after.end(), [&](const auto& a, const auto& b) {
-        return a.first == b.first && (!form.same_times || a.second == b.second);
-      });
+  const bool same = std::ranges::equal(before, after, [&](const auto& a, const auto& b) {
+    return a.first == b.first && (!form.same_times || a.second == b.second);
+  });
   return same ? ""
               : fmt::format("{} pairs became {}, or others, or other times", before.size(),
                             after.size());

@@ -24,7 +24,7 @@ std::map<std::int32_t, EdgeSet> holes_of(const Ghosts& ghosts, std::int32_t firs
   for (const auto& [u, v, apex] : ghosts) {
     if (v < first) holes[apex - first].push_back({std::min(u, v), std::max(u, v)});
   }
-  for (auto& [apex, edges] : holes) std::sort(edges.begin(), edges.end());
+  for (auto& [apex, edges] : holes) std::ranges::sort(edges);
   return holes;
 }
 
@@ -100,9 +100,8 @@ std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
     if (!facts.has_views(s)) return std::nullopt;
     const auto& result = facts.result(s);
     // The other run, of view-line, would ask for layers where this one did not.
-    const bool any_dirty =
-        std::any_of(result.doubts.begin(), result.doubts.end(),
-                    [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
+    const bool any_dirty = std::ranges::any_of(
+        result.doubts, [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
     if (any_dirty && !facts.known_from(s) && facts.starts_by_view_alone()) return std::nullopt;
     const auto from = static_cast<std::int32_t>(run.frames.size());
     run.script.push_back({from, from + 1, facts.script(s).commit});
@@ -140,8 +139,8 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
   const std::span all(surface.all().triangles);
   for (const auto& hole :
        holes_of(all.subspan(surface.mesh.triangles.size()), surface.first_apex)) {
-    const auto same = std::find_if(holes.begin(), holes.end(),
-                                   [&](const auto& other) { return other.second == hole.second; });
+    const auto same =
+        std::ranges::find_if(holes, [&](const auto& other) { return other.second == hole.second; });
     if (same == holes.end()) return std::nullopt;
     player.apex_of_loop_.push_back(same->first);
     holes.erase(same);

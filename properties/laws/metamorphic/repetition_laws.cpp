@@ -271,8 +271,8 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   if (!run || facts.options().culling != detector::Culling::view_point) return;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto& primitives = facts.result(s).primitives;
-    const bool points = std::all_of(primitives.begin(), primitives.end(),
-                                    [](const auto& primitive) { return primitive.is_point(); });
+    const bool points =
+        std::ranges::all_of(primitives, [](const auto& primitive) { return primitive.is_point(); });
     if (!points) return;
   }
   auto options = facts.options();

@@ -215,7 +215,7 @@ DrawnOptions drawn_options(const CaseFacts& facts) {
   const auto mesh = static_cast<std::uint8_t>(mesh_class(facts));
   const auto size = static_cast<std::uint8_t>(size_class(facts, random));
   std::vector<FactorRow> fitting;
-  std::copy_if(array.begin(), array.end(), std::back_inserter(fitting), [&](const FactorRow& row) {
+  std::ranges::copy_if(array, std::back_inserter(fitting), [&](const FactorRow& row) {
     return row[factor::mesh] == mesh && row[factor::size] == size;
   });
   return options_of(fitting[random.next() % fitting.size()]);

@@ -107,9 +107,8 @@ std::vector<oracle::StepJudgement> truth_of(const PosedCase& p, const CaseFacts&
     auto& of_step = truth.back();
     if (!relation) continue;
     keep_counted(relation, of_step.pairs);
-    const auto first =
-        std::min_element(of_step.pairs.begin(), of_step.pairs.end(),
-                         [](const auto& a, const auto& b) { return a.time < b.time; });
+    const auto first = std::ranges::min_element(
+        of_step.pairs, [](const auto& a, const auto& b) { return a.time < b.time; });
     const bool meets = first != of_step.pairs.end();
     of_step.first = meets ? first->time : detector::TimeEnclosure{};
     if (of_step.complete) of_step.answer = meets ? Answer::collision : Answer::free;
@@ -257,7 +256,7 @@ bool is_vouched_rightly(CaseFacts& tail, CaseFacts& facts, std::size_t s, std::s
     return is_vouched_rightly(tail, facts, *known_step, before);
   if (s < before || tail.has_views(s) || !facts.has_views(s - before)) return false;
   const auto& clean = facts.layers_at_start(s - before).clean;
-  return std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+  return std::ranges::all_of(clean, [](std::uint8_t c) { return c != 0; });
 }
 
 void check_options(CaseFacts& facts, LawTally& tally) {

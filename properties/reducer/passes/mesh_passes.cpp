@@ -37,8 +37,8 @@ std::vector<std::int32_t> near_first(const ReductionSearch& search) {
   std::vector<double> distance;
   for (const auto t : order) distance.push_back((middle_of(c, t) - centre).squaredNorm());
   for (const auto t : focus) distance[at(t)] = -1;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return distance[at(a)] < distance[at(b)]; });
+  std::ranges::stable_sort(order,
+                           [&](auto a, auto b) { return distance[at(a)] < distance[at(b)]; });
   return order;
 }
 
@@ -109,8 +109,8 @@ std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
       distance[t] = std::max(distance[t], rings.distance[at(v)]);
     }
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
+  std::ranges::stable_sort(order,
+                           [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
   return order;
 }
 
@@ -270,7 +270,7 @@ void collapse_edges(ReductionSearch& search) {
     const auto u = rings.far_first[i];
     const auto n = vertex_count(search.best());
     const Numbers near = n <= few ? in_order(n) : rings.neighbours[at(u)];
-    const bool smaller = std::any_of(near.begin(), near.end(), [&](std::int32_t v) {
+    const bool smaller = std::ranges::any_of(near, [&](std::int32_t v) {
       if (v == u) return false;
       Numbers targets = in_order(n);
       targets[at(u)] = v;
@@ -306,7 +306,7 @@ void remove_and_close(ReductionSearch& search) {
     const auto triangles = triangles_of(search.best());
     std::vector<std::uint8_t> keep(triangles.size(), 1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (std::count(triangles[t].begin(), triangles[t].end(), v) > 0) keep[t] = 0;
+      if (std::ranges::count(triangles[t], v) > 0) keep[t] = 0;
     }
     const auto open = keep_triangles(search.best(), keep);
     bool smaller = false;

@@ -69,8 +69,8 @@ std::string line_of(const char* text) {
   constexpr std::size_t longest = 1000;
   if (!text) return "";
   std::string line(text, ::strnlen(text, longest));
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return 0 < c && c < ' '; }, ' ');
+  std::ranges::replace_if(
+      line, [](char c) { return 0 < c && c < ' '; }, ' ');
   return printable(line);
 }
 
@@ -184,7 +184,7 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
     }
     pairs.push_back(contact);
   }
-  std::sort(pairs.begin(), pairs.end(), [](const PairContact& a, const PairContact& b) {
+  std::ranges::sort(pairs, [](const PairContact& a, const PairContact& b) {
     return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
   });
   const auto same_pair = [](const PairContact& a, const PairContact& b) {
@@ -285,7 +285,7 @@ Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candid
       return breach("candidate " + std::to_string(i) + " names no two triangles");
     pairs.push_back(pair);
   }
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
