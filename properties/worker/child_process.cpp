@@ -7,7 +7,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -182,20 +181,14 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
     throw std::system_error(errno, std::generic_category(), what);
   };
   // The copy speaks into a file in memory: a pipe would wake this process for every line.
-  const int file = ::memfd_create("said", MFD_CLOEXEC);
+  const Descriptor file(::memfd_create("said", MFD_CLOEXEC));
   if (file < 0) fail("no file in memory");
   const pid_t copy = ::fork();
   if (copy == 0) run_in_the_copy(file, work);
-  if (copy < 0) {
-    const int why = errno;
-    ::close(file);
-    errno = why;
-    fail("no process");
-  }
+  if (copy < 0) fail("no process");
   CopyRun run;
   run.end = end_of_child(copy);
   run.output = said_in(file);
-  ::close(file);
   if (run.output.ends_with(ran_out_of_memory)) throw std::bad_alloc();
   if (const auto at = run.output.find(threw); at != std::string::npos)
     throw std::runtime_error(run.output.substr(at + 1));
@@ -247,11 +240,10 @@ struct Row {
 };
 
 std::optional<Row> read_row(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file < 0) return std::nullopt;  // the process has ended by now
   std::array<char, 1024> text;
   const ssize_t size = ::read(file, text.data(), text.size() - 1);
-  ::close(file);
   if (size <= 0) return std::nullopt;
   text[static_cast<std::size_t>(size)] = 0;
   // The name stands in brackets and may hold any character, so the last bracket is searched.

@@ -50,10 +50,6 @@ bool fits(const CaseRun& run, const corpus::Case& c) {
          });
 }
 
-Channel::~Channel() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 std::optional<std::pair<Channel, Channel>> Channel::connected() {
   std::array<int, 2> ends;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return std::nullopt;

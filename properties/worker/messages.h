@@ -32,6 +32,7 @@
 #include "properties/fields.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -297,13 +298,6 @@ using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 class Channel {
  public:
   explicit Channel(int descriptor) : descriptor_(descriptor) {}
-  Channel(Channel&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)),
-        sender_(other.sender_),
-        received_(std::move(other.received_)) {}
-  Channel& operator=(Channel&&) = delete;
-  ~Channel();  // closes
-
   // Returns two connected channels, both closed on exec; nothing if the system has no more. The
   // first one knows its senders.
   static std::optional<std::pair<Channel, Channel>> connected();
@@ -324,7 +318,7 @@ class Channel {
 
   ssize_t read_some(char* bytes, std::size_t size);
 
-  int descriptor_;
+  Descriptor descriptor_;
   pid_t sender_ = 0;
   std::string received_;  // bytes received beyond the last message
 };

@@ -128,7 +128,7 @@ struct WorkerProcess::Parts {
     // A new one, so that no process finds what another one has left.
     auto folder = ScratchFolder::make();
     if (!folder) return folder.error();
-    scratch = std::move(folder.value());
+    scratch.emplace(std::move(folder.value()));
     if (names_python(who())) {
       if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
     }
