@@ -5,10 +5,12 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "detector/detector.h"
 #include "oracle/distance/step_distance.h"
+#include "oracle/mesh/pair_relation.h"
 
 namespace assay::properties {
 
@@ -239,6 +241,23 @@ oracle::AskedFeatures asked_features(const Contract& contract) {
       return oracle::AskedFeatures::edge_edge;
   }
   return oracle::AskedFeatures::all;
+}
+
+oracle::WantedPair counted_under(const Contract& contract, const detector::TrianglesView& triangles,
+                                 std::initializer_list<const detector::CountedPairs*> all) {
+  std::shared_ptr<const oracle::MeshFeatures> features;  // Relations refer to them.
+  std::vector<std::shared_ptr<const oracle::PairRelation>> relations;
+  for (const auto* pairs : all) {
+    if (!pairs || pairs->count_all()) continue;
+    if (!features)
+      features = std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(triangles));
+    relations.push_back(std::make_shared<const oracle::PairRelation>(*pairs, *features));
+  }
+  return [&contract, triangles, features, relations](std::int32_t a, std::int32_t b) {
+    return !leaves_out(contract, triangles, {a, b}) &&
+           std::ranges::all_of(relations,
+                               [&](const auto& relation) { return relation->counts_faces(a, b); });
+  };
 }
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,

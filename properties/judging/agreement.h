@@ -2,12 +2,14 @@
 // pairs the candidates of a broad phase lack, and whether a limiter allows too much or too little.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "detector/options.h"
 #include "detector/step_result.h"
+#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
 #include "properties/worker/case_run.h"
@@ -94,6 +96,11 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
 
 // Returns the features that the oracle must be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
+
+// Returns which pairs of triangles count under the contract and under each of the relations; nullptr
+// stands for none. All that is named must outlive the answer.
+oracle::WantedPair counted_under(const Contract& contract, const detector::TrianglesView& triangles,
+                                 std::initializer_list<const detector::CountedPairs*> all);
 
 // Returns the stage at which the detector with these options lost a pair. It runs the step with
 // less culling: the stage is "view sets" if culling bvh finds the pair, "pair search" if only

@@ -6,9 +6,8 @@
 #include <map>
 
 #include "oracle/distance/feature_distance.h"
-#include "oracle/instant/instant.h"
-#include "oracle/mesh/pair_relation.h"
 #include "properties/changes/changes.h"
+#include "properties/judging/agreement.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -22,15 +21,9 @@ std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsVie
                                                     const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
   const auto own = tested_pairs(contract, c.frames.front());
-  oracle::MeshFeatures features;
-  std::optional<oracle::PairRelation> tested, counted_relation;
-  if (c.counted || !own.count_all()) features = oracle::mesh_features(c.triangles);
-  if (!own.count_all()) tested.emplace(own, features);
-  if (c.counted) counted_relation.emplace(c.counted->pairs, features);
-  return oracle::any_nearer_than(x, c.triangles, distance, [&](std::int32_t a, std::int32_t b) {
-    return !leaves_out(contract, c.triangles, {a, b}) && (!tested || tested->counts_faces(a, b)) &&
-           (!counted_relation || counted_relation->counts_faces(a, b));
-  });
+  return oracle::any_nearer_than(
+      x, c.triangles, distance,
+      counted_under(contract, c.triangles, {&own, corpus::counted_of(c)}));
 }
 
 // The relation as the detector sees it: as coarse as its coordinates. If it can be told none, every

@@ -1,11 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <vector>
 
-#include "oracle/instant/instant.h"
-#include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
 #include "properties/worker/plugin/plugin_host.h"
@@ -144,24 +140,9 @@ class LimitComparison {
         std::max(from.cwiseAbs().maxCoeff(), step_.motion.vertices_t1.cwiseAbs().maxCoeff());
     const double gap = contract_.separation + ulps_of_a_gap * ulp(largest, contract_.coordinates);
     return could_move(share, ulps_of_a_way) && std::isfinite(gap) &&
-           !oracle::any_nearer_than(from, step_.triangles, gap, counted_pairs());
-  }
-
-  // Whether a pair may be one that the question is about.
-  oracle::WantedPair counted_pairs() const {
-    // Relations refer to them.
-    const auto features =
-        std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(step_.triangles));
-    std::vector<std::shared_ptr<oracle::PairRelation>> relations;
-    for (const auto* pairs : {step_.options.counted, step_.options.tested}) {
-      if (pairs && !pairs->count_all())
-        relations.push_back(std::make_shared<oracle::PairRelation>(*pairs, *features));
-    }
-    return [this, features, relations](std::int32_t a, std::int32_t b) {
-      return !leaves_out(contract_, step_.triangles, {a, b}) &&
-             std::ranges::all_of(
-                 relations, [&](const auto& relation) { return relation->counts_faces(a, b); });
-    };
+           !oracle::any_nearer_than(from, step_.triangles, gap,
+                                    counted_under(contract_, step_.triangles,
+                                                  {step_.options.counted, step_.options.tested}));
   }
 
   std::string cause_of_stall() const {

@@ -2,11 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <utility>
 
-#include "oracle/mesh/pair_relation.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/phases/phases.h"
@@ -134,34 +135,21 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
 }
 
 // Tells whether the contract lets a contact be tested, as far as the features that meet first show.
-class TestedContacts {
- public:
-  TestedContacts(const Contract& contract, const corpus::Case& c)
-      : contract_(contract), own_(tested_pairs(contract, c.frames.front())) {
-    if (own_.count_all()) return;
-    features_ = oracle::mesh_features(c.triangles);
-    relation_.emplace(own_, features_);
-  }
-  TestedContacts(const TestedContacts&) = delete;
-  TestedContacts& operator=(const TestedContacts&) = delete;
-
-  bool operator()(const detector::PairContact& contact) const {
+using IsTested = std::function<bool(const detector::PairContact&)>;
+IsTested tested_contacts(const Contract& contract, const corpus::Case& c) {
+  const auto own =
+      std::make_shared<const detector::CountedPairs>(tested_pairs(contract, c.frames.front()));
+  return [&contract, own, counts = counted_under(contract, c.triangles, {own.get()})](
+             const detector::PairContact& contact) {
     const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
-    const bool is_of_kind = contract_.features == TestedFeatures::both ||
-                            is_edge_edge == (contract_.features == TestedFeatures::edge_edge);
-    return is_of_kind && (!relation_ || relation_->counts_faces(contact.pair.a, contact.pair.b));
-  }
-
- private:
-  const Contract& contract_;
-  const detector::CountedPairs own_;
-  oracle::MeshFeatures features_;
-  std::optional<oracle::PairRelation> relation_;
-};
+    const bool is_of_kind = contract.features == TestedFeatures::both ||
+                            is_edge_edge == (contract.features == TestedFeatures::edge_edge);
+    return is_of_kind && counts(contact.pair.a, contact.pair.b);
+  };
+}
 
 // Returns the oracle's judgement of the step if the built-in detector's result is right.
-oracle::StepJudgement truth_by(const detector::StepResult& result,
-                               const TestedContacts& is_tested) {
+oracle::StepJudgement truth_by(const detector::StepResult& result, const IsTested& is_tested) {
   oracle::StepJudgement judgement;
   judgement.answer = result.answer;
   judgement.complete = true;
@@ -178,7 +166,7 @@ oracle::StepJudgement truth_by(const detector::StepResult& result,
 std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
-  const TestedContacts is_tested(contract, c);
+  const auto is_tested = tested_contacts(contract, c);
   const auto script = corpus::steps_of(c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
@@ -204,7 +192,7 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
 // the first without any. `answers` is the run of the built-in detector.
 std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
                                      const CaseRun& answers) {
-  const TestedContacts is_tested(contract, c);
+  const auto is_tested = tested_contacts(contract, c);
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
   for (std::size_t s = 0; s < answers.steps.size(); ++s) {
