@@ -251,20 +251,19 @@ std::string time_text(const detector::TimeEnclosure& t) {
   return fmt::format("[{}, {}]", t.lo, t.hi);
 }
 
-class CaseChecker {
- public:
-  CaseChecker(const corpus::Case& c, const detector::Options& options, int jobs)
-      : jobs_(jobs),
-        configuration_{"", options},
-        detector_(built_in_detector().in(configuration_)),
-        claims_(detector_.claims_in(configuration_)),
-        check_{examine({.detector = detector_,
-                        .configurations = {&configuration_, 1},
-                        .oracle_jobs = jobs,
-                        .needs_an_answer = true},
-                       c)},
-        case_(check_.c),
-        script_(corpus::steps_of(case_)) {}
+struct CaseChecker {
+  const corpus::Case& given_;
+  const Configuration configuration_;
+  const int jobs_;
+  const DetectorUnderTest detector_ = built_in_detector().in(configuration_);
+  const Claims claims_ = detector_.claims_in(configuration_);
+  CaseCheck check_ = {examine({.detector = detector_,
+                               .configurations = {&configuration_, 1},
+                               .oracle_jobs = jobs_,
+                               .needs_an_answer = true},
+                              given_)};
+  const corpus::Case& case_ = check_.c;
+  const std::vector<corpus::CaseStep> script_ = corpus::steps_of(case_);
 
   CaseCheck run() {
     const auto& run = check_.runs[0];
@@ -374,14 +373,6 @@ class CaseChecker {
     const auto corner = [&](int i) { return motion(s).path(case_.triangles(t, i)); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }
-
-  int jobs_;
-  Configuration configuration_;
-  DetectorUnderTest detector_;
-  Claims claims_;
-  CaseCheck check_;
-  const corpus::Case& case_;
-  std::vector<corpus::CaseStep> script_;
 };
 
 }  // namespace
@@ -391,7 +382,7 @@ CaseCheck check_case(const corpus::Case& c, std::optional<Culling> culling, int 
   auto options = options_of(c);
   options.culling = culling.value_or(options.culling);
   options.arithmetic = arithmetic.value_or(options.arithmetic);
-  return CaseChecker(c, options, jobs).run();
+  return CaseChecker{c, {"", options}, jobs}.run();
 }
 
 }  // namespace assay::properties

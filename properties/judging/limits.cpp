@@ -38,10 +38,12 @@ bool is_before(double share, const detector::TimeEnclosure& time) {
   return time.lo == time.hi ? share < time.lo : share <= time.lo;
 }
 
-class LimitComparison {
- public:
-  LimitComparison(const LimitAnswer& answer, const JudgedStep& step, const StepTruth& truth)
-      : answer_(answer), step_(step), truth_(truth), contract_(step.contract) {}
+struct LimitComparison {
+  const LimitAnswer& answer_;
+  const JudgedStep& step_;
+  const StepTruth& truth_;
+  const Contract& contract_ = step_.contract;
+  bool was_stopped_ = false;
 
   void judge(StepDiff& diff) {
     LimitDiff& limit = diff.limit.emplace();
@@ -149,12 +151,6 @@ class LimitComparison {
     if (!truth_.first) return "nothing is in the way";
     return cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0);
   }
-
-  const LimitAnswer& answer_;
-  const JudgedStep& step_;
-  const StepTruth& truth_;
-  const Contract& contract_;
-  bool was_stopped_ = false;
 };
 
 }  // namespace
@@ -168,7 +164,7 @@ void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& ste
     return;
   }
   if (answer && step.judgement.complete) {
-    LimitComparison(*answer, step, truth).judge(diff);
+    LimitComparison{*answer, step, truth}.judge(diff);
   } else if (diff.outcome == Outcome::holds) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;

@@ -205,10 +205,10 @@ using LossKinds = std::vector<LossKind>;
 
 // Sorts the kinds that lose a contact by the traits that set their contacts apart from contacts
 // that were found.
-class Sorter {
- public:
-  Sorter(LossKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> contacts)
-      : kinds_(std::move(kinds)), names_(std::move(names)), contacts_(std::move(contacts)) {}
+struct Sorter {
+  LossKinds kinds_;
+  const std::vector<std::string> names_;
+  const std::vector<std::vector<Traits>> contacts_;
 
   std::vector<FailureGroup> run() {
     std::vector<FailureGroup> groups;
@@ -313,10 +313,6 @@ class Sorter {
   static constexpr double least_surprise_of_some = 13.82;  // 1e-6; some hundreds are
   static constexpr std::size_t least_cases = 3;
   static constexpr double least_surprise_of_a_case = 2.08;  // an eighth of the cases that hold
-
-  LossKinds kinds_;
-  const std::vector<std::string> names_;
-  const std::vector<std::vector<Traits>> contacts_;
 };
 
 std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
@@ -350,7 +346,7 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
   }
   std::vector<std::string> names(numbers.size());
   for (const auto& [word, number] : numbers) names[number] = word;
-  return Sorter(std::move(loss_kinds), std::move(names), std::move(contact_traits)).run();
+  return Sorter{std::move(loss_kinds), std::move(names), std::move(contact_traits)}.run();
 }
 
 }  // namespace

@@ -28,9 +28,14 @@ constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
 
 // The phases of run_campaign(), which states their order.
 struct CampaignRun {
-  CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-              CampaignObserver& observer)
-      : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
+  const CampaignRequest& request_;
+  const std::filesystem::path& corpus_;
+  Store& store_;
+  CampaignObserver& observer_;
+  const std::function<void(const std::string&)> progress_ = [this](const std::string& text) {
+    observer_.on_progress(text, 0, 0);
+  };
+  const RunDeadline begin_ = Clock::now();
 
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
@@ -105,15 +110,6 @@ struct CampaignRun {
                        result.counterexample ? std::optional(result.explanation) : std::nullopt}));
     }
   }
-
-  const CampaignRequest& request_;
-  const std::filesystem::path& corpus_;
-  Store& store_;
-  CampaignObserver& observer_;
-  const std::function<void(const std::string&)> progress_ = [this](const std::string& text) {
-    observer_.on_progress(text, 0, 0);
-  };
-  const RunDeadline begin_ = Clock::now();
 };
 
 }  // namespace
@@ -121,7 +117,7 @@ struct CampaignRun {
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {
   return catch_store_problem([&] {
-    CampaignRun run(request, corpus, store, observer);
+    CampaignRun run{request, corpus, store, observer};
     if (request.plugin) note_library(store, *request.plugin);
     note_begin(store);
     if (request.plugin) run.note_isolation();

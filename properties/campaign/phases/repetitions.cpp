@@ -228,13 +228,14 @@ std::vector<std::size_t> first_places(std::size_t count) {
 // Which steps of a sequence the oracle judges.
 enum class JudgedSteps { none, some, all };
 
-class Repetitions {
- public:
-  Repetitions(const CampaignRequest& request, Store& store)
-      : request_(request),
-        store_(store),
-        threads_(threads_of_runs(request)),
-        built_in_(request.worker, std::nullopt, {}) {}
+struct Repetitions {
+  const CampaignRequest& request_;
+  Store& store_;
+  const std::vector<std::uint64_t> threads_ = threads_of_runs(request_);
+  WorkerProcess built_in_{request_.worker, std::nullopt, {}};
+  std::vector<WorkerProcess> workers_ = {};  // by the place of the run
+  const char* special_ = "";
+  int hung_ = 0;
 
   // Where the limiter lets a step stop, by itself, in the process of the first run.
   std::optional<detector::Positions> limit_of(const corpus::Case& step) {
@@ -409,14 +410,6 @@ class Repetitions {
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
     add(c.id, c, failure, run.output, true);
   }
-
-  const CampaignRequest& request_;
-  Store& store_;
-  std::vector<std::uint64_t> threads_;
-  WorkerProcess built_in_;
-  std::vector<WorkerProcess> workers_;  // by the place of the run
-  const char* special_ = "";
-  int hung_ = 0;
 };
 
 }  // namespace
@@ -437,7 +430,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
   const auto rows = facts_in(store).rows_of(Source::repeated);
-  Repetitions repetitions(request, store);
+  Repetitions repetitions{request, store};
   const auto judge_new = [&](const std::string& input, JudgedSteps steps, const auto& make,
                              const char* special = "large mesh") {
     const bool is_stored = std::ranges::find(rows, input, &JudgedSource::input) != rows.end();

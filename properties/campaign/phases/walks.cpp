@@ -78,13 +78,12 @@ Scene scene_of(WalkKind kind, Random& random, double separation) {
 }
 
 // Where the mesh would be at the end of a step.
-class Driver {
- public:
-  Driver(WalkKind kind, const Scene& scene, Random& random)
-      : kind_(kind),
-        first_moving_(scene.first_moving),
-        start_(scene.c.frames[0]),
-        random_(random) {}
+struct Driver {
+  const WalkKind kind_;
+  const Eigen::Index first_moving_;
+  const Positions& start_;
+  Random& random_;
+  Row push_{0, 0, 0};
 
   Positions goal(const Positions& x, int step) {
     constexpr int steps_of_a_push = 20, lifted_every = 60, steps_of_a_lift = 3;
@@ -124,12 +123,6 @@ class Driver {
     to.bottomRows<corners_of_a_body>() = lower;
     return to;
   }
-
-  WalkKind kind_;
-  Eigen::Index first_moving_;
-  Positions start_;
-  Random& random_;
-  Row push_{0, 0, 0};
 };
 
 }  // namespace
@@ -139,7 +132,7 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
   const std::string id = name_of(kind);
   Random random(fmt::format("{}:{}", seed, id));
   const Scene scene = scene_of(kind, random, contract.separation);
-  Driver driver(kind, scene, random);
+  Driver driver{kind, scene.first_moving, scene.c.frames[0], random};
   corpus::Case c = scene.c;
   c.id = id;
   c.frames[0] = round_to(c.frames[0], contract.coordinates);

@@ -105,20 +105,27 @@ std::vector<TrialKey> planned_trials(const CampaignRequest& request,
   return list;
 }
 
-class Trials {
- public:
-  Trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-         const std::function<void(const TrialProgress&)>& progress,
-         const std::set<std::string>* only)
-      : request_(request),
-        store_(store),
-        deadline_(deadline),
-        progress_(progress),
-        keys_(planned_trials(request, only)),
-        signatures_(store.signatures()) {
-    for (const auto& stratum : request.plan.strata)
-      detectors_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
-  }
+// The detector as it is asked in each stratum, by family.
+std::map<std::string, DetectorUnderTest, std::less<>> detectors_in(const CampaignRequest& request) {
+  std::map<std::string, DetectorUnderTest, std::less<>> detectors;
+  for (const auto& [family, cases, bound] : request.plan.strata)
+    detectors.emplace(family, request.detector.in_stratum(family));
+  return detectors;
+}
+
+struct Trials {
+  const CampaignRequest& request_;
+  Store& store_;
+  const RunDeadline deadline_;
+  const std::function<void(const TrialProgress&)>& progress_;
+  const std::vector<TrialKey> keys_;
+  const std::map<std::string, DetectorUnderTest, std::less<>> detectors_ = detectors_in(request_);
+  std::mutex mutex_ = {};
+  std::size_t next_ = 0;
+  TrialProgress state_ = {};
+  TrialsEnd end_ = {};
+  Counts signatures_ = store_.signatures();
+  const Clock::time_point begin_ = Clock::now();
 
   TrialsEnd end() {
     end_.complete = state_.done_trials == keys_.size();
@@ -128,7 +135,7 @@ class Trials {
 
   // What each thread does: it takes trials, and runs and judges them.
   void work() {
-    Workers workers(request_);
+    Workers workers{request_};
     std::vector<Trial> waiting, ended_trials;
     // If something goes wrong in one thread, all of them end.
     try {
@@ -208,9 +215,9 @@ class Trials {
 
   // The processes of one thread: one for first runs, one for second ones; and the same for each
   // size of large cases, whose limit of time is another. They are started when they are asked.
-  class Workers {
-   public:
-    explicit Workers(const CampaignRequest& request) : request_(request) {}
+  struct Workers {
+    const CampaignRequest& request_;
+    std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_ = {};
 
     WorkerProcess& first(const Family& family) { return of(family, request_.worker_limits()); }
     WorkerProcess& second(const Family& family) {
@@ -227,9 +234,6 @@ class Trials {
             processes_.emplace(key, WorkerProcess(request_.worker, request_.plugin, limits)).first;
       return place->second;
     }
-
-    const CampaignRequest& request_;
-    std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_;
   };
 
   static Exam exam_of(const Trial& trial) {
@@ -369,8 +373,7 @@ class Trials {
   static std::size_t place_of(const Configuration& configuration,
                               const DetectorUnderTest& detector) {
     const auto& all = detector.configurations;
-    const auto place = std::ranges::find_if(
-        all, [&](const Configuration& one) { return one.name == configuration.name; });
+    const auto place = std::ranges::find(all, configuration.name, &Configuration::name);
     return static_cast<std::size_t>(place - all.begin());
   }
 
@@ -427,19 +430,6 @@ class Trials {
     state_.disturbed += record.disturbed > 0 ? 1 : 0;
     if (progress_) progress_(state_);
   }
-
-  const CampaignRequest& request_;
-  Store& store_;
-  const RunDeadline deadline_;
-  const std::function<void(const TrialProgress&)>& progress_;
-  const std::vector<TrialKey> keys_;
-  std::map<std::string, DetectorUnderTest, std::less<>> detectors_;  // by family
-  std::mutex mutex_;
-  std::size_t next_ = 0;
-  TrialProgress state_;
-  TrialsEnd end_;
-  Counts signatures_;
-  const Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace
@@ -447,7 +437,7 @@ class Trials {
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const std::function<void(const TrialProgress&)>& progress,
                      const std::set<std::string>* only) {
-  Trials trials(request, store, deadline, progress, only);
+  Trials trials{request, store, deadline, progress, planned_trials(request, only)};
   in_threads(request.jobs, [&] { trials.work(); });
   return trials.end();
 }

@@ -19,15 +19,11 @@ using detector::StepResult;
 namespace {
 
 // Runs the steps of one case through one handle.
-class PluginRun {
- public:
-  PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count,
-            bool reports_pairs, bool asks_twice)
-      : api_(api),
-        handle_(handle, api.destroy),
-        triangle_count_(triangle_count),
-        reports_pairs_(reports_pairs),
-        asks_twice_(asks_twice) {}
+struct PluginRun {
+  const assay_detector_api& api_;
+  const std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
+  const std::int32_t triangle_count_;
+  const bool reports_pairs_, asks_twice_;
 
   // The candidate pairs of a step, or why there are none.
   Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
@@ -87,11 +83,6 @@ class PluginRun {
     if (code == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(text_of_error(api_));
     return Problem{text_of_code(api_, function, code)};
   }
-
-  const assay_detector_api& api_;
-  std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
-  std::int32_t triangle_count_;
-  bool reports_pairs_, asks_twice_;
 };
 
 // Tells the plug-in which pairs count. Says why it does not take that; empty if it does.
@@ -229,8 +220,11 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     if (explanation.empty()) explanation = text_of_code(table_, "create", code);
     return {RunEnd::refused, std::move(explanation), {}};
   }
-  PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
-                   description_.contract.reports_pairs(), asks_twice_);
+  PluginRun plugin{table_,
+                   {handle, table_.destroy},
+                   static_cast<std::int32_t>(c.triangles.rows()),
+                   description_.contract.reports_pairs(),
+                   asks_twice_};
   if (c.counted && !c.counted->pairs.count_all()) {
     // A contracted case has no relation for such a plug-in.
     if (!table_.count) return {RunEnd::refused, "it cannot be told which pairs count", {}};
