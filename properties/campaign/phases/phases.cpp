@@ -32,9 +32,7 @@ struct CampaignRun {
   const std::filesystem::path& corpus_;
   Store& store_;
   CampaignObserver& observer_;
-  const std::function<void(const std::string&)> progress_ = [this](const std::string& text) {
-    observer_.on_progress(text, 0, 0);
-  };
+  const OnText progress_ = [this](const std::string& text) { observer_.on_progress(text, 0, 0); };
   const RunDeadline begin_ = Clock::now();
 
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
@@ -179,9 +177,9 @@ void add_smallest(const std::vector<FailureRecord>& failures, Store& store) {
 
 }  // namespace
 
-Expected<FailureList> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
-    const std::function<void(const std::string&)>& progress) {
+Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
+                                             const std::vector<FailureRecord>& failures,
+                                             Store& store, const OnText& progress) {
   return catch_store_problem([&] {
     add_smallest(failures, store);
     shrink_failures(request, store, shrinking_of_one,
@@ -245,8 +243,7 @@ std::string difference_of_trials(const TrialRecord& first, const TrialRecord& no
 // Runs the trials of one store once more. Names the first that comes to something else; empty if
 // none does.
 std::string difference_of_store(const CampaignRequest& request,
-                                const std::vector<TrialRecord>& records,
-                                const std::function<void(const TrialProgress&)>& progress) {
+                                const std::vector<TrialRecord>& records, const OnTrial& progress) {
   std::set<std::string> ids;
   for (const auto& record : records) ids.insert(record.id);
   const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
@@ -270,8 +267,7 @@ std::string difference_of_store(const CampaignRequest& request,
 }  // namespace
 
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
-                                double share, std::uint64_t seed,
-                                const std::function<void(const TrialProgress&)>& progress) {
+                                double share, std::uint64_t seed, const OnTrial& progress) {
   return catch_store_problem([&] {
     const auto files = value_or_throw(stored_runs(folder));
     TrialsAgain again;

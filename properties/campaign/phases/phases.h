@@ -39,6 +39,8 @@ struct FaultHunt {
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
 };
 
+// Is told the progress of a phase, in words.
+using OnText = std::function<void(const std::string&)>;
 // Is told the progress of a hunt, in words, and how many cases are done and left.
 using OnHunt = std::function<void(const std::string&, std::uint64_t count, std::uint64_t rest)>;
 
@@ -131,7 +133,7 @@ corpus::Case long_sequence(std::uint64_t seed);
 //
 // Throws StoreProblem; so it is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                         const std::function<void(const std::string&)>& progress);
+                         const OnText& progress);
 
 // Walks a mesh under a limiter (walks.cpp): each step starts where the limiter let the last step
 // stop, as in a simulator. So the mesh comes nearer and nearer to itself, which cases that are
@@ -191,7 +193,7 @@ ExamineCases examine_in_lane(const Exam& exam);
 // curated cases. `progress` is called from one thread at a time. Throws StoreProblem; so it is for
 // campaign/ alone.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline, const std::function<void(const std::string&)>& progress);
+                  RunDeadline deadline, const OnText& progress);
 
 // Shrinks the cases on which a detector fails.
 
@@ -212,7 +214,7 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 // smallest mesh so far. Each better mesh is stored as soon as it is found. `limits` hold for each
 // failure, the deadline for all. Throws StoreProblem, which only campaign/ catches.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-                     RunDeadline deadline, const std::function<void(const std::string&)>& progress);
+                     RunDeadline deadline, const OnText& progress);
 
 // Makes the detector's own choice of a view primitive part of the case.
 
@@ -266,9 +268,9 @@ double shrinking_seconds(const CampaignPlan& plan);
 // order of the corpus. What an earlier call stored stays. `progress` is called with the signature
 // that is being shrunk.
 // Returns the stored failures of the corpus.
-Expected<FailureList> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
-    const std::function<void(const std::string&)>& progress);
+Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
+                                             const std::vector<FailureRecord>& failures,
+                                             Store& store, const OnText& progress);
 
 // Stores the rows of the corpus, and removes the failures of an earlier call that the corpus does
 // not show any more. In a run (`now`) the smallest mesh of each signature is stored at once, and
@@ -297,7 +299,6 @@ struct TrialsAgain {
 // share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
 // Costs O(trials stored) to draw them, then the time that they took in the first run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
-                                double share, std::uint64_t seed,
-                                const std::function<void(const TrialProgress&)>& progress);
+                                double share, std::uint64_t seed, const OnTrial& progress);
 
 }  // namespace assay::properties

@@ -426,7 +426,7 @@ bool is_repeated(const CampaignPlan& plan, bool built_in) {
 }
 
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                         const std::function<void(const std::string&)>& progress) {
+                         const OnText& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
   const auto rows = facts_in(store).rows_of(Source::repeated);

@@ -27,7 +27,7 @@ struct ShareSearch {
   const std::filesystem::path& corpus_;
   Store& store_;
   const RunDeadline deadline_;
-  const std::function<void(const std::string&)>& progress_;
+  const OnText& progress_;
   const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
   const SearchSpace space_ = {
       request_.detector.contract, case_sources(sources_asked(request_, corpus_)),
@@ -129,7 +129,7 @@ ExamineCases examine_in_lane(const Exam& exam) {
 }
 
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
+                  RunDeadline deadline, const OnText& progress) {
   ShareSearch{request, corpus, store, deadline, progress}.run();
 }
 

@@ -97,8 +97,7 @@ bool may_be_asked_alone(const FailureRecord& failure, const CampaignRequest& req
 }  // namespace
 
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-                     RunDeadline deadline,
-                     const std::function<void(const std::string&)>& progress) {
+                     RunDeadline deadline, const OnText& progress) {
   auto failures = store.failures();
   // Failures that were shrunk in part come before the others of their signature.
   std::stable_partition(failures.begin(), failures.end(),

@@ -117,7 +117,7 @@ struct Trials {
   const CampaignRequest& request_;
   Store& store_;
   const RunDeadline deadline_;
-  const std::function<void(const TrialProgress&)>& progress_;
+  const OnTrial& progress_;
   const std::vector<TrialKey> keys_;
   const std::map<std::string, DetectorUnderTest, std::less<>> detectors_ = detectors_in(request_);
   std::mutex mutex_ = {};
@@ -435,8 +435,7 @@ struct Trials {
 }  // namespace
 
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress,
-                     const std::set<std::string>* only) {
+                     const OnTrial& progress, const std::set<std::string>* only) {
   Trials trials{request, store, deadline, progress, planned_trials(request, only)};
   in_threads(request.jobs, [&] { trials.work(); });
   return trials.end();

@@ -151,6 +151,7 @@ struct TrialProgress {
   std::uint64_t done_trials = 0, quota = 0, stored_trials = 0;
   std::uint64_t defects = 0, undecided = 0, disturbed = 0;
 };
+using OnTrial = std::function<void(const TrialProgress&)>;
 
 struct TrialsEnd {
   bool complete = false;        // every planned trial of the run is in the store
@@ -172,8 +173,7 @@ struct TrialsEnd {
 // Throws StoreProblem if the store cannot even be read at the beginning; so it is for campaign/
 // alone.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress,
-                     const std::set<std::string>* only = nullptr);
+                     const OnTrial& progress, const std::set<std::string>* only = nullptr);
 
 // Returns the case of a failure as it is stored: with the options of its configuration.
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
