@@ -25,10 +25,9 @@ std::span<const Law> laws() {
   static const std::vector<Law> all = [] {
     std::vector<Law> list;
     for (const auto group :
-         {view_value_laws(), view_set_laws(), first_contact_laws(), one_sign_laws(),
-          all_positive_laws(), pair_set_laws(), state_laws(), component_laws(), boundary_laws(),
-          doubtful_input_laws(), normal_cone_laws(), question_laws(), change_laws(),
-          repetition_laws(), option_laws()})
+         {view_laws(), first_contact_laws(), one_sign_laws(), pair_set_laws(), state_laws(),
+          component_laws(), boundary_laws(), doubtful_input_laws(), normal_cone_laws(),
+          question_laws(), change_laws(), repetition_laws(), option_laws()})
       list.insert(list.end(), group.begin(), group.end());
     return list;
   }();

@@ -94,28 +94,7 @@ Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
       });
 }
 
-constexpr Law view_value_law_table[] = {
-    {"L1_ClampFormIsRegionForm", "L1",
-     "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
-     "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
-     "nothing: exact rationals at sampled times", each_step<clamp_form_is_region_form>},
-    {"L1_InnerValuesLieBetweenCornerValues", "L1",
-     "The view value at any point of a triangle lies between the least and the greatest of its "
-     "three corners, each seen from its own nearest point.",
-     "nothing: exact rationals at sampled times", each_step<inner_values_lie_between_corners>},
-    {"L1_SignsHoldAtEveryPoint", "L1",
-     "Where the detector calls a triangle positive or negative, every view value of it has that "
-     "sign, at corners and inside.",
-     "nothing: exact rationals at sampled times", each_step<signs_hold_inside>},
-};
-
-}  // namespace
-
-std::span<const Law> view_value_laws() { return view_value_law_table; }
-
 // L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
-
-namespace {
 
 // Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
 // components whose primitive is a point, or only at those whose primitive is not.
@@ -175,7 +154,19 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law view_set_law_table[] = {
+constexpr Law view_law_table[] = {
+    {"L1_ClampFormIsRegionForm", "L1",
+     "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
+     "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
+     "nothing: exact rationals at sampled times", each_step<clamp_form_is_region_form>},
+    {"L1_InnerValuesLieBetweenCornerValues", "L1",
+     "The view value at any point of a triangle lies between the least and the greatest of its "
+     "three corners, each seen from its own nearest point.",
+     "nothing: exact rationals at sampled times", each_step<inner_values_lie_between_corners>},
+    {"L1_SignsHoldAtEveryPoint", "L1",
+     "Where the detector calls a triangle positive or negative, every view value of it has that "
+     "sign, at corners and inside.",
+     "nothing: exact rationals at sampled times", each_step<signs_hold_inside>},
     {"L2_SignsAreTheOracles_Point", "L2",
      "Seen from a point, the sign of each triangle of the mesh over the whole step is the exact "
      "one: positive at all times, negative at all times, or zero.",
@@ -197,7 +188,7 @@ constexpr Law view_set_law_table[] = {
 
 }  // namespace
 
-std::span<const Law> view_set_laws() { return view_set_law_table; }
+std::span<const Law> view_laws() { return view_law_table; }
 
 // L4: if all triangles have one sign and none is in doubt, there is no contact.
 
@@ -234,28 +225,7 @@ Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
   return premise_held ? holds() : not_met();
 }
 
-constexpr Law one_sign_law_table[] = {
-    {"L4_AllPositiveIsCollisionFree_Point", "L4",
-     "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
-     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
-    {"L4_AllPositiveIsCollisionFree_Line", "L4", "The same seen from a segment that stands still.",
-     "pair set, view signs",
-     each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
-    {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
-     "The same seen from a segment whose ends move.", "pair set, view signs",
-     each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
-    {"L4_AllNegativeIsCollisionFree", "L4",
-     "The mirror: a component whose V+, V0 and Vv are empty has no contact in the step.",
-     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::negative, is_any>>},
-};
-
-}  // namespace
-
-std::span<const Law> one_sign_laws() { return one_sign_law_table; }
-
 // L5: all of S is positive and the winding number is 1, whatever was before.
-
-namespace {
 
 bool is_cycle(const CaseFacts& facts, std::size_t component) {
   return facts.surface().mesh.components[component].is_cycle;
@@ -311,7 +281,19 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law all_positive_law_table[] = {
+constexpr Law one_sign_law_table[] = {
+    {"L4_AllPositiveIsCollisionFree_Point", "L4",
+     "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
+     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
+    {"L4_AllPositiveIsCollisionFree_Line", "L4", "The same seen from a segment that stands still.",
+     "pair set, view signs",
+     each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
+    {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
+     "The same seen from a segment whose ends move.", "pair set, view signs",
+     each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
+    {"L4_AllNegativeIsCollisionFree", "L4",
+     "The mirror: a component whose V+, V0 and Vv are empty has no contact in the step.",
+     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::negative, is_any>>},
     {"L5_AllPositiveAndWindingOneIsFree_Closed", "L5",
      "A closed component that is positive over the step and has winding number 1 at its primitive "
      "at t=0 is free whatever came before, and at both ends every triangle is clean, of layer "
@@ -330,6 +312,6 @@ constexpr Law all_positive_law_table[] = {
 
 }  // namespace
 
-std::span<const Law> all_positive_laws() { return all_positive_law_table; }
+std::span<const Law> one_sign_laws() { return one_sign_law_table; }
 
 }  // namespace assay::properties
