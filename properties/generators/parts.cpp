@@ -22,16 +22,8 @@ void for_each_point(Draft& draft, const Change& change) {
   for (auto& p : draft.q1) change(p);
 }
 
-}  // namespace
-
-void round_to_grid(Draft& draft, double scale, int bits) {
-  const double unit = std::ldexp(1, bits);
-  for_each_point(draft, [=](Point& p) {
-    // Adding 0.0 turns -0 into 0, because -0 is written differently.
-    for (double& c : p) c = std::floor(c * scale * unit + 0.5) / unit + 0.0;
-  });
-}
-
+// Gives some vertices a coordinate that lies beside another vertex's, by 1 to 3 units of the last
+// place.
 void place_ulp_neighbours(Random& random, Draft& draft) {
   for (int changes = random.between(1, 6); changes > 0; --changes) {
     Points& x = one_of(random, draft.frames);
@@ -45,6 +37,16 @@ void place_ulp_neighbours(Random& random, Draft& draft) {
     p[k] = units_beyond(c, random.between(1, 3), towards);
   }
   draft.tag("menu:ulp");
+}
+
+}  // namespace
+
+void round_to_grid(Draft& draft, double scale, int bits) {
+  const double unit = std::ldexp(1, bits);
+  for_each_point(draft, [=](Point& p) {
+    // Adding 0.0 turns -0 into 0, because -0 is written differently.
+    for (double& c : p) c = std::floor(c * scale * unit + 0.5) / unit + 0.0;
+  });
 }
 
 void move_far(Random& random, Draft& draft) {

@@ -109,10 +109,6 @@ void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 // Rounds to multiples of 2^-bits (small integers for bits = 0) after scaling by `scale`.
 void round_to_grid(Draft& draft, double scale, int bits);
 
-// Gives some vertices a coordinate that lies beside another vertex's, by 1 to 3 units of the last
-// place.
-void place_ulp_neighbours(Random& random, Draft& draft);
-
 // Adds an offset with exponents up to 40, so that low bits are rounded away.
 void move_far(Random& random, Draft& draft);
 

@@ -231,18 +231,6 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   return comparison.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
 }
 
-oracle::AskedFeatures asked_features(const Contract& contract) {
-  switch (contract.features) {
-    case TestedFeatures::both:
-      return oracle::AskedFeatures::all;
-    case TestedFeatures::vertex_face:
-      return oracle::AskedFeatures::vertex_face;
-    case TestedFeatures::edge_edge:
-      return oracle::AskedFeatures::edge_edge;
-  }
-  return oracle::AskedFeatures::all;
-}
-
 oracle::WantedPair counted_under(const Contract& contract, const detector::TrianglesView& triangles,
                                  std::initializer_list<const detector::CountedPairs*> all) {
   std::shared_ptr<const oracle::MeshFeatures> features;  // Relations refer to them.
@@ -370,7 +358,9 @@ void add_others(const std::vector<PairContact>& others, std::vector<PairContact>
 oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
                                   const detector::TrianglesView& triangles,
                                   oracle::JudgeOptions options) {
-  options.features = asked_features(contract);
+  using enum oracle::AskedFeatures;
+  constexpr oracle::AskedFeatures asked[] = {all, vertex_face, edge_edge};  // by TestedFeatures
+  options.features = asked[static_cast<std::size_t>(contract.features)];
   auto judgement =
       contract.separation > 0
           ? oracle::judge_distance(motion, triangles, {contract.separation, 0}, {options})

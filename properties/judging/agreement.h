@@ -88,14 +88,11 @@ TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEn
 // The row of a claim says what breaks it (claims.h). If times-unique is claimed, an interval is
 // wrong unless every bit is that of the oracle's interval.
 //
-// REQUIRES a judgement of the oracle for asked_features(contract), and the triangles if the
-// contract leaves out neighbours.
+// REQUIRES a judgement of the oracle by judge_under, and the triangles if the contract leaves out
+// neighbours.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract = {},
                  const detector::TrianglesView& triangles = detector::Triangles(0, 3));
-
-// Returns the features that the oracle must be asked for under this contract.
-oracle::AskedFeatures asked_features(const Contract& contract);
 
 // Returns which pairs of triangles count under the contract and under each of the relations; nullptr
 // stands for none. All that is named must outlive the answer.
@@ -111,8 +108,8 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair,
                             detector::Options options = {});
 
-// A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's way
-// is judged by them. REQUIRES a judgement by asked_features(contract).
+// A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's
+// way is judged by them. REQUIRES a judgement by judge_under.
 struct JudgedStep {
   detector::SteppedMesh motion;
   detector::TrianglesView triangles;

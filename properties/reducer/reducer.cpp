@@ -138,10 +138,7 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
 namespace {
 
 bool moves(const std::vector<detector::Point>& places) {
-  for (const auto& place : places) {
-    if (place != places.front()) return true;
-  }
-  return false;
+  return std::ranges::any_of(places, [&](const auto& place) { return place != places.front(); });
 }
 
 int rank_of(const std::optional<corpus::CaseView>& view) {

@@ -98,14 +98,9 @@ void ReductionSearch::begin_pass(const std::string& name) {
   const double now = seconds();
   if (!statistics_.empty()) statistics_[pass_].seconds += now - pass_start_;
   pass_start_ = now;
-  for (std::size_t p = 0; p < statistics_.size(); ++p) {
-    if (statistics_[p].name == name) {
-      pass_ = p;
-      return;
-    }
-  }
-  pass_ = statistics_.size();
-  statistics_.push_back({name, 0, 0, 0});
+  const auto place = std::ranges::find(statistics_, name, &PassStatistics::name);
+  pass_ = static_cast<std::size_t>(place - statistics_.begin());
+  if (place == statistics_.end()) statistics_.push_back({name, 0, 0, 0});
 }
 
 Rings rings_of(const ReductionSearch& search) {

@@ -216,24 +216,11 @@ std::uint64_t peak_bytes_here() {
 
 }  // namespace
 
-RunClock::RunClock(bool is_on) : is_on_(is_on) { begin(); }
-
 double RunClock::lap() {
+  if (!is_on_) return 0;
   const double before = last_;
   last_ = processor_seconds_here();
   return last_ - before;
-}
-
-void RunClock::begin() {
-  if (is_on_) lap();
-}
-
-void RunClock::created() {
-  if (is_on_) times_.create = lap();
-}
-
-void RunClock::end_step() {
-  if (is_on_) times_.steps.push_back(lap());
 }
 
 std::optional<RunTimes> RunClock::take() {

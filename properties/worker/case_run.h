@@ -141,10 +141,11 @@ bool same_answers(const CaseRun& a, const CaseRun& b);
 class RunClock {
  public:
   // Begins to time the making of the detector.
-  explicit RunClock(bool is_on);
-  void created();
-  void begin();     // a step begins
-  void end_step();  // the step that began last has its answer
+  explicit RunClock(bool is_on) : is_on_(is_on) { begin(); }
+  void created() { times_.create = lap(); }
+  void begin() { lap(); }  // a step begins
+  // The step that began last has its answer.
+  void end_step() { times_.steps.push_back(lap()); }
   std::optional<RunTimes> take();
 
  private:

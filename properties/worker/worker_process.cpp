@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <thread>
 
 #include "properties/worker/child_process.h"
@@ -126,11 +127,10 @@ struct WorkerProcess::Parts {
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
     // A new one, so that no process finds what another one has left.
-    auto folder = ScratchFolder::make();
-    if (!folder) return folder.error();
-    scratch.emplace(std::move(folder.value()));
+    BOOST_OUTCOME_TRY(auto folder, ScratchFolder::make());
+    scratch.emplace(std::move(folder));
     if (names_python(who())) {
-      if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
+      BOOST_OUTCOME_TRYV(python_plugin(who(), program));
     }
     for (const auto& word :
          {files->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),

@@ -182,10 +182,6 @@ corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& 
 // The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
 // in a thread with a worker process of its own (search.cpp).
 
-// Returns a function that examines the cases of a lane. The exam must outlive the function. Throws
-// StoreProblem if there is no worker.
-ExamineCases examine_in_lane(const Exam& exam);
-
 // Searches in the lanes of this run that are not stored yet, and stores the result of each: its
 // defects with their meshes, then the lane itself. So a killed run, started again, repeats the
 // lanes that were cut, with the same results. These depend on plan, seed and share alone, not on
@@ -215,13 +211,6 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 // failure, the deadline for all. Throws StoreProblem, which only campaign/ catches.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const OnText& progress);
-
-// Makes the detector's own choice of a view primitive part of the case.
-
-// Returns the case with the primitive of its first component stated. Nothing if the culling has no
-// views, if the case states a primitive already, or if the mesh is refused.
-std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
-                                               const detector::Options& options);
 
 // Returns the finding that the reducer preserves while it shrinks a failure.
 Finding finding_of(const Failure& failure);

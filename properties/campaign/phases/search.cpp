@@ -58,12 +58,16 @@ struct ShareSearch {
   void work() try {
     WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
     const Exam exam{request_.detector, request_.detector.configurations, &worker};
-    const auto examine = examine_in_lane(exam);
+    const auto examine_in_lane = [&](std::vector<corpus::Case> cases) {
+      auto results = examine(exam, std::move(cases));
+      for (const auto& one : results) throw_if_not_run(one);
+      return results;
+    };
     while (const auto lane = next_lane()) {
       const SearchLane part{fmt::format("{}{}:{}:{}", row_of(Source::search).prefix,
                                         request_.plan.name, request_.seed, name_of_lane(*lane)),
                             cases_of_lane(cases_, *lane)};
-      const auto result = search(part, space_, examine, [this] { return is_over(); });
+      const auto result = search(part, space_, examine_in_lane, [this] { return is_over(); });
       keep(*lane, result, exam);
     }
   } catch (...) {
@@ -119,14 +123,6 @@ struct ShareSearch {
 };
 
 }  // namespace
-
-ExamineCases examine_in_lane(const Exam& exam) {
-  return [&exam](std::vector<corpus::Case> cases) {
-    auto results = examine(exam, std::move(cases));
-    for (const auto& one : results) throw_if_not_run(one);
-    return results;
-  };
-}
 
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline, const OnText& progress) {

@@ -20,6 +20,39 @@ bool is_large(const corpus::Case& c) {
   return c.triangles.rows() > from;
 }
 
+// The case with the view that the detector chose; it runs here and may crash.
+std::optional<corpus::Case> chosen_view(const corpus::Case& c, const detector::Options& options) {
+  // A component within which nothing counts needs no view, so all pairs count here.
+  auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
+  if (!creation) return std::nullopt;
+  corpus::Case out = c;
+  out.view.emplace();
+  bool is_line = options.culling == detector::Culling::view_line;
+  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
+  // shows it.
+  for (const auto& frame : c.frames) {
+    const auto result = creation.value().evaluate(frame, frame);
+    if (result.primitives.empty()) return std::nullopt;
+    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
+    out.view->q0.push_back(result.primitives[0].q0.t0);
+    if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
+  }
+  return out;
+}
+
+// The case with the primitive of its first component stated, as the detector chooses it. Nothing if
+// the culling has no views, if the case states a primitive already, or if the mesh is refused.
+std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
+                                               const detector::Options& options) {
+  if (c.view || !uses_views(options.culling)) return std::nullopt;
+  const auto run = in_a_copy([&](const Say& say) {
+    if (const auto view = chosen_view(c, options)) say(corpus::case_text(*view));
+  });
+  auto parsed_case = corpus::parse_case(run.output, c.id);
+  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
+  return std::move(parsed_case.value());
+}
+
 }  // namespace
 
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
@@ -173,41 +206,6 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (reduction.fixed_point || had_its_time || shows_no_more)
       store.set_note(done_note(failure), "done");
   }
-}
-
-namespace {
-
-// The case with the view that the detector chose; it runs here and may crash.
-std::optional<corpus::Case> chosen_view(const corpus::Case& c, const detector::Options& options) {
-  // A component within which nothing counts needs no view, so all pairs count here.
-  auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
-  if (!creation) return std::nullopt;
-  corpus::Case out = c;
-  out.view.emplace();
-  bool is_line = options.culling == detector::Culling::view_line;
-  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
-  // shows it.
-  for (const auto& frame : c.frames) {
-    const auto result = creation.value().evaluate(frame, frame);
-    if (result.primitives.empty()) return std::nullopt;
-    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
-    out.view->q0.push_back(result.primitives[0].q0.t0);
-    if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
-  }
-  return out;
-}
-
-}  // namespace
-
-std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
-                                               const detector::Options& options) {
-  if (c.view || !uses_views(options.culling)) return std::nullopt;
-  const auto run = in_a_copy([&](const Say& say) {
-    if (const auto view = chosen_view(c, options)) say(corpus::case_text(*view));
-  });
-  auto parsed_case = corpus::parse_case(run.output, c.id);
-  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
-  return std::move(parsed_case.value());
 }
 
 Finding finding_of(const Failure& failure) {

@@ -307,6 +307,23 @@ TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags&
   return clean;
 }
 
+TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
+  const auto start = facts.options().start;
+  const bool looks_alone = facts.starts_by_view_alone();
+  TriangleFlags dirty;
+  if (!looks_alone && start != detector::Start::unknown) {
+    for (const auto clean : facts.layers_at_start(s).clean) dirty.push_back(clean == 0);
+    return dirty;
+  }
+  TriangleFlags free;
+  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c)
+    free.push_back(facts.is_free_by_view(s, c) ||
+                   (looks_alone && is_free_by_view_at_start(facts, s, c)));
+  for (std::size_t t = 0; t < facts.surface().mesh.triangles.size(); ++t)
+    dirty.push_back(!free[component_of(facts, t)]);
+  return dirty;
+}
+
 }  // namespace
 
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
@@ -350,23 +367,6 @@ TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
     flags[t] |= incomplete | facts.own_contacts(s)[t] | !swept_clean;
   }
   return flags;
-}
-
-TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
-  const auto start = facts.options().start;
-  const bool looks_alone = facts.starts_by_view_alone();
-  TriangleFlags dirty;
-  if (!looks_alone && start != detector::Start::unknown) {
-    for (const auto clean : facts.layers_at_start(s).clean) dirty.push_back(clean == 0);
-    return dirty;
-  }
-  TriangleFlags free;
-  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c)
-    free.push_back(facts.is_free_by_view(s, c) ||
-                   (looks_alone && is_free_by_view_at_start(facts, s, c)));
-  for (std::size_t t = 0; t < facts.surface().mesh.triangles.size(); ++t)
-    dirty.push_back(!free[component_of(facts, t)]);
-  return dirty;
 }
 
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {

@@ -24,7 +24,7 @@ class PairsOfValues {
       for (std::size_t g = f + 1; g < sizes.size(); ++g) {
         for (std::uint8_t a = 0; a < sizes[f]; ++a) {
           for (std::uint8_t b = 0; b < sizes[g]; ++b) {
-            if (!may_meet({f, g, a, b})) continue;
+            if (may_meet && !may_meet({f, g, a, b})) continue;
             may_meet_[place(f, a, g, b)] = may_meet_[place(g, b, f, a)] = 1;
             open.push_back({f, g, a, b});
           }

@@ -26,14 +26,14 @@ struct TwoValues {
   std::uint8_t a, b;
 };
 using MayMeet = std::function<bool(const TwoValues&)>;
-inline bool all_may_meet(const TwoValues&) { return true; }
 
 // Returns rows in which all pairs of values occur that may meet, and no others. The choice is
 // greedy: each row begins with a pair of values that is still missing, and each further factor
 // takes the value that adds most missing pairs. Equal seeds give equal rows, different seeds mostly
 // different ones. REQUIRES in each factor a value that may meet all others.
+// All may meet if may_meet is empty.
 std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t seed,
-                                     const MayMeet& may_meet = all_may_meet);
+                                     const MayMeet& may_meet = {});
 
 // The history of a detector when the case begins.
 enum class StateBefore : std::uint8_t {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/outcome/try.hpp>
 #include <memory>
 #include <new>
 
@@ -29,9 +30,8 @@ struct PluginRun {
   Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
                                                            const detector::Positions& x_t1) {
     assay_candidates raw = {};
-    const auto ok =
-        status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(
+        status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw)));
     return candidate_pairs(raw, triangle_count_);
   }
 
@@ -42,8 +42,7 @@ struct PluginRun {
                               const PluginDescription& description) {
     assay_limit raw = {};
     raw.share = -1;
-    const auto ok = status("limit", api_.limit(handle_.get(), x_t0.data(), way.data(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(status("limit", api_.limit(handle_.get(), x_t0.data(), way.data(), &raw)));
     return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, way);
   }
 
@@ -55,8 +54,7 @@ struct PluginRun {
     if (!result) return result;
     const Answer answer = result.value().answer;
     if (commit && (answer == Answer::free || answer == Answer::collision)) {
-      const auto committed = status("commit", api_.commit(handle_.get()));
-      if (!committed) return committed.error();
+      BOOST_OUTCOME_TRYV(status("commit", api_.commit(handle_.get())));
     }
     return result;
   }
@@ -64,12 +62,9 @@ struct PluginRun {
  private:
   Expected<StepResult> evaluated_step(const detector::Positions& x_t0,
                                       const detector::Positions& x_t1) {
-    const auto evaluated =
-        status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
-    if (!evaluated) return evaluated.error();
+    BOOST_OUTCOME_TRYV(status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data())));
     assay_result raw = {};
-    const auto ok = status("result", api_.result(handle_.get(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(status("result", api_.result(handle_.get(), &raw)));
     if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
       if (auto text = text_of_error(api_); !text.empty()) return Problem{std::move(text)};
     }
