@@ -201,10 +201,17 @@ class Archive {
   std::set<std::string> causes_;
 };
 
-class LaneSearch {
- public:
-  LaneSearch(const SearchLane& lane, const SearchSpace& space)
-      : lane_(lane), space_(space), swarm_(lane.id, space, 0) {}
+struct LaneSearch {
+  const SearchLane& lane_;
+  const SearchSpace& space_;
+  Swarm swarm_{lane_.id, space_, 0};
+  Archive archive_ = {};
+  std::set<std::pair<std::size_t, std::string>> signatures_ = {};
+  std::uint64_t draws_ = 0;
+  std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
+  bool renew_ = false;
+  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
+  LaneResult result_ = {};
 
   LaneResult run(const ExamineCases& examine, const std::function<bool()>& stop) {
     while (result_.cases < lane_.cases) {
@@ -316,24 +323,13 @@ class LaneSearch {
     Random random(c.id + ":focus");
     if (auto one = entry_of(results, space_, random)) archive_.offer(std::move(*one));
   }
-
-  const SearchLane& lane_;
-  const SearchSpace& space_;
-  Swarm swarm_;
-  Archive archive_;
-  std::set<std::pair<std::size_t, std::string>> signatures_;
-  std::uint64_t draws_ = 0;
-  std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
-  bool renew_ = false;
-  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
-  LaneResult result_;
 };
 
 }  // namespace
 
 LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop) {
-  return LaneSearch(lane, space).run(examine, stop);
+  return LaneSearch{lane, space}.run(examine, stop);
 }
 
 }  // namespace assay::properties
