@@ -5,7 +5,6 @@
 #include <array>
 #include <functional>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "detector/mesh/step_types.h"

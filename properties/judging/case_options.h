@@ -9,7 +9,6 @@
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
 #include "properties/problem.h"
-#include "properties/words.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

@@ -7,7 +7,6 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "detector/contact/elementary.h"
 #include "detector/contact/rungs.h"

@@ -19,7 +19,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "properties/words.h"
 #include "properties/worker/messages.h"

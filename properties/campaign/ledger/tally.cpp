@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "properties/generators/families.h"
-#include "properties/judging/case_options.h"
 #include "properties/laws/metamorphic/change_laws.h"
 
 namespace assay::properties {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
 #include "detector/detector.h"
 #include "properties/campaign/ledger/database.h"

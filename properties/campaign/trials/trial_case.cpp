@@ -17,7 +17,6 @@
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/child_process.h"
-#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <boost/outcome/try.hpp>
 #include <memory>
-#include <new>
 
 #include "detector/step_result.h"
 #include "properties/words.h"

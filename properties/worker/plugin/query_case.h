@@ -12,7 +12,6 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
 
 namespace assay::properties {
 
