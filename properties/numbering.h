@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

@@ -11,15 +11,12 @@ namespace assay::properties {
 namespace {
 
 using detector::BoundaryHandler;
-using detector::MovingPoint;
-using detector::PositionsView;
-using detector::SteppedMesh;
 using detector::Surface;
 
 // Finds no loops if `is_closed` says so. It is given the number of triangles at each edge.
 template <bool (*is_closed)(const std::vector<std::size_t>&)>
 struct TakenAsClosed : BoundaryHandler {
-  Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
+  Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                    detector::PacedStop& pace) const override {
     Surface surface = BoundaryHandler::close_up(triangles, vertex_count, pace);
     if (pace.stopped()) return surface;
@@ -102,8 +99,6 @@ std::vector<Fault> boundary_faults() {
 // Wrong sweeps of the ghosts: some left out, some half tested, some at the wrong place (L11).
 
 namespace {
-
-using detector::FourPoints;
 using detector::GhostCounts;
 using detector::GhostSweep;
 using detector::StopFunction;

@@ -11,7 +11,6 @@ namespace assay::properties {
 namespace {
 
 using detector::ContactResult;
-using detector::FourPoints;
 using detector::Point;
 using detector::Want;
 
@@ -77,19 +76,17 @@ bool after_first_root(const FourPoints& query, const ContactResult& right) {
   return !f.is_zero() && detector::roots_in_unit_interval(f).front().enclosure() < right.time;
 }
 
-int orientation_at(const FourPoints& query, Point detector::MovingPoint::*end) {
+int orientation_at(const FourPoints& query, Point MovingPoint::*end) {
   const auto& x = query.points;
   return detector::orientation(x[1].*end, x[2].*end, x[3].*end, x[0].*end);
 }
 
 bool oriented_alike_at_ends(const FourPoints& query, const ContactResult&) {
-  return orientation_at(query, &detector::MovingPoint::t0) *
-             orientation_at(query, &detector::MovingPoint::t1) >
-         0;
+  return orientation_at(query, &MovingPoint::t0) * orientation_at(query, &MovingPoint::t1) > 0;
 }
 
 bool from_behind(const FourPoints& query, const ContactResult&) {
-  return !is_edge_edge(query) && orientation_at(query, &detector::MovingPoint::t0) < 0;
+  return !is_edge_edge(query) && orientation_at(query, &MovingPoint::t0) < 0;
 }
 
 struct PiercingIgnored : detector::ElementaryTest {
@@ -99,7 +96,7 @@ struct PiercingIgnored : detector::ElementaryTest {
 };
 
 // Rounds the times of contacts.
-template <void (*round)(detector::TimeEnclosure&)>
+template <void (*round)(TimeEnclosure&)>
 struct Rounded : detector::ElementaryTest {
   ContactResult test(const FourPoints& query, Want want) const override {
     ContactResult result = detector::test_contact_past_axis(query, want);
@@ -108,8 +105,8 @@ struct Rounded : detector::ElementaryTest {
   }
 };
 
-void up(detector::TimeEnclosure& time) { time.lo = time.hi; }
-void to_float(detector::TimeEnclosure& time) { time.lo = time.hi = static_cast<float>(time.lo); }
+void up(TimeEnclosure& time) { time.lo = time.hi; }
+void to_float(TimeEnclosure& time) { time.lo = time.hi = static_cast<float>(time.lo); }
 
 double determinant(const Point& a, const Point& b, const Point& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +

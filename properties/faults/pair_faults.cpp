@@ -11,12 +11,9 @@ namespace {
 namespace flag = detector::flag;
 using detector::PairSink;
 using detector::PairTables;
-using detector::PositionsView;
 using detector::SearchCounts;
 using detector::SearchInput;
-using detector::SteppedMesh;
 using detector::Topology;
-using detector::TrianglePair;
 
 // K with other tables.
 template <void (*change)(PairTables&)>

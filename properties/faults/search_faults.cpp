@@ -20,7 +20,6 @@ using detector::PairSink;
 using detector::PairTable;
 using detector::SearchCounts;
 using detector::SearchInput;
-using detector::SteppedMesh;
 using detector::Topology;
 
 // A flag that is cleared at a leaf is cleared at all nodes above it, though another leaf there may
@@ -215,7 +214,7 @@ using detector::DirectedEdge;
 using detector::DirectionSet;
 using detector::MovingContour;
 using detector::NormalConeSearch;
-using Triangle = std::array<detector::MovingPoint, 3>;
+using Triangle = std::array<MovingPoint, 3>;
 
 Triangle at_rest(Triangle triangle, bool at_end) {
   for (auto& p : triangle) (at_end ? p.t0 : p.t1) = at_end ? p.t1 : p.t0;

@@ -13,7 +13,6 @@ using detector::GivenStep;
 using detector::ReleaseRule;
 using detector::StepCost;
 using detector::StepMarks;
-using detector::ViewSign;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;

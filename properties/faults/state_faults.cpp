@@ -11,7 +11,6 @@ namespace assay::properties {
 namespace {
 
 using detector::GivenStep;
-using detector::PairContact;
 using detector::ReleaseRule;
 using detector::StepCost;
 using detector::StepMarks;
@@ -87,7 +86,7 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
 };
 
 struct KeptElsewhere : ReleaseRule {
-  bool still_holds(const StepState&, const detector::PositionsView&,
+  bool still_holds(const StepState&, const PositionsView&,
                    const detector::PacedStop&) const override {
     return true;
   }
@@ -113,7 +112,7 @@ class EvaluationKept : public ReleaseRule {
   }
 
  private:
-  mutable detector::Positions free_from_;
+  mutable Positions free_from_;
 };
 
 constexpr detector::Options auto_views{detector::Culling::view_auto};
@@ -157,8 +156,6 @@ std::vector<Fault> state_faults() {
 namespace {
 
 using Flags = std::vector<std::uint8_t>;
-using Components = std::vector<std::int32_t>;
-using Triangles = std::vector<std::int32_t>;
 
 enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
@@ -168,13 +165,13 @@ enum class ReleasedLayers { of_pieces, by_connection, across_touched, not_looked
 template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
-               const Components& components) const override {
+               const Numbers& components) const override {
     Flags touched(marks.clean.size(), 0), is_seen(touched);
     const detector::FloatGrid grid(step.motion.at_start());
     if (contacts == Contacts::tested) detector::add_lasting_contacts(step, cost, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
-      Triangles in_doubt;
+      Numbers in_doubt;
       for (const auto t : step.own_triangles(c)) {
         if (!marks.clean[at(t)]) in_doubt.push_back(t);
       }
@@ -202,7 +199,7 @@ struct ReleaseHalfChecked : ReleaseRule {
   // Lets pieces continue through triangles that are touched. Only the touched triangles themselves
   // stay dirty.
   void release_across_touched(const GivenStep& step, StepMarks& marks, std::size_t c,
-                              const Triangles& in_doubt, const Flags& touched) const {
+                              const Numbers& in_doubt, const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
     Flags is_seen(nothing);
     detector::release_pieces({step.surface, step.motion.vertices_t0, nothing}, c, in_doubt,
@@ -212,7 +209,7 @@ struct ReleaseHalfChecked : ReleaseRule {
 
   // Releases a triangle if it has a clean neighbour at any edge, however many triangles meet at
   // that edge.
-  static void release_connected(const GivenStep& step, StepMarks& marks, const Triangles& in_doubt,
+  static void release_connected(const GivenStep& step, StepMarks& marks, const Numbers& in_doubt,
                                 const Flags& touched) {
     const auto& mesh = step.surface.mesh;
     for (bool grows = true; grows;) {
@@ -234,7 +231,7 @@ struct ReleaseHalfChecked : ReleaseRule {
 // at them.
 struct ReleasedWhileTouched : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
-               const Components& components) const override {
+               const Numbers& components) const override {
     if (!ReleaseRule::release(step, marks, cost, components)) return false;
     const auto& mesh = step.surface.mesh;
     const Flags released = marks.clean;
@@ -252,8 +249,8 @@ struct ReleasedWhileTouched : ReleaseRule {
 // Asks for the state of a triangle by its place in the component, and so gets the answer for a
 // triangle of another component.
 struct WitnessesByPlace : ReleaseRule {
-  Triangles witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
-    Triangles triangles;
+  Numbers witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
+    Numbers triangles;
     const auto own = step.own_triangles(c);
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (marks.clean[i]) triangles.push_back(own[i]);

@@ -13,8 +13,6 @@ namespace {
 
 using detector::MovingTriangle;
 using detector::Polynomial;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 ViewSign linear_in_time(const ViewPolynomials& view) {
   return strict_sign(linear_between_ends(view.h0));

@@ -7,11 +7,8 @@
 namespace assay::properties {
 
 using detector::Integer;
-using detector::MovingPoint;
 using detector::MovingTriangle;
 using detector::Polynomial;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 namespace {
 
@@ -140,10 +137,9 @@ ViewSign common_sign(std::initializer_list<ViewSign> signs) {
 }
 
 bool TriangleSigns::classify(const detector::Topology& surface,
-                             const detector::Component& component,
-                             const detector::SteppedMesh& motion, const ViewPrimitive& primitive,
-                             std::vector<ViewSign>& signs, detector::ViewCounts& counts,
-                             detector::PacedStop&) const {
+                             const detector::Component& component, const SteppedMesh& motion,
+                             const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
+                             detector::ViewCounts& counts, detector::PacedStop&) const {
   for (const auto t : component.triangles) {
     const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return motion.path(v[i]); };

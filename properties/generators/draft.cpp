@@ -82,7 +82,7 @@ Draft joined(Draft a, const Draft& b) {
   return a;
 }
 
-double greatest_of(const corpus::Case& c) {
+double greatest_of(const Case& c) {
   double greatest = 0;
   for (const auto& frame : c.frames) {
     if (frame.size() > 0) greatest = std::max(greatest, frame.cwiseAbs().maxCoeff());
@@ -92,7 +92,7 @@ double greatest_of(const corpus::Case& c) {
 
 RandomCase finished(Draft draft, std::string id) {
   RandomCase random_case;
-  corpus::Case& c = random_case.c;
+  Case& c = random_case.c;
   c.id = std::move(id);
   c.triangles.resize(static_cast<Eigen::Index>(draft.faces.size()), 3);
   for (std::size_t t = 0; t < draft.faces.size(); ++t) {
@@ -101,7 +101,7 @@ RandomCase finished(Draft draft, std::string id) {
     }
   }
   for (const auto& x : draft.frames) {
-    detector::Positions frame(static_cast<Eigen::Index>(x.size()), 3);
+    Positions frame(static_cast<Eigen::Index>(x.size()), 3);
     for (std::size_t v = 0; v < x.size(); ++v) {
       for (std::size_t k = 0; k < 3; ++k) {
         frame(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(k)) = x[v][k];
@@ -109,7 +109,7 @@ RandomCase finished(Draft draft, std::string id) {
     }
     c.frames.push_back(std::move(frame));
   }
-  if (!draft.q0.empty()) c.view = corpus::CaseView{std::move(draft.q0), std::move(draft.q1)};
+  if (!draft.q0.empty()) c.view = CaseView{std::move(draft.q0), std::move(draft.q1)};
   std::ranges::sort(draft.tags);
   draft.tags.erase(std::unique(draft.tags.begin(), draft.tags.end()), draft.tags.end());
   random_case.tags = std::move(draft.tags);

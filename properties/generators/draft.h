@@ -21,7 +21,7 @@ class Random;
 // ascending. They say what the generator aimed at. Only the oracle can tell whether, say, an aimed
 // contact is the first one of its step.
 struct RandomCase {
-  corpus::Case c;
+  Case c;
   std::vector<std::string> tags;
 };
 
@@ -123,7 +123,7 @@ void drop_invalid_faces(Draft& draft);
 bool is_cycle(const std::vector<Face>& faces);
 
 // Returns the greatest magnitude of a coordinate in the frames of the case.
-double greatest_of(const corpus::Case& c);
+double greatest_of(const Case& c);
 
 // Turns the draft into a case. Its tags are sorted, each once.
 RandomCase finished(Draft draft, std::string id);

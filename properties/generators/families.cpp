@@ -262,11 +262,9 @@ RandomCase make_case(const Family& family, std::string_view id) {
 
 namespace {
 
-using detector::Positions;
-
 class Responder {
  public:
-  explicit Responder(const corpus::Case& c) : original_(c), case_(c) {
+  explicit Responder(const Case& c) : original_(c), case_(c) {
     case_.frames.assign(1, c.frames.front());
     case_.expected = {};
     case_.ghosts.reset();
@@ -277,7 +275,7 @@ class Responder {
     }
   }
 
-  corpus::Case run() {
+  Case run() {
     for (std::size_t k = 0; k + 1 < original_.frames.size(); ++k) step(k);
     return std::move(case_);
   }
@@ -310,7 +308,7 @@ class Responder {
   void step(std::size_t k) {
     const std::int32_t whole = add_frame(k, 1);
     const auto judgement = judge(whole);
-    if (judgement.answer == detector::Answer::free) {
+    if (judgement.answer == Answer::free) {
       case_.script.push_back({now_, whole, true});
       now_ = whole;
       return;
@@ -323,7 +321,7 @@ class Responder {
     if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
     // This is judged again, because rounded positions can touch although the exact ones do not.
-    const bool free = judge(part).answer == detector::Answer::free;
+    const bool free = judge(part).answer == Answer::free;
     case_.script.push_back({now_, part, free});
     if (free) now_ = part;
   }
@@ -337,14 +335,14 @@ class Responder {
                               {1, {}});
   }
 
-  const corpus::Case& original_;
-  corpus::Case case_;
+  const Case& original_;
+  Case case_;
   std::int32_t now_ = 0;  // the frame that the mesh is in
 };
 
 }  // namespace
 
-corpus::Case with_response(const corpus::Case& c) {
+Case with_response(const Case& c) {
   assert(c.script.empty());
   return Responder(c).run();
 }

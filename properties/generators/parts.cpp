@@ -152,9 +152,7 @@ void miss_nearly(Random& random, Draft& draft) {
 
 namespace {
 
-using detector::CountedPairs;
-
-void choose_bodies(Random& random, const corpus::Case& c, CountedPairs& pairs) {
+void choose_bodies(Random& random, const Case& c, CountedPairs& pairs) {
   const auto mesh = detector::make_topology(c.triangles, c.frames.front().rows());
   const int most = 3;
   const int bodies = std::min(most, static_cast<int>(mesh.components.size()));
@@ -173,7 +171,7 @@ void choose_bodies(Random& random, const corpus::Case& c, CountedPairs& pairs) {
 }
 
 // A sum of magnitudes, so that it has the same bits on every machine.
-double length_of_some_edge(Random& random, const corpus::Case& c) {
+double length_of_some_edge(Random& random, const Case& c) {
   const auto t = random.below(static_cast<int>(c.triangles.rows()));
   const auto& x = c.frames.front();
   double sum = 0;
@@ -182,7 +180,7 @@ double length_of_some_edge(Random& random, const corpus::Case& c) {
 }
 
 // Two features of the pair, unless those that are drawn share a vertex.
-void leave_out_features(Random& random, const corpus::Case& c, const detector::TrianglePair& pair,
+void leave_out_features(Random& random, const Case& c, const TrianglePair& pair,
                         CountedPairs& pairs) {
   const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
   const auto rotation_of = [&](std::int32_t t) {
@@ -202,8 +200,8 @@ void leave_out_features(Random& random, const corpus::Case& c, const detector::T
 
 }  // namespace
 
-CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
-                              std::span<const detector::PairContact> in_contact) {
+CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
+                              std::span<const PairContact> in_contact) {
   CountedPairs pairs;
   pairs.level =
       random.one_in(4) ? detector::CountedLevel::features : detector::CountedLevel::triangles;
@@ -238,7 +236,7 @@ CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Ca
 }
 
 void add_relation(Random& random, RandomCase& random_case) {
-  corpus::Case& c = random_case.c;
+  Case& c = random_case.c;
   CountedPairs pairs;
   pairs.level =
       random.one_in(2) ? detector::CountedLevel::triangles : detector::CountedLevel::features;

@@ -14,11 +14,6 @@
 
 namespace assay::properties {
 
-using detector::Answer;
-using detector::PairContact;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-
 namespace {
 
 // How the times of a detector are read. `unique` says that a time is the enclosure of exact
@@ -59,15 +54,15 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   missing.erase(begin, missing.end());
 }
 
-bool is_unanswered_contact(const detector::StepResult& result, const StepTruth& truth) {
+bool is_unanswered_contact(const StepResult& result, const StepTruth& truth) {
   return (result.answer == Answer::error || result.answer == Answer::undecided) && truth.first &&
          !truth.starts_near;
 }
 
 // The parts of compare(), which states their order.
 struct Comparison {
-  const detector::StepResult& result_;
-  const oracle::StepJudgement& judgement_;
+  const StepResult& result_;
+  const StepJudgement& judgement_;
   const Claims& claims_;
   const Contract& contract_;
   Times times_;
@@ -199,9 +194,8 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
   return {};
 }
 
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const Claims& claims, const Contract& contract,
-                 const detector::TrianglesView& triangles) {
+StepDiff compare(const StepResult& result, const StepJudgement& judgement, const Claims& claims,
+                 const Contract& contract, const TrianglesView& triangles) {
   Comparison comparison{result,
                         judgement,
                         claims,
@@ -231,8 +225,8 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   return comparison.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
 }
 
-oracle::WantedPair counted_under(const Contract& contract, const detector::TrianglesView& triangles,
-                                 std::initializer_list<const detector::CountedPairs*> all) {
+oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& triangles,
+                                 std::initializer_list<const CountedPairs*> all) {
   std::shared_ptr<const oracle::MeshFeatures> features;  // Relations refer to them.
   std::vector<std::shared_ptr<const oracle::PairRelation>> relations;
   for (const auto* pairs : all) {
@@ -248,9 +242,8 @@ oracle::WantedPair counted_under(const Contract& contract, const detector::Trian
   };
 }
 
-std::string stage_that_lost(const detector::TrianglesView& triangles,
-                            const detector::PositionsView& x_t0,
-                            const detector::PositionsView& x_t1, TrianglePair pair,
+std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
+                            const PositionsView& x_t1, TrianglePair pair,
                             detector::Options options) {
   options.start = detector::Start::unknown;
   options.pairs = detector::Pairs::all;
@@ -312,7 +305,7 @@ StepDiff diff_of_refusal(const JudgedStep& step) {
   return diff;
 }
 
-StepDiff diff_without_answer(const detector::StepResult& result, const JudgedStep& step) {
+StepDiff diff_without_answer(const StepResult& result, const JudgedStep& step) {
   StepDiff diff;
   diff.has_answer = false;
   if (result.answer != Answer::error) return diff;
@@ -355,9 +348,8 @@ void add_others(const std::vector<PairContact>& others, std::vector<PairContact>
 
 }  // namespace
 
-oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
-                                  const detector::TrianglesView& triangles,
-                                  oracle::JudgeOptions options) {
+StepJudgement judge_under(const Contract& contract, const SteppedMesh& motion,
+                          const TrianglesView& triangles, JudgeOptions options) {
   using enum oracle::AskedFeatures;
   constexpr oracle::AskedFeatures asked[] = {all, vertex_face, edge_edge};  // by TestedFeatures
   options.features = asked[static_cast<std::size_t>(contract.features)];
@@ -366,10 +358,9 @@ oracle::StepJudgement judge_under(const Contract& contract, const detector::Step
           ? oracle::judge_distance(motion, triangles, {contract.separation, 0}, {options})
           : oracle::judge_step(motion, triangles, options);
   if (contract.margin == 0 || !contract.judges_alarms()) return judgement;
-  auto slack =
-      oracle::judge_distance(motion, triangles, {contract.separation, contract.margin},
-                             {oracle::JudgeOptions{options.jobs, options.stop,
-                                                   oracle::AskedFeatures::all, options.counted}});
+  auto slack = oracle::judge_distance(
+      motion, triangles, {contract.separation, contract.margin},
+      {JudgeOptions{options.jobs, options.stop, oracle::AskedFeatures::all, options.counted}});
   judgement.complete &= slack.complete;
   // Contacts of neighbours do not count, and may be reported.
   if (contract.separation == 0) add_others(judgement.pairs, slack.pairs);
@@ -377,8 +368,8 @@ oracle::StepJudgement judge_under(const Contract& contract, const detector::Step
   return judgement;
 }
 
-StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
-                   const detector::TrianglesView& triangles) {
+StepTruth truth_of(const StepJudgement& judgement, const Contract& contract,
+                   const TrianglesView& triangles) {
   StepTruth truth;
   truth.complete = judgement.complete;
   for (const auto& contact : contract.tests_part() ? judgement.asked_pairs : judgement.pairs) {
@@ -420,8 +411,8 @@ class Parts {
 
 }  // namespace
 
-std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
-                                       const detector::TimeEnclosure& time) {
+std::vector<ContactPart> contact_parts(const std::vector<PairContact>& pairs,
+                                       const TimeEnclosure& time) {
   Parts parts;
   for (const auto& contact : pairs) {
     if (contact.time == time) parts.join(contact.pair.a, contact.pair.b);

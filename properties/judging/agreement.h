@@ -16,27 +16,29 @@
 
 namespace assay::properties {
 
+using oracle::JudgeOptions, oracle::StepJudgement;
+
 // The oracle's facts about a step, as a contract sees them, and the places of contact at one time.
 // All code that shows or judges a detector's step takes these facts from here, so that a contract
 // is obeyed everywhere.
 
 struct StepTruth {
   // The pairs that count, ascending, each with the first time at which it counts.
-  std::vector<detector::PairContact> pairs;
+  std::vector<PairContact> pairs;
   // The contacts that the contract lets the detector leave out, ascending: pairs of neighbours, of
   // its own rings and distance at rest, and pairs that touch in features that it does not test. A
   // pair that counts only later stands in both lists, here with its first time of all. Pairs that
   // the relation of the case leaves out stand in neither list.
-  std::vector<detector::PairContact> left_out;
+  std::vector<PairContact> left_out;
   // The earliest of `pairs`; an upper bound if the judgement is not complete.
-  std::optional<detector::PairContact> first;
+  std::optional<PairContact> first;
   // The contract has a separation, and a pair that counts is within it at t = 0. Such a step does
   // not show how the detector finds a time.
   bool starts_near = false;
   bool complete = false;  // false: the oracle was stopped
 
   // Returns the answer by the contacts that count.
-  detector::Answer answer() const;
+  Answer answer() const;
 };
 
 // Asks the oracle about a step under this contract: which triangles touch or, if the contract has a
@@ -45,24 +47,22 @@ struct StepTruth {
 // separation, pairs that share a vertex are not asked for. The features are the contract's,
 // whatever `options` says; the tested pairs of `options` must be those of tested_pairs
 // (contract.h). Cost: oracle/mesh/step.h, oracle/distance/step_distance.h.
-oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
-                                  const detector::TrianglesView& triangles,
-                                  oracle::JudgeOptions options = {});
+StepJudgement judge_under(const Contract& contract, const SteppedMesh& motion,
+                          const TrianglesView& triangles, JudgeOptions options = {});
 
 // Returns the facts. REQUIRES a judgement by judge_under this contract. O(number of pairs).
-StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
-                   const detector::TrianglesView& triangles);
+StepTruth truth_of(const StepJudgement& judgement, const Contract& contract,
+                   const TrianglesView& triangles);
 
-using ContactPart = std::vector<detector::PairContact>;
+using ContactPart = std::vector<PairContact>;
 
 // Returns the connected parts of the contact graph, each with its pairs. Triangles are nodes, and
 // the pairs whose first time is `time` are edges. Two times with the same enclosure count as one;
 // parts may then be joined, but never split. O(n log n).
-std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
-                                       const detector::TimeEnclosure& time);
+std::vector<ContactPart> contact_parts(const std::vector<PairContact>& pairs,
+                                       const TimeEnclosure& time);
 
-TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEnclosure& exact,
-                 double tolerance);
+TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, double tolerance);
 
 // Judges a step by the claims of its detector. Pairs of the oracle that lie outside of the
 // contract's adjacency and features do not count against the detector: its first time is compared
@@ -90,31 +90,29 @@ TimeOff time_off(const detector::TimeEnclosure& interval, const detector::TimeEn
 //
 // REQUIRES a judgement of the oracle by judge_under, and the triangles if the contract leaves out
 // neighbours.
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const Claims& claims, const Contract& contract = {},
-                 const detector::TrianglesView& triangles = detector::Triangles(0, 3));
+StepDiff compare(const StepResult& result, const StepJudgement& judgement, const Claims& claims,
+                 const Contract& contract = {}, const TrianglesView& triangles = Triangles(0, 3));
 
-// Returns which pairs of triangles count under the contract and under each of the relations; nullptr
-// stands for none. All that is named must outlive the answer.
-oracle::WantedPair counted_under(const Contract& contract, const detector::TrianglesView& triangles,
-                                 std::initializer_list<const detector::CountedPairs*> all);
+// Returns which pairs of triangles count under the contract and under each of the relations;
+// nullptr stands for none. All that is named must outlive the answer.
+oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& triangles,
+                                 std::initializer_list<const CountedPairs*> all);
 
 // Returns the stage at which the detector with these options lost a pair. It runs the step with
 // less culling: the stage is "view sets" if culling bvh finds the pair, "pair search" if only
 // culling none does, "elementary test" if neither does. Culling none is tried for meshes of up to
 // 2,000 triangles; for a larger one the answer is "pair search or elementary test".
-std::string stage_that_lost(const detector::TrianglesView& triangles,
-                            const detector::PositionsView& x_t0,
-                            const detector::PositionsView& x_t1, detector::TrianglePair pair,
+std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
+                            const PositionsView& x_t1, TrianglePair pair,
                             detector::Options options = {});
 
 // A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's
 // way is judged by them. REQUIRES a judgement by judge_under.
 struct JudgedStep {
-  detector::SteppedMesh motion;
-  detector::TrianglesView triangles;
-  const oracle::JudgeOptions& options;
-  const oracle::StepJudgement& judgement;
+  SteppedMesh motion;
+  TrianglesView triangles;
+  const JudgeOptions& options;
+  const StepJudgement& judgement;
   const Claims& claims;
   const Contract& contract;
   StepTruth truth() const { return truth_of(judgement, contract, triangles); }

@@ -49,13 +49,13 @@ OptionWords configuration_text(const Configuration& configuration) {
   return text;
 }
 
-detector::Options options_of(const corpus::Case& c) {
+detector::Options options_of(const Case& c) {
   detector::Options options;
   for (const auto& [name, word] : c.options) set_option(options, name, word);
   return options;
 }
 
-Expected<detector::Options> read_options(const corpus::Case& c) {
+Expected<detector::Options> read_options(const Case& c) {
   detector::Options options;
   for (const auto& [name, word] : c.options) {
     if (!set_option(options, name, word)) {
@@ -65,7 +65,7 @@ Expected<detector::Options> read_options(const corpus::Case& c) {
   return options;
 }
 
-Expected<Configuration> read_configuration(const corpus::Case& c, std::string name) {
+Expected<Configuration> read_configuration(const Case& c, std::string name) {
   auto options = read_options(c);
   if (!options) return options.error();
   Configuration configuration{std::move(name), options.value()};

@@ -14,11 +14,6 @@ namespace assay::properties {
 namespace {
 
 using detector::FeatureKind;
-using detector::MovingPoint;
-using detector::PairContact;
-using detector::PositionsView;
-using detector::SteppedMesh;
-using detector::TrianglesView;
 
 using Rational = std::array<mpq_class, 3>;
 
@@ -60,7 +55,7 @@ constexpr const char* number_words[] = {"", "tiny numbers", "huge numbers"};
 constexpr const char* sharing_words[] = {"", "sharing a vertex", "sharing an edge"};
 constexpr const char *at_rest = "at rest", *near_start = "near contact at the start";
 
-const char* time_of(const detector::TimeEnclosure& t) {
+const char* time_of(const TimeEnclosure& t) {
   constexpr double thousandth = 0x1p-10, last_units = 0x1p-40;
   if (t.hi == 0) return at_0;
   if (t.lo >= 1 - last_units) return at_1;
@@ -88,7 +83,7 @@ class PairOfStep {
  public:
   // `query`: the pair holds the two features of a query. Of its vertices these alone count, and of
   // its triangles the face alone.
-  PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair,
+  PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
              const std::optional<detector::Feature>& query)
       : triangles_(triangles), motion_(motion), pair_(pair), query_(query) {
     if (!query || query->kind == FeatureKind::vertex_face) faces_.push_back(pair.b);
@@ -132,9 +127,9 @@ class PairOfStep {
     constexpr double near_share = 1e-5;
     const auto& x = motion_.vertices_t0;
     if (query_) {
-      detector::FourPoints q;
+      FourPoints q;
       q.first_group = query_->kind == FeatureKind::vertex_face ? 1 : 2;
-      detector::Positions places(4, 3);
+      Positions places(4, 3);
       for (std::size_t i = 0; i < 4; ++i) {
         q.points[i] = path(query_->vertices[i]);
         places.row(static_cast<Eigen::Index>(i)) = x.row(query_->vertices[i]);
@@ -142,14 +137,14 @@ class PairOfStep {
       const double distance = share_of_extent(places, near_share);
       return distance > 0 && !start_apart(q, distance);
     }
-    detector::Triangles two(2, 3);
+    Triangles two(2, 3);
     two << triangles_.row(pair_.a), triangles_.row(pair_.b);
     const double distance = share_of_extent(x, near_share);
     return distance > 0 && oracle::any_nearer_than(x, two, distance,
                                                    [](std::int32_t, std::int32_t) { return true; });
   }
 
-  bool is_without_area(const detector::TimeEnclosure& t) const {
+  bool is_without_area(const TimeEnclosure& t) const {
     for (const auto triangle : faces_) {
       if (has_no_area(triangle, motion_.vertices_t0) || has_no_area(triangle, motion_.vertices_t1))
         return true;
@@ -211,7 +206,7 @@ class PairOfStep {
 
   const TrianglesView& triangles_;
   const SteppedMesh& motion_;
-  const detector::TrianglePair pair_;
+  const TrianglePair pair_;
   std::vector<std::int32_t> faces_;
   std::optional<detector::Feature> query_;
 };
@@ -242,9 +237,8 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                  time != at_0 && pair.is_near_at_start() ? near_start : "", pair.numbers()});
 }
 
-std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
-                     detector::TrianglePair of, bool of_distance,
-                     const std::optional<detector::Feature>& query) {
+std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair of,
+                     bool of_distance, const std::optional<detector::Feature>& query) {
   const PairOfStep pair(triangles, motion, of, query);
   return joined({pair.moves() ? "moving" : at_rest, of_distance ? beyond_distance : "",
                  pair.sharing(), pair.is_near_at_start() ? near_start : "", pair.numbers()});

@@ -27,7 +27,7 @@
 #include <string>
 #include <string_view>
 
-#include "detector/mesh/step_types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -36,14 +36,12 @@ namespace assay::properties {
 // Returns the cause for a contact of the oracle in the step. `of_query`: the contact is that of the
 // two features of a query (query_case.h). The triangles of its mesh hold more than these features,
 // so only the area of the face counts.
-std::string cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
-                     const detector::PairContact& contact, bool of_distance = false,
-                     bool of_query = false);
+std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
+                     const PairContact& contact, bool of_distance = false, bool of_query = false);
 // Returns the cause for a pair of triangles that is not in contact, or for two features of a query
 // that do not meet.
-std::string cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
-                     detector::TrianglePair pair, bool of_distance = false,
-                     const std::optional<detector::Feature>& query = {});
+std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
+                     bool of_distance = false, const std::optional<detector::Feature>& query = {});
 
 // Returns the oddity of the cause at the end of a signature; 0 for the most ordinary cause, and for
 // none. People look at the least odd failures first, and at triangles without a shared vertex

@@ -9,8 +9,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::Positions;
-
 // What a limiter that promises no progress is compared with.
 constexpr double usual_progress = 0.9;
 // One that stays although a vertex could move by so many units in its last place stalls (L17).
@@ -34,7 +32,7 @@ double ulp(double x, Coordinates coordinates) {
 }
 
 // Whether the share is below the time. A time between two adjacent doubles is above the lower one.
-bool is_before(double share, const detector::TimeEnclosure& time) {
+bool is_before(double share, const TimeEnclosure& time) {
   return time.lo == time.hi ? share < time.lo : share <= time.lo;
 }
 
@@ -82,7 +80,7 @@ struct LimitComparison {
   }
 
  private:
-  std::optional<detector::PairContact> first_on_the_way_to(const Positions& place) {
+  std::optional<PairContact> first_on_the_way_to(const Positions& place) {
     Contract of_way = contract_;
     of_way.margin = 0;  // what comes within a slack is no contact
     const auto judgement =

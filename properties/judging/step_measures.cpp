@@ -84,7 +84,6 @@ LimitUse use_of(const LimitDiff& limit) {
 }
 
 StepErrors errors_of(const StepDiff& diff) {
-  using detector::Answer;
   StepErrors errors;
   if (!diff.oracle_complete) return errors;
   errors.steps = 1;
@@ -152,8 +151,7 @@ double ratio_of(std::uint64_t of, std::uint64_t in) {
 
 }  // namespace
 
-StepMeasures measures_of(std::span<const StepDiff> diffs,
-                         std::span<const detector::StepResult> results) {
+StepMeasures measures_of(std::span<const StepDiff> diffs, std::span<const StepResult> results) {
   StepMeasures sum;
   for (std::size_t s = 0; s < diffs.size(); ++s) {
     const StepDiff& diff = diffs[s];

@@ -17,8 +17,7 @@ Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
   return configuration.asks_limits ? of_steps.with(claims_on_limits) : of_steps;
 }
 
-Claims DetectorUnderTest::claims_on(const corpus::Case& c,
-                                    const Configuration& configuration) const {
+Claims DetectorUnderTest::claims_on(const Case& c, const Configuration& configuration) const {
   return says_query(c) && !built_in ? query_claims : claims_in(configuration);
 }
 

@@ -14,9 +14,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::PairContact;
-using detector::TimeEnclosure;
-
 bool all_outside(const ContactPart& part, const oracle::Candidates& k) {
   return std::ranges::none_of(part,
                               [&](const PairContact& contact) { return k.holds(contact.pair); });
@@ -87,8 +84,6 @@ std::span<const Law> first_contact_laws() { return first_contact_law_table; }
 // L7, and the claims of the detector: its pairs and times are compared with those of the oracle.
 
 namespace {
-
-using detector::Answer;
 
 Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
@@ -200,7 +195,7 @@ class EagerMeshSearch : public detector::MeshSearch {
   EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
       : MeshSearch(by), search_(std::move(search)) {}
   bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
-           const detector::SteppedMesh& motion, detector::PacedStop& pace) override {
+           const SteppedMesh& motion, detector::PacedStop& pace) override {
     return search_->fit(tree, mesh, motion, pace);
   }
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
@@ -233,8 +228,8 @@ class EagerProofs : public detector::PairSearch {
   std::shared_ptr<const detector::PairSearch> search_;
 };
 
-std::string left_out(const detector::StepResult& result, const oracle::StepJudgement& judgement) {
-  std::set<detector::TrianglePair> pairs;
+std::string left_out(const StepResult& result, const StepJudgement& judgement) {
+  std::set<TrianglePair> pairs;
   for (const auto& contact : result.pairs) pairs.insert(contact.pair);
   for (const auto& contact : judgement.pairs) {
     if (!pairs.contains(contact.pair))

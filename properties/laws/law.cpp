@@ -57,13 +57,10 @@ void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTal
 
 namespace {
 
-using detector::MovingPoint;
-using detector::PairContact;
-
 // Compares bits, so that -0 differs from 0.
 bool same(const MovingPoint& a, const MovingPoint& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool same(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
+bool same(const ViewPrimitive& a, const ViewPrimitive& b) {
   return same(a.q0, b.q0) && same(a.q1, b.q1);
 }
 
@@ -93,7 +90,7 @@ bool same_counts(const detector::StepCounts& a, const detector::StepCounts& b) {
 
 }  // namespace
 
-std::string difference(const detector::StepResult& a, const detector::StepResult& b) {
+std::string difference(const StepResult& a, const StepResult& b) {
   if (a.answer != b.answer) return "answer";
   if (a.problem.has_value() != b.problem.has_value()) return "problem";
   if (a.problem && a.problem->error != b.problem->error) return "problem";

@@ -14,10 +14,7 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::Answer;
 using detector::Culling;
-using detector::StepResult;
 
 // The oracle takes long for distances among many triangles.
 constexpr std::size_t most_triangles_apart = 40;

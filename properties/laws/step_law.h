@@ -53,6 +53,6 @@ void each_step(CaseFacts& facts, LawTally& tally) {
 
 // Returns the first field in which two results of a step differ, to the last bit; empty if none
 // does. Wall-clock times are not compared.
-std::string difference(const detector::StepResult& a, const detector::StepResult& b);
+std::string difference(const StepResult& a, const StepResult& b);
 
 }  // namespace assay::properties

@@ -15,8 +15,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::ViewSign;
-
 // Looks at some triangles of the surface at some times. They are the same ones whenever the case
 // is looked at.
 template <class Look>
@@ -26,14 +24,14 @@ Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   Random random(Random::hash(facts.source().id), s);
   const auto& surface = facts.surface().all();
   const auto start = facts.all_t0(s), end = facts.all_t1(s);
-  const detector::SteppedMesh motion = {start, end};
+  const SteppedMesh motion = {start, end};
   for (int i = 0; i < triangles; ++i) {
     const auto t =
         static_cast<std::size_t>(random.below(static_cast<int>(surface.triangles.size())));
     const auto c = at(surface.component_of_triangle[t]);
     const auto& corners = surface.triangles[t];
-    const std::array<detector::MovingPoint, 3> triangle = {
-        motion.path(corners[0]), motion.path(corners[1]), motion.path(corners[2])};
+    const std::array<MovingPoint, 3> triangle = {motion.path(corners[0]), motion.path(corners[1]),
+                                                 motion.path(corners[2])};
     for (int k = 0; k < times; ++k) {
       const int eighths = random.between(0, 8);
       const ExactView view(triangle, facts.result(s).primitives[c], eighths);
@@ -194,8 +192,6 @@ std::span<const Law> view_laws() { return view_law_table; }
 
 namespace {
 
-using detector::ViewPrimitive;
-
 bool is_point(const ViewPrimitive& q) { return q.is_point(); }
 bool is_fixed_line(const ViewPrimitive& q) {
   return !q.is_point() && q.q0.t0 == q.q0.t1 && q.q1.t0 == q.q1.t1;
@@ -276,7 +272,7 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   }
   const auto& pairs = facts.judgement(s).pairs;
   if (free == components && pairs.empty()) {
-    return holds_if(facts.result(s).answer == detector::Answer::free, "not answered free");
+    return holds_if(facts.result(s).answer == Answer::free, "not answered free");
   }
   return holds();
 }

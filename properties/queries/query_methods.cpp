@@ -23,7 +23,7 @@ using detector::Decision;
 using detector::Want;
 
 template <class Rung>
-MethodAnswer answer_of(bool is_met, const detector::TimeEnclosure& first, Rung rung, Want want) {
+MethodAnswer answer_of(bool is_met, const TimeEnclosure& first, Rung rung, Want want) {
   MethodAnswer answer{is_met ? Decision::yes : Decision::no, {}, static_cast<int>(rung)};
   if (is_met && want == Want::first_time) answer.first = first;
   return answer;
@@ -162,8 +162,6 @@ const QueryMethod* method_of(std::string_view word) {
 namespace {
 
 using detector::Decision;
-using detector::MovingPoint;
-using detector::TimeEnclosure;
 using detector::Want;
 
 std::string text(const TimeEnclosure& t) { return fmt::format("[{:a}, {:a}]", t.lo, t.hi); }

@@ -14,12 +14,10 @@
 namespace assay::properties {
 
 namespace {
-
-using corpus::Case;
 using Corners = std::array<std::int32_t, 3>;
 
-detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
-  detector::Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
+Triangles matrix_of(const std::vector<Corners>& triangles) {
+  Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       matrix(static_cast<Eigen::Index>(t), i) = triangles[t][at(i)];
@@ -37,7 +35,7 @@ int orientation(const Corners& c) {
 // vertices of `before`. A fan takes the apex of the first old ghost with which it shares a vertex,
 // or else the mean of its loop. Vertex v of the old ghosts has become target[v]. REQUIRES
 // before.ghosts.
-corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
+corpus::CaseGhosts renewed_ghosts(const Case& before, const Triangles& triangles,
                                   const std::vector<std::int32_t>& target) {
   const auto& old = *before.ghosts;
   const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
@@ -102,13 +100,13 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
     rows.push_back(static_cast<Eigen::Index>(v));
   }
   for (const auto& frame : c.frames) {
-    detector::Positions x(static_cast<Eigen::Index>(rows.size()), 3);
+    Positions x(static_cast<Eigen::Index>(rows.size()), 3);
     for (std::size_t v = 0; v < rows.size(); ++v) {
       x.row(static_cast<Eigen::Index>(v)) = frame.row(rows[v]);
     }
     result.frames.push_back(std::move(x));
   }
-  const auto renumber = [&](detector::Triangles& matrix) {
+  const auto renumber = [&](Triangles& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) {
       auto& v = matrix.data()[i];
       const auto old = at(v);
@@ -135,7 +133,7 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
 }  // namespace
 
 bool is_valid(const Case& c) {
-  if (c.triangles.rows() == 0 || c.frames.empty() || corpus::steps_of(c).empty()) return false;
+  if (c.triangles.rows() == 0 || c.frames.empty() || steps_of(c).empty()) return false;
   const auto vertices = c.frames.front().rows();
   for (const auto& frame : c.frames) {
     if (frame.rows() != vertices) return false;
@@ -235,11 +233,11 @@ Case seen_from_its_middle(const Case& c) {
   sum /= static_cast<double>(c.frames.size());
   Case result = c;
   const std::vector<detector::Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
-  result.view = corpus::CaseView{middle, {}};
+  result.view = CaseView{middle, {}};
   return result;
 }
 
-Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
+Case with_steps(const Case& c, const std::vector<CaseStep>& steps) {
   Case result = c;
   result.expected = {};
   if (result.counted) result.counted->steps.clear();
@@ -257,8 +255,7 @@ using Edge = std::array<std::int32_t, 2>;
 
 class Carrier {
  public:
-  Carrier(const detector::Triangles& before, const detector::Triangles& after,
-          const NewVertices& vertices)
+  Carrier(const Triangles& before, const Triangles& after, const NewVertices& vertices)
       : vertices_(vertices) {
     std::map<std::array<std::int32_t, 3>, std::int32_t> place;
     for (Eigen::Index t = 0; t < after.rows(); ++t) {
@@ -274,7 +271,7 @@ class Carrier {
     }
   }
 
-  void carry_bodies(const detector::CountedPairs& from, detector::CountedPairs& to) const {
+  void carry_bodies(const CountedPairs& from, CountedPairs& to) const {
     if (from.body.empty()) {
       to.apart = from.apart;
       return;
@@ -290,7 +287,7 @@ class Carrier {
     }
   }
 
-  void carry_lists(const detector::CountedPairs& from, detector::CountedPairs& to) const {
+  void carry_lists(const CountedPairs& from, CountedPairs& to) const {
     for (const auto& [a, b] : from.triangle_pairs) {
       const auto s = triangle_[at(a)], t = triangle_[at(b)];
       if (s >= 0 && t >= 0 && s != t) to.triangle_pairs.push_back({s, t});
@@ -320,10 +317,9 @@ class Carrier {
 
 }  // namespace
 
-detector::CountedPairs carried_over(const detector::CountedPairs& pairs,
-                                    const detector::Triangles& before,
-                                    const detector::Triangles& after, const NewVertices& vertices) {
-  detector::CountedPairs carried;
+CountedPairs carried_over(const CountedPairs& pairs, const Triangles& before,
+                          const Triangles& after, const NewVertices& vertices) {
+  CountedPairs carried;
   carried.level = pairs.level;
   carried.rings = pairs.rings;
   carried.rest_distance = pairs.rest_distance;

@@ -98,7 +98,7 @@ std::string fails_from_text(std::size_t triangles) {
   return "fails from " + std::to_string(triangles) + " triangles on";
 }
 
-Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+Reduction reduce(const Case& failing, const Judge& judge, const ReduceLimits& limits,
                  const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
   ReductionSearch search(failing, judge, limits, on_better);
   Reduction reduction;
@@ -140,7 +140,7 @@ bool moves(const std::vector<detector::Point>& places) {
   return std::ranges::any_of(places, [&](const auto& place) { return place != places.front(); });
 }
 
-int rank_of(const std::optional<corpus::CaseView>& view) {
+int rank_of(const std::optional<CaseView>& view) {
   if (!view) return 0;
   return (view->q1.empty() ? 1 : 3) + (moves(view->q0) || moves(view->q1) ? 1 : 0);
 }
@@ -166,9 +166,9 @@ std::uint64_t number_cost(double value) {
   return 100 + 10 * end.size;
 }
 
-MeshSize size_of(const corpus::Case& c) {
+MeshSize size_of(const Case& c) {
   MeshSize size;
-  const auto steps = corpus::steps_of(c);
+  const auto steps = steps_of(c);
   size.steps = steps.size();
   size.triangles = static_cast<std::size_t>(c.triangles.rows());
   size.vertices = c.frames.empty() ? 0 : static_cast<std::size_t>(c.frames.front().rows());
@@ -196,14 +196,14 @@ MeshSize size_of(const corpus::Case& c) {
   return size;
 }
 
-std::string size_text(const corpus::Case& c) {
+std::string size_text(const Case& c) {
   if (says_query(c)) return fmt::format("one {} query", query_word(c));
   const auto size = size_of(c);
   return number(size.triangles, "triangle", "triangles") + ", " +
          number(size.vertices, "vertex", "vertices") + ", " + number(size.steps, "step", "steps");
 }
 
-std::string size_text(const corpus::Case& before, const corpus::Case& after) {
+std::string size_text(const Case& before, const Case& after) {
   const auto from = size_text(before), to = size_text(after);
   return from == to ? from : from + " -> " + to;
 }
@@ -231,7 +231,7 @@ void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place p
 
 }  // namespace
 
-std::vector<NumberGroup> number_groups(corpus::Case& c) {
+std::vector<NumberGroup> number_groups(Case& c) {
   std::vector<NumberGroup> groups;
   for (Eigen::Index v = 0; v < c.frames.front().rows(); ++v) {
     append_groups(groups, c.frames.size(), [&](std::size_t f, std::size_t axis) {

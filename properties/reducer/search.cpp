@@ -9,13 +9,11 @@
 namespace assay::properties {
 namespace {
 
-using corpus::Case;
-
-// Returns a hash of 64 bits over everything that a pass may change. Among a million contents two are
-// taken for one another with a chance of 3e-8. The price is that one proposal is not judged.
+// Returns a hash of 64 bits over everything that a pass may change. Among a million contents two
+// are taken for one another with a chance of 3e-8. The price is that one proposal is not judged.
 std::uint64_t hash_of(const Case& c) {
   Numbers script;  // without the padding of a step
-  for (const auto& [from, to, commit] : corpus::steps_of(c))
+  for (const auto& [from, to, commit] : steps_of(c))
     script.insert(script.end(), {from, to, commit});
   return Random::hash(encode(c.triangles, c.frames, script, c.view, c.ghosts, c.counted));
 }
@@ -151,7 +149,7 @@ Rings rings_of(const ReductionSearch& search) {
   return rings;
 }
 
-corpus::Case within(const corpus::Case& c, const Rings& rings, int ring) {
+Case within(const Case& c, const Rings& rings, int ring) {
   std::vector<std::uint8_t> keep;
   for (const auto& corners : triangles_of(c)) {
     keep.push_back(std::ranges::all_of(

@@ -14,9 +14,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::FourPoints;
-using detector::MovingPoint;
-
 // Times at which things are made to happen: the ends, powers of two, and next to the ends.
 double menu_time(Random& random, const FourPoints& q) {
   constexpr double fixed[] = {0, 1, 1, 0.5, 0.5, 0.25, 0.125, 0.75};

@@ -7,8 +7,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::FourPoints;
 using oracle::Integer;
 using oracle::IntegerPolynomial;
 

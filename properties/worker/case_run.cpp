@@ -14,35 +14,32 @@ namespace assay::properties {
 
 using detector::Detector;
 
-CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, Detector detector)
-    : case_(&c), script_(corpus::steps_of(c)), detector_(std::move(detector)) {
+CasePlayer::CasePlayer(const Case& c, const detector::Options& options, Detector detector)
+    : case_(&c), script_(steps_of(c)), detector_(std::move(detector)) {
   for (std::size_t s = 0; s < script_.size(); ++s) {
-    views_.push_back(given_view(corpus::view_of_step(c, s), options.culling));
+    views_.push_back(given_view(view_of_step(c, s), options.culling));
   }
 }
 
-detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
-                                                const detector::Options& options,
+detector::Expected<CasePlayer> CasePlayer::make(const Case& c, const detector::Options& options,
                                                 std::optional<detector::Stages> stages,
                                                 const detector::StopFunction& stop) {
   detector::Options of_case = options;
-  of_case.counted = corpus::counted_of(c);
+  of_case.counted = counted_of(c);
   auto creation = detector::assemble(c.triangles, c.frames.front(), of_case,
                                      stages ? *std::move(stages) : standard_stages(options), stop);
   if (!creation) return std::move(creation.error());
   return CasePlayer(c, options, std::move(creation.value()));
 }
 
-detector::StepResult CasePlayer::play(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::play(std::size_t s, const detector::StopFunction& stop) {
   if (!script_[s].commit) return look(s, stop);
   return detector_.step(x_t0(s), x_t1(s), views_[s], stop);
 }
 
-detector::StepResult CasePlayer::look(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::look(std::size_t s, const detector::StopFunction& stop) {
   return detector_.evaluate(x_t0(s), x_t1(s), views_[s], stop);
 }
-
-using detector::StepResult;
 
 void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));
@@ -78,15 +75,14 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return player.play(s);
 } catch (const std::bad_alloc&) {
   StepResult undecided;
-  undecided.answer = detector::Answer::undecided;
+  undecided.answer = Answer::undecided;
   return undecided;
 }
 
 // How far the step may be gone; nothing without an answer. The state stays as it is.
 std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
   auto limit = player.detector().limit(player.x_t0(s), player.x_t1(s));
-  if (limit.answer != detector::Answer::free && limit.answer != detector::Answer::collision)
-    return std::nullopt;
+  if (limit.answer != Answer::free && limit.answer != Answer::collision) return std::nullopt;
   return LimitAnswer{limit.share, std::move(limit.positions)};
 } catch (const std::bad_alloc&) {
   return std::nullopt;
@@ -95,15 +91,13 @@ std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
 // The counters are plain numbers without gaps between them, so they can be compared byte by byte.
 static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
 
-bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
+bool same_primitive(const ViewPrimitive& a, const ViewPrimitive& b) {
   return a.q0.t0 == b.q0.t0 && a.q0.t1 == b.q0.t1 && a.q1.t0 == b.q1.t0 && a.q1.t1 == b.q1.t1;
 }
 
-bool same_path(const detector::MovingPoint& a, const detector::MovingPoint& b) {
-  return a.t0 == b.t0 && a.t1 == b.t1;
-}
+bool same_path(const MovingPoint& a, const MovingPoint& b) { return a.t0 == b.t0 && a.t1 == b.t1; }
 
-bool same_contact(const detector::PairContact& a, const detector::PairContact& b) {
+bool same_contact(const PairContact& a, const PairContact& b) {
   return a.pair == b.pair && a.time == b.time && a.feature.kind == b.feature.kind &&
          a.feature.vertices == b.feature.vertices;
 }
@@ -127,7 +121,7 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 }  // namespace
 
-CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
+CaseRun run_case(const Case& c, const Configuration& configuration) try {
   CaseRun run;
   RunClock clock(configuration.is_timed);
   auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
@@ -141,7 +135,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
     const auto& result = run.steps.back();
     if (result.problem) note_error(run, s, result.problem->message);
     // Only lack of memory ends a step here without an answer.
-    if (result.answer == detector::Answer::undecided) note_error(run, s, "out of memory");
+    if (result.answer == Answer::undecided) note_error(run, s, "out of memory");
   }
   run.times = clock.take();
   return run;
@@ -149,7 +143,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
   return out_of_memory();
 }
 
-std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration& configuration,
+std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed) {
   constexpr int most_stops = 8;
   auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
@@ -161,7 +155,7 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration
       int questions = 0;
       const auto stop = [&] { return ++questions == stop_at; };
       const auto answer = player.value().look(s, stop);
-      if (answer.answer != detector::Answer::undecided) break;
+      if (answer.answer != Answer::undecided) break;
       after_stops.push_back(player.value().look(s));
     }
     const auto meanwhile = [&] {

@@ -45,9 +45,8 @@ inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 template <class T>
 inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    is_one_of<T, detector::Point, detector::MovingPoint, detector::TimeEnclosure,
-              detector::TrianglePair, detector::PairContact, detector::ViewPrimitive,
-              detector::StepCounts, detector::StepTimes, corpus::CaseStep,
+    is_one_of<T, detector::Point, MovingPoint, TimeEnclosure, TrianglePair, PairContact,
+              ViewPrimitive, detector::StepCounts, detector::StepTimes, CaseStep,
               std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
 
 // Writes or reads the fields of a message. Names are for other archives; both ends of a message are
@@ -171,9 +170,8 @@ void fields(Archive& archive, detector::Options& options) {
           threads, "separation", separation, "keeps_near", keeps_near);
 }
 ASSAY_FIELDS(detector::Problem, error, message)
-ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,
-             view_zero, against_all, violated, dirty, views, doubts, signs, primitives, apexes,
-             counts, times)
+ASSAY_FIELDS(StepResult, answer, problem, first, pairs, view_positive, view_negative, view_zero,
+             against_all, violated, dirty, views, doubts, signs, primitives, apexes, counts, times)
 ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
 ASSAY_FIELDS(LimitAnswer, share, positions)
 
@@ -188,9 +186,9 @@ void fields(Archive& archive, CaseRun& run) {
 }
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed, asks_limits)
-ASSAY_FIELDS(corpus::CaseView, q0, q1)
+ASSAY_FIELDS(CaseView, q0, q1)
 ASSAY_FIELDS(corpus::CaseGhosts, apexes, triangles)
-ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
+ASSAY_FIELDS(CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
 // Only facts that a detector may know travel, and never the expected facts.
@@ -199,7 +197,7 @@ void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);
 }
 template <class Archive>
-void fields(Archive& archive, corpus::Case& c) {
+void fields(Archive& archive, Case& c) {
   std::string query = query_word(c);
   archive("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
           c.view, "counted", c.counted, "query", query);
@@ -229,7 +227,7 @@ ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 // in order, then for each of the next case.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
-  std::vector<corpus::Case> cases;
+  std::vector<Case> cases;
   std::vector<Configuration> configurations;
 };
 ASSAY_FIELDS(RunRequest, number, cases, configurations)
@@ -261,9 +259,9 @@ bool decode(const std::string& bytes, T& message) {
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :
-       {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
+       {sizeof(detector::Options), sizeof(StepResult), sizeof(PairContact),
         sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case), sizeof(detector::CountedPairs)})
+        sizeof(Case), sizeof(CountedPairs)})
     hash = hash * 1099511628211u + size;
   return hash;
 }
@@ -277,12 +275,12 @@ inline constexpr std::size_t longest_reply_text = 4096;
 
 // Returns the most bytes that a reply to this case may have: those of a reply with every pair of
 // triangles in contact in each step, and with positions.
-std::uint64_t longest_reply(const corpus::Case& c);
+std::uint64_t longest_reply(const Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
 // Returns whether all results of a run fit the case: its steps, triangles and vertices.
-bool fits(const CaseRun& run, const corpus::Case& c);
+bool fits(const CaseRun& run, const Case& c);
 
 // A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
 // SIGPIPE.

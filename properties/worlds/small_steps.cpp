@@ -66,7 +66,7 @@ const std::vector<MeshFamily>& families() {
 
 // One of four motions: nothing moves, one vertex moves, all vertices translate, or every vertex
 // goes its own way.
-void move(Random& random, int reach, const detector::Positions& x_t0, detector::Positions& x_t1) {
+void move(Random& random, int reach, const Positions& x_t0, Positions& x_t1) {
   x_t1 = x_t0;
   const auto n = static_cast<int>(x_t0.rows());
   const int kind = random.below(8);

@@ -223,10 +223,7 @@ namespace {
 
 using detector::Detector;
 using detector::Pairs;
-using detector::Positions;
 using detector::Start;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 class Check {
  public:
@@ -245,7 +242,7 @@ class Check {
     // The oracle judges one orientation only, because contacts do not depend on the orientation of
     // the faces.
     judgement_ = oracle::judge_step({x_t0_, x_t1_}, faces_[0], {1, {}});
-    collides_ = judgement_.answer == detector::Answer::collision;
+    collides_ = judgement_.answer == Answer::collision;
     // A single tetrahedron without a contact is embedded, so its layers are all (1,0) or all
     // (0,-1).
     clean_start_ = !collides_ || judgement_.first.hi > 0;
@@ -321,15 +318,15 @@ class Check {
     result.c.source = "small world of tetrahedra";
     result.c.triangles = faces_[orientation];
     result.c.frames = {x_t0_, x_t1_};
-    result.c.view = corpus::CaseView{{q, q}, {}};
+    result.c.view = CaseView{{q, q}, {}};
     return result;
   }
 
   const TetrahedronMotion& motion_;
   TetrahedronWorldResult& counts_;
   Positions x_t0_, x_t1_;
-  std::array<detector::Triangles, 2> faces_;
-  oracle::StepJudgement judgement_;
+  std::array<Triangles, 2> faces_;
+  StepJudgement judgement_;
   bool collides_ = false, clean_start_ = false;
 };
 

@@ -52,12 +52,12 @@ void add_cause(Words& words, const std::string& cause) {
 // The traits of a mesh, and of two of its triangles.
 class MeshTraits {
  public:
-  explicit MeshTraits(const corpus::Case& c)
+  explicit MeshTraits(const Case& c)
       : is_query_(query_of(c).has_value()),
         mesh_(detector::make_topology(c.triangles, c.frames.front().rows())) {}
 
   // A query has no mesh.
-  void add_to(Words& words, const detector::TrianglePair& pair) const {
+  void add_to(Words& words, const TrianglePair& pair) const {
     if (is_query_) return;
     const auto of = [&](std::int32_t t) { return mesh_.component_of_triangle[detector::at(t)]; };
     words.insert(of(pair.a) == of(pair.b) ? "within one component" : "between two components");
@@ -77,8 +77,8 @@ class MeshTraits {
 };
 
 // Which of the two triangles move, and how small the smaller one is at the start.
-void add_motion(Words& words, const detector::TrianglesView& triangles,
-                const detector::SteppedMesh& motion, const detector::TrianglePair& pair) {
+void add_motion(Words& words, const TrianglesView& triangles, const SteppedMesh& motion,
+                const TrianglePair& pair) {
   int moving = 0;
   double area = std::numeric_limits<double>::infinity();
   for (const auto t : {pair.a, pair.b}) {
@@ -99,15 +99,15 @@ void add_motion(Words& words, const detector::TrianglesView& triangles,
 }
 
 // The traits of the contacts of a case, of one pair alone if it is given.
-std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
-                               const detector::TrianglePair* alone = nullptr) {
+std::vector<Words> contacts_of(const Case& c, const Contract& contract,
+                               const TrianglePair* alone = nullptr) {
   std::vector<Words> contacts;
   const MeshTraits mesh(c);
   const bool is_query = query_of(c).has_value(), of_distance = contract.separation > 0;
   const auto judgements = judge_case(c, contract);
   for (std::size_t s = 0; s < judgements.size(); ++s) {
-    const auto step = corpus::steps_of(c)[s];
-    const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    const auto step = steps_of(c)[s];
+    const SteppedMesh motion{start_of(c, step), end_of(c, step)};
     for (const auto& contact : truth_of(c, judgements[s], contract).pairs) {
       if (alone && contact.pair != *alone) continue;
       auto& words = contacts.emplace_back();
@@ -156,10 +156,9 @@ std::string deed_of(const FailureRecord& failure) {
 }
 
 // The two triangles that the explanation names; nothing if they are none of the mesh.
-std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
-                                                const corpus::Case& c) {
+std::optional<TrianglePair> pair_told(const std::string& explanation, const Case& c) {
   constexpr const char* word = "triangles ";
-  detector::TrianglePair pair{0, 0};
+  TrianglePair pair{0, 0};
   for (auto at = explanation.find(word); at != std::string::npos;
        at = explanation.find(word, at + 1)) {
     if (std::sscanf(explanation.c_str() + at, "triangles %d and %d", &pair.a, &pair.b) != 2)

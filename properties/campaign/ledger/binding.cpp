@@ -86,7 +86,7 @@ std::string generator_digest() {
       for (std::uint64_t i = 0; i < cases; ++i) {
         const auto creation =
             make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
-        digests += corpus::sha256_of(corpus::case_text(creation.c)) + "\n";
+        digests += corpus::sha256_of(case_text(creation.c)) + "\n";
       }
     }
   }

@@ -99,8 +99,8 @@ bool is_repeated(const CampaignPlan& plan, bool built_in);
 // identity, through which all frames go. So nobody knows these meshes before the seed is known. The
 // map keeps contacts and their times, unless rounding decides them.
 inline constexpr int forms_of_a_scene = 3;
-corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed, int form);
+Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
+                    int form);
 
 // Returns a small mesh in many steps, so that one handle commits more often than in any other case.
 // A scene of some tens of triangles, in which the mesh meets itself, is played forwards and
@@ -110,7 +110,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
 // repeated_scene.
 inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
 inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
-corpus::Case long_sequence(std::uint64_t seed);
+Case long_sequence(std::uint64_t seed);
 
 // Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
 // sequences to the plug-in. A plug-in that claims to be deterministic runs each of them with each
@@ -166,15 +166,15 @@ constexpr auto names_of(WalkKind) {
 inline constexpr int steps_of_a_walk = 1000;
 
 // Returns where the limiter lets the mesh stop in a step; nothing if it does not say.
-using AskedLimit = std::function<std::optional<detector::Positions>(const corpus::Case& one_step)>;
+using AskedLimit = std::function<std::optional<Positions>(const Case& one_step)>;
 
 // Returns the walk as a case, with a step from each place to its goal, so that it can be played
 // again without the limiter. Goals are rounded as the contract says, and a step that the contract
 // does not take is left out of the walk. If the limiter does not say where to stop, or stops at a
 // place that numbers cannot express, that step is the last. The seed draws shapes, pushes and
 // lifts. At the start the bodies are farther apart than the separation of the contract.
-corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
-                  const AskedLimit& ask);
+Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
+          const AskedLimit& ask);
 
 // Runs a campaign from its canary to its worlds. Each phase stores its findings and tells an
 // observer. They are read back (findings.h) and judged (gates.h).
@@ -199,7 +199,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
                         WorkerProcess& worker, int jobs = 1);
 
 // Shrinks one case, by judge_of_detector.
-Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
+Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
 

@@ -59,8 +59,8 @@ std::string name_of_form(const corpus::SceneInfo& scene, int form) {
 
 }  // namespace
 
-corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed, int form) {
+Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
+                    int form) {
   constexpr int least_frames = 6, most_frames = 18, most_copies = 6;
   const std::string name = name_of_form(scene, form);
   Random random(random_key(seed, name));
@@ -73,7 +73,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   }
   options.frames = std::max(random.between(least_frames, most_frames), scene.least_frames);
   auto scene_case = corpus::make_scene(scene.name, options).value();
-  corpus::Case c;
+  Case c;
   c.id = name;
   c.triangles = std::move(scene_case.triangles);
   c.frames = std::move(scene_case.frames);
@@ -86,7 +86,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   return c;
 }
 
-corpus::Case long_sequence(std::uint64_t seed) {
+Case long_sequence(std::uint64_t seed) {
   // Scenes that pierce themselves, and still do so under another map. Smaller spheres do not.
   constexpr std::string_view meeting[] = {"dented-sphere", "bend", "folding-sheet",
                                           "crumpling-sphere"};
@@ -96,7 +96,7 @@ corpus::Case long_sequence(std::uint64_t seed) {
   // With drawn_map, a row's own entry is at least 1 - 0.25 - 0.08, and the two others together at
   // most 2 (0.25 + 0.08): the map never turns the mesh inside out.
   constexpr double most_drift = 0.08;
-  corpus::Case c;
+  Case c;
   c.id = name_of_long_sequence;
   Random random(random_key(seed, c.id));
   const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
@@ -135,12 +135,11 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
 }
 
 // Tells whether the contract lets a contact be tested, as far as the features that meet first show.
-using IsTested = std::function<bool(const detector::PairContact&)>;
-IsTested tested_contacts(const Contract& contract, const corpus::Case& c) {
-  const auto own =
-      std::make_shared<const detector::CountedPairs>(tested_pairs(contract, c.frames.front()));
-  return [&contract, own, counts = counted_under(contract, c.triangles, {own.get()})](
-             const detector::PairContact& contact) {
+using IsTested = std::function<bool(const PairContact&)>;
+IsTested tested_contacts(const Contract& contract, const Case& c) {
+  const auto own = std::make_shared<const CountedPairs>(tested_pairs(contract, c.frames.front()));
+  return [&contract, own,
+          counts = counted_under(contract, c.triangles, {own.get()})](const PairContact& contact) {
     const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
     const bool is_of_kind = contract.features == TestedFeatures::both ||
                             is_edge_edge == (contract.features == TestedFeatures::edge_edge);
@@ -149,8 +148,8 @@ IsTested tested_contacts(const Contract& contract, const corpus::Case& c) {
 }
 
 // Returns the oracle's judgement of the step if the built-in detector's result is right.
-oracle::StepJudgement truth_by(const detector::StepResult& result, const IsTested& is_tested) {
-  oracle::StepJudgement judgement;
+StepJudgement truth_by(const StepResult& result, const IsTested& is_tested) {
+  StepJudgement judgement;
   judgement.answer = result.answer;
   judgement.complete = true;
   judgement.first = result.first;
@@ -163,11 +162,11 @@ oracle::StepJudgement truth_by(const detector::StepResult& result, const IsTeste
 
 // The steps in which the run breaks a claim if the built-in detector, whose run is `answers`, is
 // right: those with the fewest contacts, and not more than most_differing.
-std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
+std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
   const auto is_tested = tested_contacts(contract, c);
-  const auto script = corpus::steps_of(c);
+  const auto script = steps_of(c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
     auto answer = step_alone(run, s);
@@ -190,7 +189,7 @@ std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUn
 
 // Of a case that the contract takes: the colliding step with the fewest contacts that count, and
 // the first without any. `answers` is the run of the built-in detector.
-std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
+std::vector<std::size_t> plain_steps(const Case& c, const Contract& contract,
                                      const CaseRun& answers) {
   const auto is_tested = tested_contacts(contract, c);
   std::optional<std::size_t> colliding, free;
@@ -238,7 +237,7 @@ struct Repetitions {
   int hung_ = 0;
 
   // Where the limiter lets a step stop, by itself, in the process of the first run.
-  std::optional<detector::Positions> limit_of(const corpus::Case& step) {
+  std::optional<Positions> limit_of(const Case& step) {
     const auto run = run_once(step, 0);
     if (run.limits.empty() || !run.limits[0]) return std::nullopt;
     return run.limits[0]->positions;
@@ -246,7 +245,7 @@ struct Repetitions {
 
   // Judges an input. `special` names its special property, which becomes the cause of its failures;
   // empty: each failure has a cause of its own.
-  void judge_input(const corpus::Case& c, JudgedSteps steps, const char* special) {
+  void judge_input(const Case& c, JudgedSteps steps, const char* special) {
     special_ = special;
     JudgedSource row{.source = Source::repeated,
                      .input = c.id,
@@ -258,7 +257,7 @@ struct Repetitions {
     } else if (hung_ >= most_hung_repetitions) {
       row.what = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
-      row.steps = corpus::steps_of(*contracted_case).size();
+      row.steps = steps_of(*contracted_case).size();
       run_all(*contracted_case, steps, row);
     }
     store_.set(to_row(row));
@@ -271,7 +270,7 @@ struct Repetitions {
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
   // The last run is a second one in the process of the run before it. REQUIRES that the runs before
   // it took place.
-  CaseRun run_once(const corpus::Case& c, std::size_t place) {
+  CaseRun run_once(const Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
     if (process == workers_.size()) {
       auto limits = request_.worker_limits(static_cast<std::uint32_t>(process));
@@ -292,7 +291,7 @@ struct Repetitions {
     return run.end == RunEnd::beyond_capacity;
   }
 
-  void run_all(const corpus::Case& c, JudgedSteps steps, JudgedSource& row) {
+  void run_all(const Case& c, JudgedSteps steps, JudgedSource& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
     for (std::size_t place = 0; place < threads_.size(); ++place) {
@@ -321,7 +320,7 @@ struct Repetitions {
     }
   }
 
-  std::vector<std::size_t> chosen_steps(const corpus::Case& c, const CaseRun& run) {
+  std::vector<std::size_t> chosen_steps(const Case& c, const CaseRun& run) {
     Configuration chooser{"auto", {}};
     if (const double d = contract().separation; d > 0)
       chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
@@ -334,8 +333,8 @@ struct Repetitions {
     return places;
   }
 
-  void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
-                   const CaseRun& run, JudgedSource& row) {
+  void judge_steps(const Case& c, const std::vector<std::size_t>& places, const CaseRun& run,
+                   JudgedSource& row) {
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
     std::map<std::string, int> counts;
     for (const auto s : places) {
@@ -372,7 +371,7 @@ struct Repetitions {
 
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
   // otherwise without them.
-  void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
+  void keep(const Case& c, std::size_t s, const CaseRun& run, Failure failure) {
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
     auto c_alone = with_steps(c, {s}, contract());
@@ -381,7 +380,7 @@ struct Repetitions {
     add(fmt::format("{}, step {}", c.id, s + 1), c_alone, failure, run.output);
   }
 
-  void add(const std::string& id, const corpus::Case& failing, const Failure& failure,
+  void add(const std::string& id, const Case& failing, const Failure& failure,
            const std::string& output, bool flaky = false) {
     auto record = stored_failure(Source::repeated, failing, configuration(), request_.detector,
                                  failure, false, output);
@@ -391,7 +390,7 @@ struct Repetitions {
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
-  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run, const Verdict& verdict,
+  void tell(const Case& c, const CaseRun& first, const CaseRun& run, const Verdict& verdict,
             JudgedSource& row) {
     row.broken = verdict.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
@@ -403,7 +402,7 @@ struct Repetitions {
   }
 
   // Stores what the end of a run shows, or its difference from another one.
-  void keep_end(const corpus::Case& c, const CaseRun& run, const Verdict& verdict,
+  void keep_end(const Case& c, const CaseRun& run, const Verdict& verdict,
                 const std::string& what) {
     auto failure = failure_of(verdict, c, {}, run, configuration(), request_.detector);
     failure.cause = special_;
@@ -449,7 +448,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
     for (const auto kind : all_values<WalkKind>) {
       const auto walked = [&] {
         return walk(kind, request.seed, steps_of_a_walk, detector.contract,
-                    [&](const corpus::Case& step) { return repetitions.limit_of(step); });
+                    [&](const Case& step) { return repetitions.limit_of(step); });
       };
       judge_new(name_of(kind), JudgedSteps::all, walked, "");
     }

@@ -31,9 +31,7 @@ struct ShareSearch {
   const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
   const SearchSpace space_ = {
       request_.detector.contract, case_sources(sources_asked(request_, corpus_)),
-      [this](corpus::Case c) {
-        return brought_into_contract(std::move(c), request_.detector.contract);
-      },
+      [this](Case c) { return brought_into_contract(std::move(c), request_.detector.contract); },
       request_.detector.built_in};
   std::set<std::string> stored_lanes_ = {};
   std::mutex mutex_ = {};
@@ -58,7 +56,7 @@ struct ShareSearch {
   void work() try {
     WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
     const Exam exam{request_.detector, request_.detector.configurations, &worker};
-    const auto examine_in_lane = [&](std::vector<corpus::Case> cases) {
+    const auto examine_in_lane = [&](std::vector<Case> cases) {
       auto results = examine(exam, std::move(cases));
       for (const auto& one : results) throw_if_not_run(one);
       return results;

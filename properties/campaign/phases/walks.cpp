@@ -9,8 +9,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::Positions;
 using Row = Eigen::RowVector3d;
 
 constexpr int corners_of_a_plate = 4, corners_of_a_body = 4;
@@ -36,7 +34,7 @@ void add_body(Draft& draft, Random& random, const Point& middle) {
 
 // The moving part of a mesh: the rows from `first` on, in bodies of four corners.
 struct Scene {
-  corpus::Case c;
+  Case c;
   Eigen::Index first_moving = corners_of_a_plate;
 };
 
@@ -127,16 +125,16 @@ struct Driver {
 
 }  // namespace
 
-corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
-                  const AskedLimit& ask) {
+Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
+          const AskedLimit& ask) {
   const std::string id = name_of(kind);
   Random random(fmt::format("{}:{}", seed, id));
   const Scene scene = scene_of(kind, random, contract.separation);
   Driver driver{kind, scene.first_moving, scene.c.frames[0], random};
-  corpus::Case c = scene.c;
+  Case c = scene.c;
   c.id = id;
   c.frames[0] = round_to(c.frames[0], contract.coordinates);
-  corpus::Case one = c;
+  Case one = c;
   one.frames.resize(2);
   for (int step = 0; step < steps; ++step) {
     one.frames[0] = c.frames.back();

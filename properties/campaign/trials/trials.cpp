@@ -19,9 +19,9 @@
 
 namespace assay::properties {
 
-corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
-                          const DetectorUnderTest& detector, const Failure& failure) {
-  corpus::Case out = c;
+Case failing_case(const Case& c, const Configuration& configuration,
+                  const DetectorUnderTest& detector, const Failure& failure) {
+  Case out = c;
   out.about = about_text(failure.signature(), failure.explanation);
   // A plug-in's one configuration has its name.
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
@@ -31,9 +31,9 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
   return out;
 }
 
-FailureRecord stored_failure(Source source, const corpus::Case& c,
-                             const Configuration& configuration, const DetectorUnderTest& detector,
-                             const Failure& failure, bool flaky, const std::string& output) {
+FailureRecord stored_failure(Source source, const Case& c, const Configuration& configuration,
+                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
+                             const std::string& output) {
   const auto joint = failure.feature.empty() || failure.cause.empty() ? "" : ", ";
   FailureRecord record{.source = source,
                        .case_id = c.id,
@@ -42,7 +42,7 @@ FailureRecord stored_failure(Source source, const corpus::Case& c,
                        .kind = failure.kind + (failure.stage.empty() ? "" : " at " + failure.stage),
                        .contact = failure.feature + joint + failure.cause,
                        .explanation = failure.explanation,
-                       .mesh = corpus::case_text(failing_case(c, configuration, detector, failure)),
+                       .mesh = case_text(failing_case(c, configuration, detector, failure)),
                        .flaky = flaky,
                        .printed = output};
   if (flaky) (record.contact.empty() ? record.kind : record.contact) += " (flaky)";
@@ -62,7 +62,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Hashes triangles and frames bit by bit. Two cases with the same hash count as one.
-std::uint64_t mesh_hash(const corpus::Case& c) {
+std::uint64_t mesh_hash(const Case& c) {
   const auto bytes = [](const auto& matrix) {
     return std::string_view(reinterpret_cast<const char*>(matrix.data()),
                             sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
@@ -388,7 +388,7 @@ struct Trials {
     }
     if (!record.is_judged() || is_query_family(record.family)) return;
     record.counts.extremes = extremes_of(results.c, results.truth);
-    const auto* counted_pairs = corpus::counted_of(results.c);
+    const auto* counted_pairs = counted_of(results.c);
     record.counts.measures.relation_trials = counted_pairs && !counted_pairs->count_all() ? 1 : 0;
   }
 

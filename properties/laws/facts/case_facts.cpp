@@ -12,9 +12,6 @@
 
 namespace assay::properties {
 
-using detector::Positions;
-using detector::Triangles;
-
 namespace {
 
 Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_t> triangles) {
@@ -26,7 +23,7 @@ Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_
   return rows;
 }
 
-Positions apex_rows(const detector::StepResult& result, bool at_end) {
+Positions apex_rows(const StepResult& result, bool at_end) {
   return detector::with_apexes(Positions(0, 3), result.apexes, at_end);
 }
 
@@ -35,7 +32,7 @@ bool same_places(const Positions& a, const Positions& b) { return a.rows() == b.
 }  // namespace
 
 struct CaseFacts::StepFacts {
-  std::optional<std::vector<detector::ViewSign>> signs;
+  std::optional<std::vector<ViewSign>> signs;
   std::optional<std::vector<std::uint8_t>> touched, own_contacts;
   std::optional<oracle::Candidates> candidates;
   std::map<std::size_t, std::optional<int>> winding;
@@ -44,9 +41,8 @@ struct CaseFacts::StepFacts {
   std::optional<bool> trusted;
 };
 
-CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& options,
-                     std::span<const detector::StepResult> results,
-                     std::span<const oracle::StepJudgement> judgements,
+CaseFacts::CaseFacts(const Case& source, const detector::Options& options,
+                     std::span<const StepResult> results, std::span<const StepJudgement> judgements,
                      const detector::Surface& surface, StagesOf stages_of)
     : source_(source),
       options_(options),
@@ -54,7 +50,7 @@ CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& option
       judgements_(judgements),
       surface_(surface),
       stages_of_(std::move(stages_of)),
-      script_(corpus::steps_of(source)) {
+      script_(steps_of(source)) {
   assert(results.size() == script_.size() && judgements.size() == script_.size());
   std::optional<std::size_t> committed;
   for (std::size_t s = 0; s < script_.size(); ++s) {
@@ -127,11 +123,11 @@ bool CaseFacts::is_trusted(std::size_t s) {
   return *trusted;
 }
 
-const std::vector<detector::ViewSign>& CaseFacts::signs(std::size_t s) {
+const std::vector<ViewSign>& CaseFacts::signs(std::size_t s) {
   auto& signs = facts_[s].signs;
   if (signs) return *signs;
   const auto& all = surface_.all();
-  std::vector<detector::ViewPrimitive> primitives(all.triangles.size());
+  std::vector<ViewPrimitive> primitives(all.triangles.size());
   std::vector<std::int32_t> every(all.triangles.size());
   for (std::size_t c = 0; c < all.components.size(); ++c) {
     for (const auto t : all.components[c].triangles) {
@@ -185,8 +181,7 @@ bool CaseFacts::is_free_by_view(std::size_t s, std::size_t component) {
   const auto& triangles = surface_.all().components[component].triangles;
   const auto& of_step = signs(s);
   return std::ranges::all_of(
-             triangles,
-             [&](std::int32_t t) { return of_step[at(t)] == detector::ViewSign::positive; }) &&
+             triangles, [&](std::int32_t t) { return of_step[at(t)] == ViewSign::positive; }) &&
          winding_at_start(s, component) == 1;
 }
 
@@ -252,8 +247,7 @@ const CertifiedPatches& CaseFacts::certified_patches(std::size_t s) {
   return *patches;
 }
 
-PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated) {
-  using detector::ViewSign;
+PairBlock block_of(ViewSign a, ViewSign b, bool either_violated) {
   if (either_violated) return PairBlock::violated;
   if (a == ViewSign::zero && b == ViewSign::zero) return PairBlock::zero_zero;
   if (a == ViewSign::zero || b == ViewSign::zero) {
@@ -282,9 +276,8 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   const auto& triangles = surface.components[component].triangles;
   return std::ranges::all_of(triangles, [&](std::int32_t t) {
     const auto& v = surface.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{x, x}.path(v[i]); };
-    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
-           detector::ViewSign::positive;
+    const auto corner = [&](std::size_t i) { return SteppedMesh{x, x}.path(v[i]); };
+    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) == ViewSign::positive;
   });
 }
 
@@ -360,7 +353,7 @@ TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
   TriangleFlags flags = account_of_dirty(facts, s);
   const bool has_views = facts.has_views(s);
   const bool incomplete = facts.options().pairs != detector::Pairs::all &&
-                          facts.judgement(s).answer == detector::Answer::collision;
+                          facts.judgement(s).answer == Answer::collision;
   for (std::size_t t = 0; t < flags.size(); ++t) {
     const bool swept_clean =
         has_views ? !facts.touched(s)[t] : !facts.has_ghosts(component_of(facts, t));

@@ -12,11 +12,6 @@
 
 namespace assay::properties {
 
-using detector::StepResult;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-using detector::ViewSign;
-
 bool is_of_plugins(const Law& law) { return law.change || law.name == threads_law; }
 
 bool is_given_in_form(const Law& law, std::string_view case_id) {
@@ -134,7 +129,7 @@ void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change) {
   if (base && change.on_grid) base = on_a_grid(std::move(*base));
   const auto form = base ? change.of(*base) : std::nullopt;
   if (!form) return;
-  const auto player_of = [&](const corpus::Case& run) {
+  const auto player_of = [&](const Case& run) {
     return PinnedPlayer::make(run, options_with_views(facts), facts.stages_of());
   };
   auto player = change.on_grid ? player_of(*base) : std::nullopt, other = player_of(form->c);

@@ -8,9 +8,6 @@
 
 namespace assay::properties {
 
-using detector::MovingPoint;
-using detector::StepResult;
-
 namespace {
 
 using EdgeSet = std::vector<std::array<std::int32_t, 2>>;
@@ -28,7 +25,7 @@ std::map<std::int32_t, EdgeSet> holes_of(const Ghosts& ghosts, std::int32_t firs
   return holes;
 }
 
-std::vector<std::array<std::int32_t, 3>> pinned_ghosts(const corpus::Case& run) {
+std::vector<std::array<std::int32_t, 3>> pinned_ghosts(const Case& run) {
   std::vector<std::array<std::int32_t, 3>> ghosts;
   for (const auto& ghost : run.ghosts->triangles.rowwise())
     ghosts.push_back({ghost[0], ghost[1], ghost[2]});
@@ -43,13 +40,12 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   explicit PinnedBoundary(std::shared_ptr<const BoundaryHandler> otherwise)
       : otherwise_(std::move(otherwise)) {}
 
-  detector::Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
+  detector::Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                              detector::PacedStop& pace) const override {
     return otherwise_->close_up(triangles, vertex_count, pace);
   }
   std::vector<detector::ApexRule> choose_apexes(const detector::Surface& surface,
-                                                detector::BoundingVolumeTree&,
-                                                const detector::PositionsView&,
+                                                detector::BoundingVolumeTree&, const PositionsView&,
                                                 const detector::ElementaryTest&,
                                                 const detector::StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
@@ -57,7 +53,7 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   // Before the first step, when view primitives are chosen, no apex is pinned yet.
   std::vector<MovingPoint> place_apexes(const detector::Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
-                                        const detector::SteppedMesh& motion) const override {
+                                        const SteppedMesh& motion) const override {
     return apexes.size() == surface.loops.size() ? apexes
                                                  : otherwise_->place_apexes(surface, rules, motion);
   }
@@ -81,10 +77,10 @@ detector::Options options_with_views(const CaseFacts& facts) {
   return options;
 }
 
-std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
+std::optional<Case> pinned_run(const CaseFacts& facts) {
   if (!facts.stages_of()) return std::nullopt;
   const auto& surface = facts.surface();
-  corpus::Case run;
+  Case run;
   run.id = facts.source().id;
   run.triangles = facts.source().triangles;
   run.frames = {facts.source().frames.front()};
@@ -117,11 +113,10 @@ std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
   return run;
 }
 
-PinnedPlayer::PinnedPlayer(const corpus::Case& run, std::shared_ptr<PinnedBoundary> boundary)
+PinnedPlayer::PinnedPlayer(const Case& run, std::shared_ptr<PinnedBoundary> boundary)
     : run_(&run), boundary_(std::move(boundary)) {}
 
-std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
-                                               const detector::Options& options,
+std::optional<PinnedPlayer> PinnedPlayer::make(const Case& run, const detector::Options& options,
                                                const StagesOf& stages_of) {
   auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);
@@ -160,8 +155,8 @@ StepResult PinnedPlayer::evaluate(std::size_t step) {
   return evaluate(step, run_->frames[at(script.from)], run_->frames[at(script.to)]);
 }
 
-StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsView& x_t0,
-                                  const detector::PositionsView& x_t1) {
+StepResult PinnedPlayer::evaluate(std::size_t step, const PositionsView& x_t0,
+                                  const PositionsView& x_t1) {
   if (problem_) {
     StepResult refusal;
     refusal.problem = problem_;
@@ -171,7 +166,7 @@ StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsVie
   const auto path = [&, &of_step = run_->script[step]](std::int32_t place) {
     return MovingPoint{points[at(of_step.from)][at(place)], points[at(of_step.to)][at(place)]};
   };
-  std::vector<detector::ViewPrimitive> primitives;
+  std::vector<ViewPrimitive> primitives;
   for (const auto place : view_of_component_) primitives.push_back({path(place), path(place + 1)});
   boundary_->apexes.clear();
   for (const auto place : apex_of_loop_) boundary_->apexes.push_back(path(place));

@@ -17,7 +17,7 @@ std::size_t triangle_count(const ReductionSearch& search) {
 }
 
 // The middle of a triangle over all frames.
-Eigen::RowVector3d middle_of(const corpus::Case& c, std::int32_t triangle) {
+Eigen::RowVector3d middle_of(const Case& c, std::int32_t triangle) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const auto& frame : c.frames) {
     for (int k = 0; k < 3; ++k) sum += frame.row(c.triangles(triangle, k));
@@ -161,7 +161,7 @@ void drop_unused_vertices(ReductionSearch& search) {
 
 void drop_ghosts(ReductionSearch& search) {
   if (!search.best().ghosts) return;
-  corpus::Case without = search.best();
+  Case without = search.best();
   without.ghosts.reset();
   search.offer(without);
 }

@@ -13,8 +13,6 @@
 
 namespace assay::properties {
 
-using corpus::Case;
-
 void translate(ReductionSearch& search) {
   constexpr std::size_t most_origins = 60;
   for (int axis = 0; axis < 3; ++axis) {

@@ -128,7 +128,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
   // reported triangles are tried.
   constexpr std::size_t many = 6;
   Rings rings = rings_of(search);
-  const corpus::Case start = search.best();
+  const Case start = search.best();
   std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
   if (pool.size() > largest_pool) pool.resize(largest_pool);
   if (of_pair_only) {
@@ -161,7 +161,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
           for (Corners& corners : mesh) {
             for (auto& v : corners) v = pool[places[at(v)]];
           }
-          const corpus::Case small = with_triangles(start, mesh);
+          const Case small = with_triangles(start, mesh);
           if (search.offer(small)) return true;
           // The view of the large mesh need not suit the small one, so the small one is also tried
           // with a view of its own.

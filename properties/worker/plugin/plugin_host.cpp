@@ -13,9 +13,6 @@
 
 namespace assay::properties {
 
-using detector::Answer;
-using detector::StepResult;
-
 namespace {
 
 // Runs the steps of one case through one handle.
@@ -26,8 +23,7 @@ struct PluginRun {
   const bool reports_pairs_, asks_twice_;
 
   // The candidate pairs of a step, or why there are none.
-  Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
-                                                           const detector::Positions& x_t1) {
+  Expected<std::vector<TrianglePair>> candidates(const Positions& x_t0, const Positions& x_t1) {
     assay_candidates raw = {};
     BOOST_OUTCOME_TRYV(
         status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw)));
@@ -36,8 +32,7 @@ struct PluginRun {
 
   // What the limiter allows in a step, or why it allows nothing.
   // `way` is x_t1, or the displacement to it, as the contract has it.
-  Expected<LimitAnswer> limit(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                              const detector::Positions& way,
+  Expected<LimitAnswer> limit(const Positions& x_t0, const Positions& x_t1, const Positions& way,
                               const PluginDescription& description) {
     assay_limit raw = {};
     raw.share = -1;
@@ -46,8 +41,7 @@ struct PluginRun {
   }
 
   // The result of a step, or why it has none: the same reasons.
-  Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                            bool commit) {
+  Expected<StepResult> step(const Positions& x_t0, const Positions& x_t1, bool commit) {
     auto result = evaluated_step(x_t0, x_t1);
     if (result && asks_twice_) result = evaluated_step(x_t0, x_t1);
     if (!result) return result;
@@ -59,8 +53,7 @@ struct PluginRun {
   }
 
  private:
-  Expected<StepResult> evaluated_step(const detector::Positions& x_t0,
-                                      const detector::Positions& x_t1) {
+  Expected<StepResult> evaluated_step(const Positions& x_t0, const Positions& x_t1) {
     BOOST_OUTCOME_TRYV(status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data())));
     assay_result raw = {};
     BOOST_OUTCOME_TRYV(status("result", api_.result(handle_.get(), &raw)));
@@ -81,9 +74,9 @@ struct PluginRun {
 
 // Tells the plug-in which pairs count. Says why it does not take that; empty if it does.
 std::string tell_what_counts(const assay_detector_api& table, assay_handle* handle,
-                             const detector::CountedPairs& pairs) {
+                             const CountedPairs& pairs) {
   // They are handed over as they stand.
-  static_assert(sizeof(detector::TrianglePair) == 2 * sizeof(std::int32_t));
+  static_assert(sizeof(TrianglePair) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::VertexAndFace) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::TwoEdges) == 4 * sizeof(std::int32_t));
   static_assert(sizeof(detector::Point) == 3 * sizeof(double));
@@ -140,7 +133,7 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
-CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const {
+CaseRun PluginHost::ask(const FourPoints& query, bool is_timed) const {
   constexpr std::size_t points = 4, axes = 3;
   std::array<double, points * axes> x_t0, x_t1;
   for (std::size_t i = 0; i < points; ++i) {
@@ -183,7 +176,7 @@ CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const 
   return run;
 }
 
-CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
+CaseRun PluginHost::run(const Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
   if (const auto query = query_of(c)) {
     if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
@@ -191,7 +184,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   }
   if (!parts.steps && !parts.candidates && !parts.limit)
     return {RunEnd::refused, "it takes no steps", {}};
-  std::vector<detector::Positions> frames;
+  std::vector<Positions> frames;
   for (const auto& frame : c.frames) {
     frames.push_back(round_to(frame, description_.contract.coordinates));
     if (frames.back().allFinite()) continue;
@@ -227,7 +220,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   }
   CaseRun run;
   run.has_answers = parts.steps;
-  for (const auto& step : corpus::steps_of(c)) {
+  for (const auto& step : steps_of(c)) {
     const auto& x_t0 = frames[static_cast<std::size_t>(step.from)];
     const auto& x_t1 = frames[static_cast<std::size_t>(step.to)];
     const bool is_displaced = description_.contract.motion == MotionGiven::displacement;
