@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
 

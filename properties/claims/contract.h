@@ -8,9 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
 #include "detector/plugin/assay_detector.h"
 #include "properties/fields.h"
 #include "properties/words.h"

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -6,9 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
-#include "detector/mesh/step_types.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 

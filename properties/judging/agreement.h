@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "detector/options.h"
-#include "detector/step_result.h"
 #include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"

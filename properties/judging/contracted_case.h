@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/step_types.h"
 #include "properties/claims/claims.h"
 #include "properties/judging/agreement.h"
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/subject.h"
 #include "properties/judging/verdict.h"

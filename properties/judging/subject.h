@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"

@@ -8,9 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/types.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/subject.h"
 

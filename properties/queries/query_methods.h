@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 #include "oracle/referee/distance_referee.h"
 #include "properties/claims/claims.h"

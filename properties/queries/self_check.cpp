@@ -13,7 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "corpus/cases/case_file.h"
 #include "corpus/json_fields.h"
 #include "detector/detector.h"
 #include "oracle/mesh/step.h"

@@ -13,9 +13,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "detector/mesh/step_types.h"
 #include "properties/words.h"
 
 namespace assay::properties {

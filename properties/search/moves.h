@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/step_types.h"
 #include "properties/claims/claims.h"
 #include "properties/judging/exam.h"
 

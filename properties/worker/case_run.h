@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
 #include "detector/options.h"
 #include "detector/step/stages.h"
-#include "detector/step_result.h"
 #include "properties/words.h"
 
 namespace assay::properties {

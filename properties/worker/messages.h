@@ -22,12 +22,8 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/problem.h"
-#include "detector/mesh/step_types.h"
-#include "detector/step_result.h"
 #include "properties/claims/claims.h"
 #include "properties/fields.h"
 #include "properties/problem.h"

@@ -11,7 +11,6 @@
 #include <optional>
 #include <set>
 
-#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/topology.h"
 #include "properties/campaign/gates/gates.h"

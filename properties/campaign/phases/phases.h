@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "corpus/scenes/scenes.h"
 #include "detector/options.h"
 #include "properties/campaign/ledger/evidence.h"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "oracle/mesh/step.h"
 #include "properties/campaign/ledger/record.h"
 #include "properties/campaign/ledger/store.h"

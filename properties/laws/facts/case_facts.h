@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
-#include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/step/stages.h"
 #include "detector/traditional/traditional.h"

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "detector/step_result.h"
 #include "properties/changes/changes.h"
 #include "properties/laws/law.h"
 

@@ -7,7 +7,6 @@
 #include <boost/outcome/try.hpp>
 #include <memory>
 
-#include "detector/step_result.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 

@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "detector/mesh/step_types.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/plugin_host.h"
 

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 
-#include "detector/mesh/step_types.h"
 #include "properties/words.h"
 
 namespace assay::properties {
