@@ -10,12 +10,8 @@
 namespace assay::properties {
 namespace {
 
-using detector::ContactResult;
-using detector::Point;
-using detector::Want;
-
 // Gives right answers, but suppresses some contacts.
-class ContactDropped : public detector::ElementaryTest {
+class ContactDropped : public ElementaryTest {
  public:
   ContactResult test(const FourPoints& query, Want) const override {
     ContactResult right = detector::test_contact_past_axis(query, Want::first_time);
@@ -89,7 +85,7 @@ bool from_behind(const FourPoints& query, const ContactResult&) {
   return !is_edge_edge(query) && orientation_at(query, &MovingPoint::t0) < 0;
 }
 
-struct PiercingIgnored : detector::ElementaryTest {
+struct PiercingIgnored : ElementaryTest {
   bool pierces(const Point&, const Point&, const std::array<Point, 3>&) const override {
     return false;
   }
@@ -97,7 +93,7 @@ struct PiercingIgnored : detector::ElementaryTest {
 
 // Rounds the times of contacts.
 template <void (*round)(TimeEnclosure&)>
-struct Rounded : detector::ElementaryTest {
+struct Rounded : ElementaryTest {
   ContactResult test(const FourPoints& query, Want want) const override {
     ContactResult result = detector::test_contact_past_axis(query, want);
     round(result.time);
@@ -196,7 +192,7 @@ std::vector<Fault> elementary_faults() {
        "F_doubled_features",
        5,
        "a feature pair in the place of another is dropped as a duplicate",
-       {detector::Culling::bvh}},
+       {Culling::bvh}},
   };
 }
 

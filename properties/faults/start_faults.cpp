@@ -9,18 +9,13 @@
 namespace assay::properties {
 namespace {
 
-using detector::GivenStep;
-using detector::ReleaseRule;
-using detector::StepCost;
-using detector::StepMarks;
-
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
 // Adds the triangles that meet another one of their component at t=0.
 void add_own_contacts(const GivenStep& step, std::size_t c, Flags& touched) {
-  detector::FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
-                                     detector::Want::yes_no);
+  FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
+                           Want::yes_no);
   const auto own = step.own_triangles(c);
   for (std::size_t i = 0; i < own.size(); ++i) {
     for (std::size_t j = i + 1; j < own.size(); ++j) contacts.add_candidate(own[i], own[j], true);
@@ -38,8 +33,7 @@ struct StartHalfChecked : ReleaseRule {
                     const Components& components) const override {
     Flags touched(step.surface.mesh.triangles.size(), 0);
     step.tree.refit(step.surface.mesh, step.motion.at_start());
-    const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
-                                     step.elementary, true};
+    const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary, true};
     Flags is_seen(step.surface.all().triangles.size(), 0);
     for (const auto component : components) {
       const std::size_t c = at(component);
@@ -69,8 +63,8 @@ struct LowestLayerIsCommon : ReleaseRule {
       const std::size_t c = at(component);
       Flags touched(step.surface.mesh.triangles.size(), 0);
       add_own_contacts(step, c, touched);
-      const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
-                                       step.elementary, true};
+      const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary,
+                             true};
       step.boundary.sweep(still, step.ghosts(c), step.stop, touched, cost.counts.ghosts);
       std::optional<int> common;
       for (const auto t : step.own_triangles(c)) {
@@ -103,7 +97,7 @@ bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangle
 
 // `surface` is the surface of the step, or its mesh without ghosts.
 bool all_positive_at_start(const GivenStep& step, const StepMarks& marks, std::size_t c,
-                           const detector::Topology& surface) {
+                           const Topology& surface) {
   const auto& primitive = marks.primitives[c];
   return detector::all_positive_at(surface, surface.components[c], step.motion.vertices_t0,
                                    primitive.q0.t0, primitive.q1.t0);

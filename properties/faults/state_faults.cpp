@@ -10,12 +10,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::GivenStep;
-using detector::ReleaseRule;
-using detector::StepCost;
-using detector::StepMarks;
-using detector::StepState;
-
 using Pairs = std::vector<PairContact>;
 
 // What the step leaves behind is computed from a start at which too much is believed clean, or
@@ -86,8 +80,7 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
 };
 
 struct KeptElsewhere : ReleaseRule {
-  bool still_holds(const StepState&, const PositionsView&,
-                   const detector::PacedStop&) const override {
+  bool still_holds(const StepState&, const PositionsView&, const PacedStop&) const override {
     return true;
   }
 };
@@ -115,9 +108,8 @@ class EvaluationKept : public ReleaseRule {
   mutable Positions free_from_;
 };
 
-constexpr detector::Options auto_views{detector::Culling::view_auto};
-constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
-                                           detector::Pairs::first};
+constexpr Options auto_views{Culling::view_auto};
+constexpr Options first_pairs = {Culling::view_point, Start::verified, detector::Pairs::first};
 
 }  // namespace
 
@@ -167,7 +159,7 @@ struct ReleaseHalfChecked : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                const Numbers& components) const override {
     Flags touched(marks.clean.size(), 0), is_seen(touched);
-    const detector::FloatGrid grid(step.motion.at_start());
+    const FloatGrid grid(step.motion.at_start());
     if (contacts == Contacts::tested) detector::add_lasting_contacts(step, cost, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
