@@ -15,6 +15,13 @@ using Numbers = std::vector<std::int32_t>;
 
 using detector::at;
 
+// Returns a list of triples, such as corners or points, as the rows of a matrix.
+template <class Matrix, class Triples>
+Matrix as_rows(const Triples& triples) {
+  const auto* first = std::empty(triples) ? nullptr : std::begin(triples)->data();
+  return Eigen::Map<const Matrix>(first, static_cast<Eigen::Index>(std::size(triples)), 3);
+}
+
 // Returns 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);

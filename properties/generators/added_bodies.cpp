@@ -152,13 +152,11 @@ Case with_approach(Case c, double d, Random& random) {
   const Triangles two{{0, 1, 2}, {3, 4, 5}};
   add_mesh(c, two, [&](std::size_t f) {
     const bool has_moved = static_cast<std::int32_t>(f) >= step.to;
-    Positions x(6, 3);
-    for (int i = 0; i < 6; ++i) {
-      const auto& [t0, t1] = i < 3 ? a[at(i)] : b[at(i - 3)];
-      const Point& p = has_moved ? t1 : t0;
-      x.row(i) << p[0], p[1], p[2];
+    Points x;
+    for (const auto& triangle : {a, b}) {
+      for (const auto& [t0, t1] : triangle) x.push_back(has_moved ? t1 : t0);
     }
-    return x;
+    return as_rows<Positions>(x);
   });
   tell_of_added(c, vertices);
   return c;

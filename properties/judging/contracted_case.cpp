@@ -229,14 +229,10 @@ bool start_apart(const FourPoints& q, double distance) {
   const std::array<std::size_t, 6> corners = is_vertex_face
                                                  ? std::array<std::size_t, 6>{0, 0, 0, 1, 2, 3}
                                                  : std::array<std::size_t, 6>{0, 1, 1, 2, 3, 3};
-  Positions x(6, 3);
-  for (int v = 0; v < 6; ++v) {
-    const auto& at = q.points[corners[static_cast<std::size_t>(v)]].t0;
-    x.row(v) << at[0], at[1], at[2];
-  }
-  Triangles triangles(2, 3);
-  triangles << 0, 1, 2, 3, 4, 5;
-  return !oracle::any_nearer_than(x, triangles, distance,
+  std::vector<detector::Point> x;
+  for (const auto corner : corners) x.push_back(q.points[corner].t0);
+  const Triangles triangles{{0, 1, 2}, {3, 4, 5}};
+  return !oracle::any_nearer_than(as_rows<Positions>(x), triangles, distance,
                                   [](std::int32_t, std::int32_t) { return true; });
 }
 

@@ -66,14 +66,12 @@ bool boxes_meet(const CaseFacts& facts, std::size_t s) {
 // The oracle's layers of one component if everything else is taken away.
 oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t component) {
   const auto& surface = facts.surface();
-  Triangles own(0, 3), ghosts(0, 3);
-  for (const auto t : surface.all().components[component].triangles) {
-    const auto& v = surface.all().triangles[at(t)];
-    auto& list = at(t) < surface.mesh.triangles.size() ? own : ghosts;
-    list.conservativeResize(list.rows() + 1, 3);
-    list.bottomRows(1) << v[0], v[1], v[2];
-  }
-  return oracle::layers_at(oracle::Instant(facts.all_t0(s)), own, ghosts);
+  std::vector<std::array<std::int32_t, 3>> own, ghosts;
+  for (const auto t : surface.all().components[component].triangles)
+    (at(t) < surface.mesh.triangles.size() ? own : ghosts)
+        .push_back(surface.all().triangles[at(t)]);
+  return oracle::layers_at(oracle::Instant(facts.all_t0(s)), as_rows<Triangles>(own),
+                           as_rows<Triangles>(ghosts));
 }
 
 Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) {

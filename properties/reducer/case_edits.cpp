@@ -16,16 +16,6 @@ namespace assay::properties {
 namespace {
 using Corners = std::array<std::int32_t, 3>;
 
-Triangles matrix_of(const std::vector<Corners>& triangles) {
-  Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      matrix(static_cast<Eigen::Index>(t), i) = triangles[t][at(i)];
-    }
-  }
-  return matrix;
-}
-
 // +1 if the corners are an even permutation of their ascending order, else -1.
 int orientation(const Corners& c) {
   return ((c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0])) == 2 ? 1 : -1;
@@ -85,7 +75,7 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   result.script = c.script;
   result.view = c.view;
   result.options = c.options;
-  result.triangles = matrix_of(triangles);
+  result.triangles = as_rows<Triangles>(triangles);
   if (c.ghosts) result.ghosts = renewed_ghosts(c, result.triangles, target);
 
   const auto vertices = vertex_count(c);

@@ -228,14 +228,11 @@ using detector::Start;
 class Check {
  public:
   Check(const TetrahedronMotion& motion, TetrahedronWorldResult& counts)
-      : motion_(motion), counts_(counts), x_t0_(4, 3), x_t1_(4, 3) {
-    for (Eigen::Index v = 0; v < 4; ++v) {
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        const auto& vertex = motion.vertices[static_cast<std::size_t>(v)];
-        x_t0_(v, k) = vertex.t0[static_cast<std::size_t>(k)];
-        x_t1_(v, k) = vertex.t1[static_cast<std::size_t>(k)];
-      }
-    }
+      : motion_(motion), counts_(counts) {
+    std::vector<detector::Point> from, to;
+    for (const auto& [t0, t1] : motion.vertices) from.push_back(t0), to.push_back(t1);
+    x_t0_ = as_rows<Positions>(from);
+    x_t1_ = as_rows<Positions>(to);
     faces_[0].resize(4, 3);
     faces_[0] << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
     faces_[1] = faces_[0].rowwise().reverse();

@@ -187,9 +187,7 @@ bool starts_clean_with_ghosts(const Case& c, detector::Arithmetic arithmetic) {
   if (!creation) return false;
   const auto& all = creation.value().surface().all().triangles;
   const auto own = static_cast<std::size_t>(c.triangles.rows());
-  Triangles ghosts(static_cast<Eigen::Index>(all.size() - own), 3);
-  for (std::size_t g = own; g < all.size(); ++g)
-    ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
+  const auto ghosts = as_rows<Triangles>(std::span(all).subspan(own));
   const auto starts = new_starts(c);
   const auto script = steps_of(c);
   return std::ranges::all_of(starts, [&](std::size_t s) {

@@ -15,12 +15,9 @@ namespace assay::properties {
 namespace {
 
 Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_t> triangles) {
-  Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto& t = surface.triangles[at(triangles[i])];
-    rows.row(static_cast<Eigen::Index>(i)) << t[0], t[1], t[2];
-  }
-  return rows;
+  std::vector<std::array<std::int32_t, 3>> corners;
+  for (const auto t : triangles) corners.push_back(surface.triangles[at(t)]);
+  return as_rows<Triangles>(corners);
 }
 
 Positions apex_rows(const StepResult& result, bool at_end) {
@@ -59,11 +56,7 @@ CaseFacts::CaseFacts(const Case& source, const detector::Options& options,
     if (script_[s].commit && is_answered(results_[s])) committed = s;
   }
   const auto own = surface_.mesh.triangles.size();
-  std::vector<std::int32_t> ghosts;
-  for (std::size_t g = own; g < surface_.all().triangles.size(); ++g) {
-    ghosts.push_back(static_cast<std::int32_t>(g));
-  }
-  ghosts_ = rows_of(surface_.all(), ghosts);
+  ghosts_ = as_rows<Triangles>(std::span(surface_.all().triangles).subspan(own));
   facts_.resize(script_.size());
 }
 

@@ -1,5 +1,7 @@
 #include "properties/worker/plugin/query_case.h"
 
+#include "properties/numbering.h"
+
 namespace assay::properties {
 namespace {
 
@@ -31,14 +33,9 @@ Case case_of_query(const FourPoints& query, std::string id) {
   c.id = std::move(id);
   c.triangles = triangles_of_queries();
   c.options[query_option] = query_word(query);
-  c.frames.assign(2, Positions(vertices_of_a_query, 3));
-  for (int v = 0; v < vertices_of_a_query; ++v) {
-    const auto& path = query.points[static_cast<std::size_t>(v)];
-    for (int axis = 0; axis < 3; ++axis) {
-      c.frames[0](v, axis) = path.t0[static_cast<std::size_t>(axis)];
-      c.frames[1](v, axis) = path.t1[static_cast<std::size_t>(axis)];
-    }
-  }
+  std::vector<detector::Point> from, to;
+  for (const auto& [t0, t1] : query.points) from.push_back(t0), to.push_back(t1);
+  c.frames = {as_rows<Positions>(from), as_rows<Positions>(to)};
   return c;
 }
 
