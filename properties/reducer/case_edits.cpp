@@ -79,23 +79,16 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   if (c.ghosts) result.ghosts = renewed_ghosts(c, result.triangles, target);
 
   const auto vertices = vertex_count(c);
-  std::vector<std::int32_t> number(vertices, -1);
+  Numbers number(vertices, -1), rows;
   for (const auto& corners : triangles) {
     for (const auto v : corners) number[at(v)] = 0;
   }
-  std::vector<Eigen::Index> rows;
   for (std::size_t v = 0; v < vertices; ++v) {
     if (number[v] < 0) continue;
     number[v] = static_cast<std::int32_t>(rows.size());
-    rows.push_back(static_cast<Eigen::Index>(v));
+    rows.push_back(static_cast<std::int32_t>(v));
   }
-  for (const auto& frame : c.frames) {
-    Positions x(static_cast<Eigen::Index>(rows.size()), 3);
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-      x.row(static_cast<Eigen::Index>(v)) = frame.row(rows[v]);
-    }
-    result.frames.push_back(std::move(x));
-  }
+  for (const auto& frame : c.frames) result.frames.emplace_back(frame(rows, Eigen::all));
   const auto renumber = [&](Triangles& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) {
       auto& v = matrix.data()[i];
@@ -105,9 +98,8 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   };
   renumber(result.triangles);
   if (c.counted) {
-    NewVertices renumbered;
+    NewVertices renumbered{{}, rows};
     for (const auto end : target) renumbered.number.push_back(number[at(end)]);
-    for (const auto old : rows) renumbered.was.push_back(static_cast<std::int32_t>(old));
     result.counted = {carried_over(c.counted->pairs, c.triangles, result.triangles, renumbered),
                       {}};
   }

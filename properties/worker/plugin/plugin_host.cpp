@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/outcome/try.hpp>
 #include <memory>
 
@@ -132,24 +131,19 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
-CaseRun PluginHost::ask(const FourPoints& query, bool is_timed) const {
-  constexpr std::size_t points = 4, axes = 3;
-  std::array<double, points * axes> x_t0, x_t1;
-  for (std::size_t i = 0; i < points; ++i) {
-    for (std::size_t k = 0; k < axes; ++k) {
-      x_t0[axes * i + k] = query.points[i].t0[k];
-      x_t1[axes * i + k] = query.points[i].t1[k];
-      if (description_.contract.motion == MotionGiven::displacement)
-        x_t1[axes * i + k] -= x_t0[axes * i + k];  // exact in a contracted query
-    }
-  }
+CaseRun PluginHost::ask(const Case& c, int first_group, bool is_timed) const {
+  const auto step = steps_of(c).front();
+  const Positions& x_t0 = start_of(c, step);
+  Positions x_t1 = end_of(c, step);
+  // The displacement is exact in a contracted query.
+  if (description_.contract.motion == MotionGiven::displacement) x_t1 -= x_t0;
   assay_query_result raw = {};
   RunClock clock(is_timed);
   clock.created();
   clock.begin();
   const std::int32_t code =
-      table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
-                   x_t0.data(), x_t1.data(), &raw);
+      table_.query(first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE, x_t0.data(),
+                   x_t1.data(), &raw);
   clock.end_step();
   CaseRun run;
   run.times = clock.take();
@@ -164,12 +158,12 @@ CaseRun PluginHost::ask(const FourPoints& query, bool is_timed) const {
     alike.answer = raw.answer;
     alike.first_lo = raw.first_lo;
     alike.first_hi = raw.first_hi;
-    auto step = step_result(alike, 0);
-    if (step) {
-      result = std::move(step.value());
+    auto answer = step_result(alike, 0);
+    if (answer) {
+      result = std::move(answer.value());
     } else {
       const auto text = raw.answer == ASSAY_ERROR ? text_of_error(table_) : "";
-      run.explanation = text.empty() ? step.error().message : text;
+      run.explanation = text.empty() ? answer.error().message : text;
     }
   }
   return run;
@@ -179,7 +173,7 @@ CaseRun PluginHost::run(const Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
   if (const auto query = query_of(c)) {
     if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
-    return ask(*query, is_timed);
+    return ask(c, query->first_group, is_timed);
   }
   if (!parts.steps && !parts.candidates && !parts.limit)
     return {RunEnd::refused, "it takes no steps", {}};

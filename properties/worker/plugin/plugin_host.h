@@ -35,7 +35,7 @@ class PluginHost {
   CaseRun run(const Case& c, bool is_timed = false) const;
 
  private:
-  CaseRun ask(const FourPoints& query, bool is_timed) const;
+  CaseRun ask(const Case& c, int first_group, bool is_timed) const;
 
   PluginHost(const assay_detector_api& table, PluginDescription description)
       : table_(table), description_(std::move(description)) {}
