@@ -13,9 +13,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::MovingPoint;
 using detector::Point;
-using detector::TimeEnclosure;
 using detector::Want;
 
 // Changes of a query under which the oracle's answer, and mostly its first time, are known.

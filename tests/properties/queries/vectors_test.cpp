@@ -21,8 +21,6 @@ namespace {
 
 using corpus::Json;
 using detector::FeatureKind;
-using detector::FourPoints;
-using detector::TimeEnclosure;
 
 const std::string folder = ASSAY_SOURCE_DIR "/corpus/vectors/";
 

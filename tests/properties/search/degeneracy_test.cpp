@@ -7,8 +7,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::FourPoints;
-
 FourPoints generic(std::uint64_t i) { return query_families()[8].query(5, i).query; }
 
 // The volume of the four points at this time over that of a cube of their largest coordinate.
@@ -93,8 +91,6 @@ TEST(Degeneracy, ARootThatDoublesSeeIsFound) {
 }
 
 // The exact gap of a query to each degeneracy: 0 at it, and shrinking towards it.
-
-using detector::FourPoints;
 
 // A vertex that falls at the place (x,y) onto the face (-4,-4) (4,-4) (0,4) of height 0.
 FourPoints falling(double x, double y, double from, double to) {
