@@ -1,4 +1,5 @@
-// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself.
+// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself;
+// lays lists of triples out as rows.
 #pragma once
 
 #include <algorithm>
