@@ -10,31 +10,31 @@ namespace assay::properties {
 
 namespace {
 
-using Pairs = std::vector<PairContact>;
+using PairList = std::vector<PairContact>;
 
 // What the step leaves behind is computed from a start at which too much is believed clean, or
 // from a step that is made to have seen too little.
-template <void (*forget)(StepMarks&, Pairs&, bool& complete)>
+template <void (*forget)(StepMarks&, PairList&, bool& complete)>
 struct Forgotten : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     StepMarks first_marks = marks;
-    Pairs first_pairs = pairs;
+    PairList first_pairs = pairs;
     forget(first_marks, first_pairs, complete);
     ReleaseRule::settle(step, first_marks, first_pairs, complete, state);
   }
 };
 
-void dirty(StepMarks& marks, Pairs&, bool&) { marks.clean.assign(marks.clean.size(), 1); }
-void violated(StepMarks& marks, Pairs&, bool&) { marks.touched.assign(marks.touched.size(), 0); }
-void contacts(StepMarks&, Pairs& pairs, bool& complete) {
+void dirty(StepMarks& marks, PairList&, bool&) { marks.clean.assign(marks.clean.size(), 1); }
+void violated(StepMarks& marks, PairList&, bool&) { marks.touched.assign(marks.touched.size(), 0); }
+void contacts(StepMarks&, PairList& pairs, bool& complete) {
   pairs.clear();
   complete = true;
 }
-void later_pairs(StepMarks&, Pairs&, bool& complete) { complete = true; }
+void later_pairs(StepMarks&, PairList&, bool& complete) { complete = true; }
 
 struct ReleasedOnNoContact : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
     if (pairs.empty()) std::ranges::fill(state.clean, 1);
@@ -42,7 +42,7 @@ struct ReleasedOnNoContact : ReleaseRule {
 };
 
 struct OneSideDirty : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, {}, true, state);
     for (const auto& contact : pairs) {
@@ -54,7 +54,7 @@ struct OneSideDirty : ReleaseRule {
 
 // After a step without views, an open component becomes dirty only if the step found a contact.
 struct LostByContactAlone : ReleaseRule {
-  bool knows_clean(const GivenStep& step, const Pairs& pairs, std::size_t c) const override {
+  bool knows_clean(const GivenStep& step, const PairList& pairs, std::size_t c) const override {
     return pairs.empty() || ReleaseRule::knows_clean(step, pairs, c);
   }
 };
@@ -62,7 +62,7 @@ struct LostByContactAlone : ReleaseRule {
 // Carries clean bits through a step without views as through any other step, whether or not there
 // are ghosts.
 struct CarriedPastGhosts : ReleaseRule {
-  bool knows_clean(const GivenStep&, const Pairs&, std::size_t) const override { return true; }
+  bool knows_clean(const GivenStep&, const PairList&, std::size_t) const override { return true; }
 };
 
 // A triangle that the step before did not find in contact is not tested against the ghosts either.
@@ -89,7 +89,7 @@ struct KeptElsewhere : ReleaseRule {
 // same place: if that place was seen to be free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
     free_from_.resize(pairs.empty() ? step.motion.size() : 0, 3);
@@ -109,7 +109,7 @@ class EvaluationKept : public ReleaseRule {
 };
 
 constexpr Options auto_views{Culling::view_auto};
-constexpr Options first_pairs = {Culling::view_point, Start::verified, detector::Pairs::first};
+constexpr Options first_pairs = {Culling::view_point, Start::verified, Pairs::first};
 
 }  // namespace
 
