@@ -12,16 +12,19 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
+#include "detector/options.h"
 #include "detector/step_result.h"
 
 namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 using corpus::Case, corpus::CaseStep, corpus::CaseView;
-using detector::Answer, detector::CountedPairs, detector::FourPoints, detector::MovingPoint,
-    detector::PairContact, detector::Positions, detector::PositionsView, detector::StepResult,
-    detector::SteppedMesh, detector::TimeEnclosure, detector::TrianglePair, detector::Triangles,
-    detector::TrianglesView, detector::ViewPrimitive, detector::ViewSign;
+using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::Culling,
+    detector::Feature, detector::FeatureKind, detector::FourPoints, detector::MovingPoint,
+    detector::Options, detector::PairContact, detector::Point, detector::Positions,
+    detector::PositionsView, detector::StepResult, detector::SteppedMesh, detector::StopFunction,
+    detector::TimeEnclosure, detector::TrianglePair, detector::Triangles, detector::TrianglesView,
+    detector::ViewPrimitive, detector::ViewSign, detector::Want;
 
 // The rows of an enum whose list has more than names, in the order of its values.
 template <Listed Enum>

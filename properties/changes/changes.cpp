@@ -9,7 +9,6 @@
 #include "properties/random.h"
 
 namespace assay::properties {
-using detector::Point;
 
 double largest_along(const Case& c, int axis) {
   double largest = 0;

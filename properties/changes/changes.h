@@ -122,7 +122,7 @@ bool scales_exactly(double& x, int exponent);
 
 // Scale by 2^exponent, and translate; return nothing if a coordinate would be rounded.
 std::optional<Case> scaled(Case c, int exponent);
-std::optional<Case> translated(Case c, const detector::Point& by);
+std::optional<Case> translated(Case c, const Point& by);
 // Mirrors the case along an axis, and turns its triangles over.
 Case mirrored(Case c, int axis);
 

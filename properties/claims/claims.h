@@ -336,9 +336,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
 // Returns the claims of the built-in detector. exact: all claims. bounded: all but no-spurious (its
 // intervals hold the times by construction, see StepResult::first). double and float: deterministic
 // and total. With pairs first, no arithmetic claims all-pairs.
-inline Claims claims_of(const detector::Options& options) {
-  const bool exact = options.arithmetic == detector::Arithmetic::exact;
-  const bool is_proved = exact || options.arithmetic == detector::Arithmetic::bounded;
+inline Claims claims_of(const Options& options) {
+  const bool exact = options.arithmetic == Arithmetic::exact;
+  const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;
   Claims claims = {Claim::deterministic, Claim::total};
   if (!is_proved) return claims;
   claims = claims.with({Claim::free_sound, Claim::not_late, Claim::first_time, Claim::first_pairs});
@@ -357,7 +357,7 @@ inline constexpr double built_in_progress = 0.9;
 
 // Returns the contract of the built-in detector with these options: it asks for contacts, or for
 // pairs without a shared vertex that come within a separation.
-Contract contract_of(const detector::Options& options);
+Contract contract_of(const Options& options);
 
 // Returns the claims that are judged under this contract (ClaimRow::why_void). If it has a margin,
 // the detector may report a collision before there is one. Its false alarms are then judged with

@@ -119,7 +119,7 @@ ViewSign sign_of(const ViewPieces& p) {
 MovingPoint still(Sample sample, const MovingPoint& point) {
   if (sample == Sample::start) return {point.t0, point.t0};
   if (sample == Sample::end) return {point.t1, point.t1};
-  detector::Point middle;
+  Point middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * point.t0[k] + 0.5 * point.t1[k];
   return {middle, middle};
 }

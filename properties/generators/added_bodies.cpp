@@ -11,7 +11,6 @@
 namespace assay::properties {
 
 namespace {
-using detector::Point;
 
 // In a relation the vertices from `first` on are a body of their own, and at rest they are as at
 // the start. What was said of the case without them is dropped.

@@ -27,7 +27,6 @@ struct RandomCase {
 // For the same reason no expression here or in the generators draws two random numbers in an order
 // that the language leaves open (arguments of a call, operands of +).
 
-using detector::Point;
 using Points = std::vector<Point>;
 
 inline Point operator+(const Point& a, const Point& b) {

@@ -243,11 +243,10 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
 }
 
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
-                            const PositionsView& x_t1, TrianglePair pair,
-                            detector::Options options) {
+                            const PositionsView& x_t1, TrianglePair pair, Options options) {
   options.start = detector::Start::unknown;
   options.pairs = detector::Pairs::all;
-  const auto finds = [&](detector::Culling culling) {
+  const auto finds = [&](Culling culling) {
     options.culling = culling;
     auto creation = detector::Detector::create(triangles, x_t0, options);
     if (!creation) return false;
@@ -256,9 +255,9 @@ std::string stage_that_lost(const TrianglesView& triangles, const PositionsView&
                                [&](const PairContact& contact) { return contact.pair == pair; });
   };
   constexpr Eigen::Index most_triangles_without_tree = 2000;
-  if (finds(detector::Culling::bvh)) return "view sets";
+  if (finds(Culling::bvh)) return "view sets";
   if (triangles.rows() > most_triangles_without_tree) return "pair search or elementary test";
-  return finds(detector::Culling::none) ? "pair search" : "elementary test";
+  return finds(Culling::none) ? "pair search" : "elementary test";
 }
 
 namespace {

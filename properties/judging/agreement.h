@@ -102,8 +102,7 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
 // culling none does, "elementary test" if neither does. Culling none is tried for meshes of up to
 // 2,000 triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
-                            const PositionsView& x_t1, TrianglePair pair,
-                            detector::Options options = {});
+                            const PositionsView& x_t1, TrianglePair pair, Options options = {});
 
 // A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's
 // way is judged by them. REQUIRES a judgement by judge_under.

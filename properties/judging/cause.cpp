@@ -13,8 +13,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::FeatureKind;
-
 using Rational = std::array<mpq_class, 3>;
 
 bool is_zero_cross(const Rational& u, const Rational& v) {
@@ -84,7 +82,7 @@ class PairOfStep {
   // `query`: the pair holds the two features of a query. Of its vertices these alone count, and of
   // its triangles the face alone.
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
-             const std::optional<detector::Feature>& query)
+             const std::optional<Feature>& query)
       : triangles_(triangles), motion_(motion), pair_(pair), query_(query) {
     if (!query || query->kind == FeatureKind::vertex_face) faces_.push_back(pair.b);
     if (!query) faces_.push_back(pair.a);
@@ -208,7 +206,7 @@ class PairOfStep {
   const SteppedMesh& motion_;
   const TrianglePair pair_;
   std::vector<std::int32_t> faces_;
-  std::optional<detector::Feature> query_;
+  std::optional<Feature> query_;
 };
 
 std::string joined(std::initializer_list<std::string_view> words) {
@@ -238,7 +236,7 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
 }
 
 std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair of,
-                     bool of_distance, const std::optional<detector::Feature>& query) {
+                     bool of_distance, const std::optional<Feature>& query) {
   const PairOfStep pair(triangles, motion, of, query);
   return joined({pair.moves() ? "moving" : at_rest, of_distance ? beyond_distance : "",
                  pair.sharing(), pair.is_near_at_start() ? near_start : "", pair.numbers()});

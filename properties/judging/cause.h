@@ -41,7 +41,7 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
 // Returns the cause for a pair of triangles that is not in contact, or for two features of a query
 // that do not meet.
 std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
-                     bool of_distance = false, const std::optional<detector::Feature>& query = {});
+                     bool of_distance = false, const std::optional<Feature>& query = {});
 
 // Returns the oddity of the cause at the end of a signature; 0 for the most ordinary cause, and for
 // none. People look at the least odd failures first, and at triangles without a shared vertex

@@ -229,7 +229,7 @@ bool start_apart(const FourPoints& q, double distance) {
   const std::array<std::size_t, 6> corners = is_vertex_face
                                                  ? std::array<std::size_t, 6>{0, 0, 0, 1, 2, 3}
                                                  : std::array<std::size_t, 6>{0, 1, 1, 2, 3, 3};
-  std::vector<detector::Point> x;
+  std::vector<Point> x;
   for (const auto corner : corners) x.push_back(q.points[corner].t0);
   const Triangles triangles{{0, 1, 2}, {3, 4, 5}};
   return !oracle::any_nearer_than(as_rows<Positions>(x), triangles, distance,
@@ -252,7 +252,7 @@ StepJudgement judge_query(const FourPoints& query, const Contract& contract) {
     judgement.rungs.add(answer.rung);
     judgement.pairs = pair_at(answer.near, answer.first);
   } else {
-    const auto answer = oracle::contact_of(query, detector::Want::first_time);
+    const auto answer = oracle::contact_of(query, Want::first_time);
     judgement.rungs.add(answer.rung);
     judgement.pairs = pair_at(answer.contact, answer.first);
   }

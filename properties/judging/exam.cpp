@@ -232,8 +232,6 @@ Verdict judge_run(const Case& c, const CaseRun& run, std::span<const StepJudgeme
   }
   return verdict;
 }
-using detector::Arithmetic;
-using detector::Culling;
 
 namespace {
 

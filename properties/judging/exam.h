@@ -104,7 +104,7 @@ struct CaseCheck : CaseResults {
 // signs (of the detector if it tested the triangle, always of the oracle), and the agreement of
 // detector and oracle. The detector's answer, pairs and signs are judged by the claims of its
 // arithmetic.
-CaseCheck check_case(const Case& c, std::optional<detector::Culling> culling = {}, int jobs = 1,
-                     std::optional<detector::Arithmetic> arithmetic = {});
+CaseCheck check_case(const Case& c, std::optional<Culling> culling = {}, int jobs = 1,
+                     std::optional<Arithmetic> arithmetic = {});
 
 }  // namespace assay::properties

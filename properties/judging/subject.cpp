@@ -7,7 +7,6 @@
 
 namespace assay::properties {
 
-using detector::Culling;
 using detector::Pairs;
 using detector::Start;
 
@@ -49,7 +48,7 @@ DetectorUnderTest built_in_detector() {
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
     detector.configurations.push_back(
         {fmt::format("{}/bounded", name_of(culling)),
-         {culling, Start::verified, Pairs::all, detector::Arithmetic::bounded}});
+         {culling, Start::verified, Pairs::all, Arithmetic::bounded}});
   }
   Configuration limits{"limits", {Culling::automatic}}, within{"within", {Culling::bvh}};
   limits.asks_limits = within.asks_limits = true;

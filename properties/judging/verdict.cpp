@@ -33,7 +33,7 @@ namespace {
 
 // Adds the stage that lost the pair, which tells one failure of this kind from another.
 void find_stage(Failure& failure, const Case& c, const CaseStep& step, const StepDiff& diff,
-                detector::Options options) {
+                Options options) {
   const bool is_lost = std::ranges::any_of(
       diff.missing, [&](const auto& miss) { return miss.pair == failure.pair; });
   options.counted = counted_of(c);

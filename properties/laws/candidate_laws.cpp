@@ -242,8 +242,8 @@ std::string left_out(const StepResult& result, const StepJudgement& judgement) {
 // Checks that K without N holds the contacts of L3 and L7 as well.
 void check_what_is_proved(CaseFacts& facts, LawTally& tally) {
   const auto& options = facts.options();
-  if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||
-      options.arithmetic != detector::Arithmetic::exact)
+  if (options.culling != Culling::automatic || options.pairs != detector::Pairs::all ||
+      options.arithmetic != Arithmetic::exact)
     return;
   auto stages = facts.stages_of()(options);
   stages.pair_search = std::make_shared<EagerProofs>(stages.pair_search);

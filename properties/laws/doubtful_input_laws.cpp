@@ -24,7 +24,7 @@ using detector::InputError;
 
 // Two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
-  std::vector<detector::Point> places;
+  std::vector<Point> places;
   for (const auto& component : facts.surface().mesh.components) {
     for (const auto v : component.vertices) places.push_back(detector::point_of(facts.x_t0(s), v));
   }

@@ -14,7 +14,6 @@
 
 namespace assay::properties {
 namespace {
-using detector::Culling;
 
 // The oracle takes long for distances among many triangles.
 constexpr std::size_t most_triangles_apart = 40;
@@ -32,7 +31,7 @@ void check_distance(CaseFacts& facts, LawTally& tally) {
       facts.surface().mesh.triangles.size() > most_triangles_apart)
     return;
   Random random(Random::hash(facts.source().id), Random::hash("distance"));
-  detector::Options options;
+  Options options;
   options.culling = random.one_in(4) ? Culling::none : Culling::bvh;
   options.threads = static_cast<std::uint32_t>(random.between(1, 3));
   options.separation = drawn_distance(facts, random);

@@ -18,9 +18,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Arithmetic;
 using detector::Decision;
-using detector::Want;
 
 template <class Rung>
 MethodAnswer answer_of(bool is_met, const TimeEnclosure& first, Rung rung, Want want) {
@@ -162,7 +160,6 @@ const QueryMethod* method_of(std::string_view word) {
 namespace {
 
 using detector::Decision;
-using detector::Want;
 
 std::string text(const TimeEnclosure& t) { return fmt::format("[{:a}, {:a}]", t.lo, t.hi); }
 std::string text(const oracle::RationalTime& t) {

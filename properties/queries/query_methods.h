@@ -57,7 +57,7 @@ struct QueryMethod {
 };
 
 // Returns the oracle's answer, with the first time if that is wanted.
-MethodAnswer oracle_answer(const QueryTask& task, detector::Want want);
+MethodAnswer oracle_answer(const QueryTask& task, Want want);
 
 // Returns all methods. The self-test compares with the oracle's timed answer: the oracle asked for
 // yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,

@@ -97,8 +97,7 @@ namespace {
 
 StepResult detect(const SmallStep& step) {
   auto creation = detector::Detector::create(
-      step.triangles, step.x_t0,
-      {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
+      step.triangles, step.x_t0, {Culling::none, detector::Start::verified, detector::Pairs::all});
   return creation.value().step(step.x_t0, step.x_t1, {});
 }
 

@@ -53,7 +53,7 @@ corpus::CaseGhosts renewed_ghosts(const Case& before, const Triangles& triangles
         ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*place))]);
         continue;
       }
-      detector::Point mean = {0, 0, 0};
+      Point mean = {0, 0, 0};
       for (const auto v : loop) {
         for (int k = 0; k < 3; ++k) {
           mean[at(k)] += before.frames[f](v, k) / static_cast<double>(loop.size());
@@ -214,7 +214,7 @@ Case seen_from_its_middle(const Case& c) {
   for (const auto& frame : c.frames) sum += frame.colwise().mean();
   sum /= static_cast<double>(c.frames.size());
   Case result = c;
-  const std::vector<detector::Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
+  const std::vector<Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
   result.view = CaseView{middle, {}};
   return result;
 }

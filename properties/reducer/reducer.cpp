@@ -136,7 +136,7 @@ Reduction reduce(const Case& failing, const Judge& judge, const ReduceLimits& li
 
 namespace {
 
-bool moves(const std::vector<detector::Point>& places) {
+bool moves(const std::vector<Point>& places) {
   return std::ranges::any_of(places, [&](const auto& place) { return place != places.front(); });
 }
 

@@ -14,7 +14,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::FeatureKind;
 using Vertices = std::array<std::int32_t, 4>;
 using Row = Eigen::RowVector3d;
 
@@ -64,7 +63,7 @@ class NearestFeatures {
 
 // The places in FourPoints of the vertices of a feature: an edge that pierces a face gives its
 // first end.
-void set_feature(Focus& focus, const detector::Feature& feature) {
+void set_feature(Focus& focus, const Feature& feature) {
   const auto& v = feature.vertices;
   const bool is_piercing = feature.kind == FeatureKind::piercing;
   focus.vertices =
@@ -74,7 +73,7 @@ void set_feature(Focus& focus, const detector::Feature& feature) {
 
 constexpr double times_of_signs[] = {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1};
 
-Row row_of(const detector::Point& p) { return {p[0], p[1], p[2]}; }
+Row row_of(const Point& p) { return {p[0], p[1], p[2]}; }
 Row row_at(const MovingPoint& p, double t) {
   return row_of(p.t0) + t * (row_of(p.t1) - row_of(p.t0));
 }

@@ -163,7 +163,7 @@ Case two_triangles(const FourPoints& query, Random& random, std::string id) {
   } else {
     c.triangles << 0, 1, 4, 2, 3, 5;
   }
-  detector::Point first{}, second{};  // the means of the two features at the start
+  Point first{}, second{};  // the means of the two features at the start
   double size = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {

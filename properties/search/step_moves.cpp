@@ -35,7 +35,7 @@ void split_step(Case& c, std::size_t place, double share, bool has_first_part) {
   const auto step = steps_of(c)[place];
   const auto& x0 = c.frames[detector::at(step.from)];
   const Positions middle = x0 + share * (c.frames[detector::at(step.to)] - x0);
-  std::vector<detector::Point> views;  // in the middle: of q0, and of q1
+  std::vector<Point> views;  // in the middle: of q0, and of q1
   if (c.view) {
     for (const auto* ends : {&c.view->q0, &c.view->q1}) {
       if (ends->empty()) continue;

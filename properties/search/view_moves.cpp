@@ -271,7 +271,7 @@ void gaze(Random& random, Candidate& child, const MoveContext&) {
   for (int i = 0; i < tries; ++i) {
     const double reach = std::ldexp(size, random.between(-4, 2));
     const bool goes_on = best && !best->q1.empty() == is_line && random.one_in(2);
-    const auto& old = goes_on ? best->q0.front() : detector::Point{};
+    const auto& old = goes_on ? best->q0.front() : Point{};
     const Row q = (goes_on ? Row(old[0], old[1], old[2]) : place) + draw(reach);
     const Row end = q + draw(std::ldexp(size, random.between(-3, 2)));
     const Row way = moves ? draw(reach) : Row(Row::Zero());

@@ -14,17 +14,17 @@ namespace assay::properties {
 
 using detector::Detector;
 
-CasePlayer::CasePlayer(const Case& c, const detector::Options& options, Detector detector)
+CasePlayer::CasePlayer(const Case& c, const Options& options, Detector detector)
     : case_(&c), script_(steps_of(c)), detector_(std::move(detector)) {
   for (std::size_t s = 0; s < script_.size(); ++s) {
     views_.push_back(given_view(view_of_step(c, s), options.culling));
   }
 }
 
-detector::Expected<CasePlayer> CasePlayer::make(const Case& c, const detector::Options& options,
+detector::Expected<CasePlayer> CasePlayer::make(const Case& c, const Options& options,
                                                 std::optional<detector::Stages> stages,
-                                                const detector::StopFunction& stop) {
-  detector::Options of_case = options;
+                                                const StopFunction& stop) {
+  Options of_case = options;
   of_case.counted = counted_of(c);
   auto creation = detector::assemble(c.triangles, c.frames.front(), of_case,
                                      stages ? *std::move(stages) : standard_stages(options), stop);
@@ -32,12 +32,12 @@ detector::Expected<CasePlayer> CasePlayer::make(const Case& c, const detector::O
   return CasePlayer(c, options, std::move(creation.value()));
 }
 
-StepResult CasePlayer::play(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::play(std::size_t s, const StopFunction& stop) {
   if (!script_[s].commit) return look(s, stop);
   return detector_.step(x_t0(s), x_t1(s), views_[s], stop);
 }
 
-StepResult CasePlayer::look(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::look(std::size_t s, const StopFunction& stop) {
   return detector_.evaluate(x_t0(s), x_t1(s), views_[s], stop);
 }
 

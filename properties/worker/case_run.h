@@ -17,7 +17,7 @@ namespace assay::properties {
 // The built-in detector with these options. For a plug-in only the name and is_timed are used.
 struct Configuration {
   std::string name;
-  detector::Options options;
+  Options options;
   std::string fault = {};  // the fault to plant in the detector (faults/fault.h), or empty
   bool is_timed = false;   // whether CaseRun::times is asked for
   // Whether the detector is also asked, before each step, how far the step may go
@@ -158,11 +158,10 @@ class RunClock {
 // Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
 // the detector; none if the case states none, or if the culling uses no views. It is inline because
 // tests/mutation links the detector alone.
-inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view,
-                                             detector::Culling culling) {
+inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
   // A segment serves as a point by its first end.
-  if (culling == detector::Culling::view_point) view->q1 = view->q0;
+  if (culling == Culling::view_point) view->q1 = view->q0;
   return {*view};
 }
 
@@ -171,9 +170,9 @@ class CasePlayer {
   // Makes a new detector from the first frame, with these stages or the standard ones. The relation
   // is that of the case, not that of the options. The case must outlive the player. Errors and cost
   // are those of Detector::create.
-  static detector::Expected<CasePlayer> make(const Case& c, const detector::Options& options,
+  static detector::Expected<CasePlayer> make(const Case& c, const Options& options,
                                              std::optional<detector::Stages> stages = {},
-                                             const detector::StopFunction& stop = {});
+                                             const StopFunction& stop = {});
 
   // Returns the number of steps of the case. All functions below REQUIRE s < steps().
   std::size_t steps() const { return script_.size(); }
@@ -184,16 +183,16 @@ class CasePlayer {
   // Plays step s as the script says: the state advances if the script commits the step and it has
   // an answer. Steps may be played in any order; a step that does not continue the detector's
   // state is a new start for it.
-  StepResult play(std::size_t s, const detector::StopFunction& stop = {});
+  StepResult play(std::size_t s, const StopFunction& stop = {});
   // Returns the result that play() would, but the state stays as it is; detector().commit() can
   // still advance it.
-  StepResult look(std::size_t s, const detector::StopFunction& stop = {});
+  StepResult look(std::size_t s, const StopFunction& stop = {});
 
   detector::Detector& detector() { return detector_; }
   const detector::Detector& detector() const { return detector_; }
 
  private:
-  CasePlayer(const Case& c, const detector::Options& options, detector::Detector detector);
+  CasePlayer(const Case& c, const Options& options, detector::Detector detector);
 
   const Case* case_;
   std::vector<CaseStep> script_;

@@ -41,9 +41,9 @@ inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 template <class T>
 inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    is_one_of<T, detector::Point, MovingPoint, TimeEnclosure, TrianglePair, PairContact,
-              ViewPrimitive, detector::StepCounts, detector::StepTimes, CaseStep,
-              std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
+    is_one_of<T, Point, MovingPoint, TimeEnclosure, TrianglePair, PairContact, ViewPrimitive,
+              detector::StepCounts, detector::StepTimes, CaseStep, std::array<std::int32_t, 2>,
+              detector::VertexAndFace, detector::TwoEdges>;
 
 // Writes or reads the fields of a message. Names are for other archives; both ends of a message are
 // built from the same list. A message that is too short, or states more items than it holds, is not
@@ -160,7 +160,7 @@ class Wire : public NamedFields<Wire<reads>> {
 
 // The relation of the options does not travel: that of the case counts, and travels with it.
 template <class Archive>
-void fields(Archive& archive, detector::Options& options) {
+void fields(Archive& archive, Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
   archive("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
           threads, "separation", separation, "keeps_near", keeps_near);
@@ -255,9 +255,9 @@ bool decode(const std::string& bytes, T& message) {
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :
-       {sizeof(detector::Options), sizeof(StepResult), sizeof(PairContact),
-        sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(Case), sizeof(CountedPairs)})
+       {sizeof(Options), sizeof(StepResult), sizeof(PairContact), sizeof(detector::StepCounts),
+        sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract), sizeof(Case),
+        sizeof(CountedPairs)})
     hash = hash * 1099511628211u + size;
   return hash;
 }

@@ -117,7 +117,7 @@ bool TetrahedronMotions::visit_class(
   TetrahedronMotion motion;
   motion.stands_for = orders(paths) * (symmetries_.size() / own.size());
   const auto point = [&](int number, int side, int unit) {
-    detector::Point p = {0, 0, 0};
+    Point p = {0, 0, 0};
     for (int k = 0; k < grid_.dimensions; ++k) {
       p[at(k)] = unit * (number / power(side, k) % side);
     }
@@ -229,7 +229,7 @@ class Check {
  public:
   Check(const TetrahedronMotion& motion, TetrahedronWorldResult& counts)
       : motion_(motion), counts_(counts) {
-    std::vector<detector::Point> from, to;
+    std::vector<Point> from, to;
     for (const auto& [t0, t1] : motion.vertices) from.push_back(t0), to.push_back(t1);
     x_t0_ = as_rows<Positions>(from);
     x_t1_ = as_rows<Positions>(to);
@@ -248,9 +248,9 @@ class Check {
   std::optional<TetrahedronFailure> run() {
     for (std::size_t orientation = 0; orientation < 2; ++orientation) {
       const auto make = [&](Start start, Pairs pairs) {
-        return std::move(Detector::create(faces_[orientation], x_t0_,
-                                          {detector::Culling::view_point, start, pairs})
-                             .value());
+        return std::move(
+            Detector::create(faces_[orientation], x_t0_, {Culling::view_point, start, pairs})
+                .value());
       };
       Detector verified = make(Start::verified, Pairs::all);
       Detector trusting = make(Start::clean, Pairs::first);
@@ -308,7 +308,7 @@ class Check {
     return nullptr;
   }
 
-  TetrahedronFailure failure(std::size_t orientation, const detector::Point& q,
+  TetrahedronFailure failure(std::size_t orientation, const Point& q,
                              const char* explanation) const {
     TetrahedronFailure result{{}, explanation};
     result.c.about = std::string("does not hold: ") + explanation;

@@ -48,7 +48,7 @@ struct TetrahedronMotion {
   // The number of motions of the grid, with their vertices in order, in this class.
   std::uint64_t stands_for = 0;
   struct View {
-    detector::Point q;
+    Point q;
     std::uint64_t stands_for = 0;  // view-points that its symmetries map to q
   };
   std::vector<View> views;

@@ -140,7 +140,7 @@ IsTested tested_contacts(const Contract& contract, const Case& c) {
   const auto own = std::make_shared<const CountedPairs>(tested_pairs(contract, c.frames.front()));
   return [&contract, own,
           counts = counted_under(contract, c.triangles, {own.get()})](const PairContact& contact) {
-    const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
+    const bool is_edge_edge = contact.feature.kind == FeatureKind::edge_edge;
     const bool is_of_kind = contract.features == TestedFeatures::both ||
                             is_edge_edge == (contract.features == TestedFeatures::edge_edge);
     return is_of_kind && counts(contact.pair.a, contact.pair.b);
@@ -323,7 +323,7 @@ struct Repetitions {
   std::vector<std::size_t> chosen_steps(const Case& c, const CaseRun& run) {
     Configuration chooser{"auto", {}};
     if (const double d = contract().separation; d > 0)
-      chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
+      chooser = {"bvh", {.culling = Culling::bvh, .separation = d}};
     const auto answers = run_alone(built_in_, c, chooser);
     auto places = differing_steps(c, request_.detector, run, answers);
     const auto plain = plain_steps(c, contract(), answers);

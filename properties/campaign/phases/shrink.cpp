@@ -20,13 +20,13 @@ bool is_large(const Case& c) {
 }
 
 // The case with the view that the detector chose; it runs here and may crash.
-std::optional<Case> chosen_view(const Case& c, const detector::Options& options) {
+std::optional<Case> chosen_view(const Case& c, const Options& options) {
   // A component within which nothing counts needs no view, so all pairs count here.
   auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
   if (!creation) return std::nullopt;
   Case out = c;
   out.view.emplace();
-  bool is_line = options.culling == detector::Culling::view_line;
+  bool is_line = options.culling == Culling::view_line;
   // A primitive depends on the positions of one frame alone, so a step that stays in that frame
   // shows it.
   for (const auto& frame : c.frames) {
@@ -41,7 +41,7 @@ std::optional<Case> chosen_view(const Case& c, const detector::Options& options)
 
 // The case with the primitive of its first component stated, as the detector chooses it. Nothing if
 // the culling has no views, if the case states a primitive already, or if the mesh is refused.
-std::optional<Case> with_explicit_view(const Case& c, const detector::Options& options) {
+std::optional<Case> with_explicit_view(const Case& c, const Options& options) {
   if (c.view || !uses_views(options.culling)) return std::nullopt;
   const auto run = in_a_copy([&](const Say& say) {
     if (const auto view = chosen_view(c, options)) say(case_text(*view));

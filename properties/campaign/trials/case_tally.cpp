@@ -158,7 +158,7 @@ std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
           configurations[i].options.pairs != detector::Pairs::all ||
-          configurations[i].options.arithmetic != detector::Arithmetic::exact) {
+          configurations[i].options.arithmetic != Arithmetic::exact) {
         continue;
       }
       if (!counted_blocks) count_blocks(runs[i], results.truth, tallies[k].counts);

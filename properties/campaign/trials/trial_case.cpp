@@ -179,9 +179,9 @@ bool is_clean(const Positions& all, const Triangles& triangles, const Triangles&
 }
 
 // The same with the ghosts of the built-in detector, which it places by this arithmetic.
-bool starts_clean_with_ghosts(const Case& c, detector::Arithmetic arithmetic) {
-  detector::Options options;
-  options.culling = detector::Culling::view_line;
+bool starts_clean_with_ghosts(const Case& c, Arithmetic arithmetic) {
+  Options options;
+  options.culling = Culling::view_line;
   options.arithmetic = arithmetic;
   auto creation = detector::Detector::create(c.triangles, c.frames.front(), options);
   if (!creation) return false;
@@ -209,7 +209,6 @@ bool starts_clean(const Case& c) {
     });
   }
   const auto run = in_a_copy([&](const Say& say) {
-    using detector::Arithmetic;
     if (starts_clean_with_ghosts(c, Arithmetic::exact) &&
         starts_clean_with_ghosts(c, Arithmetic::bounded))
       say("clean");

@@ -328,7 +328,7 @@ struct Trials {
     constexpr std::uint64_t most_without_tree = 20'000;
     if (key.family->triangles > most_without_tree && detector.built_in)
       std::erase_if(trial.configurations, [](const Configuration& configuration) {
-        return configuration.options.culling == detector::Culling::none;
+        return configuration.options.culling == Culling::none;
       });
     auto& record = trial.record;
     if (detector.built_in) ++record.counts.tags[vouched ? "start:clean" : "start:verified"];

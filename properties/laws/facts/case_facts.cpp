@@ -38,7 +38,7 @@ struct CaseFacts::StepFacts {
   std::optional<bool> trusted;
 };
 
-CaseFacts::CaseFacts(const Case& source, const detector::Options& options,
+CaseFacts::CaseFacts(const Case& source, const Options& options,
                      std::span<const StepResult> results, std::span<const StepJudgement> judgements,
                      const detector::Surface& surface, StagesOf stages_of)
     : source_(source),
@@ -225,8 +225,8 @@ TraditionalScheme* CaseFacts::traditional_scheme() {
   if (!traditional_scheme_) {
     traditional_scheme_.emplace();
     if (stages_of_) {
-      detector::Options traditional = options_;
-      traditional.culling = detector::Culling::normal_cone;
+      Options traditional = options_;
+      traditional.culling = Culling::normal_cone;
       *traditional_scheme_ =
           TraditionalScheme::make(stages_of_(traditional), surface_.mesh, source_.frames.front());
     }
@@ -336,7 +336,7 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
 }
 
 bool has_account(CaseFacts& facts, std::size_t s) {
-  if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
+  if (facts.options().arithmetic != Arithmetic::exact) return false;
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return false;
   const auto p = facts.known_from(s);
   return !p || has_account(facts, *p);

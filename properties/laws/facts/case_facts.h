@@ -157,20 +157,20 @@ inline bool is_answered(const StepResult& result) {
 // Returns the stages of a detector that a law makes to run a changed case. Empty if the results
 // come from a detector that cannot be made here (a plug-in); the premises of laws that need one are
 // then not met.
-using StagesOf = std::function<detector::Stages(const detector::Options&)>;
+using StagesOf = std::function<detector::Stages(const Options&)>;
 
 class CaseFacts {
  public:
   // REQUIRES valid input, one result and one judgement for each step of the case, and the surface
   // of the detector that gave the results. All of them outlive this object.
-  CaseFacts(const Case& source, const detector::Options& options,
-            std::span<const StepResult> results, std::span<const StepJudgement> judgements,
-            const detector::Surface& surface, StagesOf stages_of = detector::standard_stages);
+  CaseFacts(const Case& source, const Options& options, std::span<const StepResult> results,
+            std::span<const StepJudgement> judgements, const detector::Surface& surface,
+            StagesOf stages_of = detector::standard_stages);
   ~CaseFacts();
 
   // Return the case and its steps.
   const Case& source() const { return source_; }
-  const detector::Options& options() const { return options_; }
+  const Options& options() const { return options_; }
   const detector::Surface& surface() const { return surface_; }
   const StagesOf& stages_of() const { return stages_of_; }
   std::size_t steps() const { return script_.size(); }
@@ -243,7 +243,7 @@ class CaseFacts {
   const oracle::LayerState& layers_of(const Positions& all);
 
   const Case& source_;
-  detector::Options options_;
+  Options options_;
   std::span<const StepResult> results_;
   std::span<const StepJudgement> judgements_;
   const detector::Surface& surface_;

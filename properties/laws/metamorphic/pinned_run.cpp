@@ -47,7 +47,7 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   std::vector<detector::ApexRule> choose_apexes(const detector::Surface& surface,
                                                 detector::BoundingVolumeTree&, const PositionsView&,
                                                 const detector::ElementaryTest&,
-                                                const detector::StopFunction&) const override {
+                                                const StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
   }
   // Before the first step, when view primitives are chosen, no apex is pinned yet.
@@ -58,7 +58,7 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
                                                  : otherwise_->place_apexes(surface, rules, motion);
   }
   bool sweep(const detector::GhostSweep& sweep, std::span<const std::int32_t> ghosts,
-             const detector::StopFunction& stop, std::vector<std::uint8_t>& touched,
+             const StopFunction& stop, std::vector<std::uint8_t>& touched,
              detector::GhostCounts& counts) const override {
     return otherwise_->sweep(sweep, ghosts, stop, touched, counts);
   }
@@ -69,10 +69,10 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   std::shared_ptr<const BoundaryHandler> otherwise_;
 };
 
-detector::Options options_with_views(const CaseFacts& facts) {
+Options options_with_views(const CaseFacts& facts) {
   auto options = facts.options();
   if (detector::chooses_views(options.culling)) {
-    options.culling = detector::Culling::view_line;
+    options.culling = Culling::view_line;
   }
   return options;
 }
@@ -116,7 +116,7 @@ std::optional<Case> pinned_run(const CaseFacts& facts) {
 PinnedPlayer::PinnedPlayer(const Case& run, std::shared_ptr<PinnedBoundary> boundary)
     : run_(&run), boundary_(std::move(boundary)) {}
 
-std::optional<PinnedPlayer> PinnedPlayer::make(const Case& run, const detector::Options& options,
+std::optional<PinnedPlayer> PinnedPlayer::make(const Case& run, const Options& options,
                                                const StagesOf& stages_of) {
   auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);

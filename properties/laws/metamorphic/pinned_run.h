@@ -26,14 +26,14 @@ std::optional<Case> pinned_run(const CaseFacts& facts);
 // Returns the options of the case, for a run of another mesh. view-auto decides by cost, for the
 // mesh as a whole, whether it uses views. In a pinned run every step had views, and so must the
 // other run; therefore its culling becomes view-line, which can also see from pinned points.
-detector::Options options_with_views(const CaseFacts& facts);
+Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
   // Returns nothing if the holes of the mesh are not among those of the run (a boundary through
   // repeated vertices may be split in several ways). A mesh that the detector refuses has a player
   // too: each of its steps is that error. The run must outlive the player.
-  static std::optional<PinnedPlayer> make(const Case& run, const detector::Options& options,
+  static std::optional<PinnedPlayer> make(const Case& run, const Options& options,
                                           const StagesOf& stages_of);
 
   StepResult evaluate(std::size_t step);

@@ -263,7 +263,7 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
 
 void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
-  if (!run || facts.options().culling != detector::Culling::view_point) return;
+  if (!run || facts.options().culling != Culling::view_point) return;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto& primitives = facts.result(s).primitives;
     const bool points =
@@ -271,7 +271,7 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
     if (!points) return;
   }
   auto options = facts.options();
-  options.culling = detector::Culling::view_line;
+  options.culling = Culling::view_line;
   auto player = PinnedPlayer::make(*run, options, facts.stages_of());
   if (!player) return;
   const auto results = player->play();

@@ -76,7 +76,7 @@ constexpr auto names_of(Question) {
 }
 
 struct DrawnOptions {
-  detector::Options options;  // without separation and relation, which follow from the case
+  Options options;  // without separation and relation, which follow from the case
   StateBefore state = StateBefore::fresh;
   bool is_scaled = false;  // by a power of two, up to the largest doubles or down to the smallest
   Apart apart = Apart::none;

@@ -21,7 +21,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::StepLimit, detector::StopFunction;
+using detector::StepLimit, StopFunction;
 
 // What the oracle is asked about, and what the detector is given instead: behind the step that the
 // state asks for, and with its far body.
@@ -117,7 +117,7 @@ std::vector<StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) 
 }
 
 // Goes on in a detector that was made elsewhere, and has committed something else.
-bool go_on_elsewhere(CasePlayer& player, const Case& c, detector::Options options,
+bool go_on_elsewhere(CasePlayer& player, const Case& c, Options options,
                      const StagesOf& stages_of) {
   options.counted = counted_of(c);
   const auto state = detector::SavedState::read(player.detector().state().bytes());
@@ -228,7 +228,7 @@ std::string fault_of(const StepLimit& limit, const PosedCase& p, const CaseStep&
   Contract contract = contract_of(p.draw.options);
   contract.progress = built_in_progress;
   // Bounded arithmetic may see a contact too early, or where there is none.
-  const Claims claims = p.draw.options.arithmetic == detector::Arithmetic::exact
+  const Claims claims = p.draw.options.arithmetic == Arithmetic::exact
                             ? claims_on_limits
                             : Claims{Claim::commit_free, Claim::path_free};
   JudgeOptions options;

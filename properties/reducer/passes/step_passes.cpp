@@ -37,7 +37,7 @@ void merge_steps(ReductionSearch& search) {
 }
 
 namespace {
-using Places = std::vector<detector::Point>;
+using Places = std::vector<Point>;
 
 void offer_view(ReductionSearch& search, const std::optional<CaseView>& view) {
   Case simpler = search.best();
@@ -50,7 +50,7 @@ Places fixed(const Places& places, std::size_t frame) {
 }
 
 // Moves everything so that `origin` comes to (0,0,0).
-Case with_origin(const Case& c, const detector::Point& origin) {
+Case with_origin(const Case& c, const Point& origin) {
   Case result = c;
   for (int axis = 0; axis < 3; ++axis) {
     for (double* x : numbers_along(result, axis)) *x -= origin[at(axis)];

@@ -77,7 +77,7 @@ std::string tell_what_counts(const assay_detector_api& table, assay_handle* hand
   static_assert(sizeof(TrianglePair) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::VertexAndFace) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::TwoEdges) == 4 * sizeof(std::int32_t));
-  static_assert(sizeof(detector::Point) == 3 * sizeof(double));
+  static_assert(sizeof(Point) == 3 * sizeof(double));
   const auto numbers = [](const auto& list) {
     return list.empty() ? nullptr : reinterpret_cast<const std::int32_t*>(list.data());
   };

@@ -18,9 +18,8 @@ Triangles triangles_of_queries() {
 
 }  // namespace
 
-detector::Feature features_of(const FourPoints& query) {
-  const auto kind = query.first_group == 1 ? detector::FeatureKind::vertex_face
-                                           : detector::FeatureKind::edge_edge;
+Feature features_of(const FourPoints& query) {
+  const auto kind = query.first_group == 1 ? FeatureKind::vertex_face : FeatureKind::edge_edge;
   return {kind, {0, 1, 2, 3, -1}};
 }
 
@@ -33,7 +32,7 @@ Case case_of_query(const FourPoints& query, std::string id) {
   c.id = std::move(id);
   c.triangles = triangles_of_queries();
   c.options[query_option] = query_word(query);
-  std::vector<detector::Point> from, to;
+  std::vector<Point> from, to;
   for (const auto& [t0, t1] : query.points) from.push_back(t0), to.push_back(t1);
   c.frames = {as_rows<Positions>(from), as_rows<Positions>(to)};
   return c;

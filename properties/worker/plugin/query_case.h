@@ -22,7 +22,7 @@ bool says_query(const Case& c);
 std::optional<FourPoints> query_of(const Case& c);
 
 // Returns the two features of the query, by the vertices of its case.
-detector::Feature features_of(const FourPoints& query);
+Feature features_of(const FourPoints& query);
 
 const char* query_word(const FourPoints& query);  // "vertex-face", "edge-edge"
 // Returns the value of the case's option `query`; empty if it has none.
