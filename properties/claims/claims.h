@@ -12,7 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
 #include "properties/claims/contract.h"
 #include "properties/words.h"

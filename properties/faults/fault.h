@@ -8,7 +8,6 @@
 #include <span>
 #include <string_view>
 
-#include "detector/options.h"
 #include "detector/step/stages.h"
 #include "properties/words.h"
 

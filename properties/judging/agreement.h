@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "detector/options.h"
 #include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"

@@ -6,7 +6,6 @@
 #include <map>
 #include <string>
 
-#include "detector/options.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "detector/detector.h"
-#include "detector/options.h"
 #include "detector/step/stages.h"
 #include "properties/words.h"
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "corpus/scenes/scenes.h"
-#include "detector/options.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "detector/mesh/enum_names.h"
-#include "detector/options.h"
 #include "properties/generators/parts.h"
 #include "properties/laws/facts/case_facts.h"
 

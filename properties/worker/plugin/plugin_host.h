@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
 #include "properties/claims/claims.h"
 #include "properties/problem.h"
