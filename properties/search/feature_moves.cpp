@@ -238,7 +238,7 @@ void align(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
 }
 
 // Gives the features the paths of those of another case, in its size or in their own.
-void transplant(Random& random, FourPoints& q, const Focus& focus, const MoveContext& context) {
+void transplant(Random& random, FourPoints& q, const Focus&, const MoveContext& context) {
   if (!context.other || !context.other->focus) return;
   const auto& other = *context.other->focus;
   if (other.first_group != q.first_group) return;

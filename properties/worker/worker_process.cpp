@@ -127,7 +127,7 @@ struct WorkerProcess::Parts {
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
     // A new one, so that no process finds what another one has left.
-    BOOST_OUTCOME_TRY(auto folder, ScratchFolder::make());
+    BOOST_OUTCOME_TRY(folder, ScratchFolder::make());
     scratch.emplace(std::move(folder));
     if (names_python(who())) {
       BOOST_OUTCOME_TRYV(python_plugin(who(), program));

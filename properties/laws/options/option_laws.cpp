@@ -21,7 +21,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::StepLimit, StopFunction;
+using detector::StepLimit;
 
 // What the oracle is asked about, and what the detector is given instead: behind the step that the
 // state asks for, and with its far body.
