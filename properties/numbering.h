@@ -1,20 +1,27 @@
-// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself.
+// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself;
+// lays lists of triples out as rows.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <numeric>
-#include <utility>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
 using Numbers = std::vector<std::int32_t>;
 
 using detector::at;
+
+// Returns a list of triples, such as corners or points, as the rows of a matrix.
+template <class Matrix, class Triples>
+Matrix as_rows(const Triples& triples) {
+  const auto* first = std::empty(triples) ? nullptr : std::begin(triples)->data();
+  return Eigen::Map<const Matrix>(first, static_cast<Eigen::Index>(std::size(triples)), 3);
+}
 
 // Returns 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {

@@ -1,5 +1,6 @@
 // Turns values into words and back: the values of an enum, by a table in their order from 0;
-// counts; and whole numbers. Makes outside text, such as a plug-in's name, safe to print.
+// counts; and whole numbers. Makes outside text, such as a plug-in's name, safe to print. Gives the
+// types of meshes, cases, steps and results by the names that they have below this room.
 #pragma once
 
 #include <charconv>
@@ -9,18 +10,21 @@
 #include <string>
 #include <string_view>
 
+#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
+#include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
-
-// Returns the word of a value; "unknown" for a value that the enum does not have.
-template <class Enum, std::size_t n>
-constexpr const char* word_of(const char* const (&words)[n], Enum value) {
-  const auto place = static_cast<std::size_t>(value);
-  return place < n ? words[place] : "unknown";
-}
+using corpus::Case, corpus::CaseStep, corpus::CaseView;
+using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::Culling,
+    detector::Feature, detector::FeatureKind, detector::FourPoints, detector::MovingPoint,
+    detector::Options, detector::PairContact, detector::Point, detector::Positions,
+    detector::PositionsView, detector::StepResult, detector::SteppedMesh, detector::StopFunction,
+    detector::TimeEnclosure, detector::TrianglePair, detector::Triangles, detector::TrianglesView,
+    detector::ViewPrimitive, detector::ViewSign, detector::Want;
 
 // The rows of an enum whose list has more than names, in the order of its values.
 template <Listed Enum>

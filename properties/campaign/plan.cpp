@@ -106,11 +106,11 @@ bool is_of_queries(const StratumPlan& stratum) { return is_query_family(stratum.
 }  // namespace
 
 bool asks_queries(const CampaignPlan& plan) {
-  return std::any_of(plan.strata.begin(), plan.strata.end(), is_of_queries);
+  return std::ranges::any_of(plan.strata, is_of_queries);
 }
 
 bool asks_queries_alone(const CampaignPlan& plan) {
-  return !plan.strata.empty() && std::all_of(plan.strata.begin(), plan.strata.end(), is_of_queries);
+  return !plan.strata.empty() && std::ranges::all_of(plan.strata, is_of_queries);
 }
 
 CampaignPlan without_queries(CampaignPlan plan) {
@@ -299,8 +299,8 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
       read_all(field.item(i), stratum);
       const auto family = field.item(i).at("family").value();
       if (!find_family(stratum.family)) throw Refused{family.problem("no family of this name")};
-      if (std::any_of(strata.begin(), strata.end(),
-                      [&](const StratumPlan& other) { return other.family == stratum.family; }))
+      if (std::ranges::any_of(
+              strata, [&](const StratumPlan& other) { return other.family == stratum.family; }))
         throw Refused{family.problem("this family is there already")};
       strata.push_back(std::move(stratum));
     }
@@ -308,8 +308,7 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
   static void read(const JsonField& field, std::vector<SpeedLimit>& limits) {
     if (!field.json().is_object()) throw Refused{field.problem("an object expected")};
     for (const auto& [figure, value] : field.json().items()) {
-      if (std::find(std::begin(speed_figures), std::end(speed_figures), figure) ==
-          std::end(speed_figures))
+      if (std::ranges::find(speed_figures, figure) == std::end(speed_figures))
         throw Refused{field.problem("no figure '" + figure + "' is known")};
       limits.push_back({figure, 0});
       read(corpus::want(field.at(figure)), limits.back().limit, above_0);
@@ -329,8 +328,8 @@ std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan
   if (plan.shrink_share > 1) return top.problem("shrink_share of at most 1 expected");
   if ((plan.fault_cases > 0) != (plan.fault_seeds > 0))
     return top.problem("fault_cases and fault_seeds belong together");
-  const bool has_cases = std::any_of(plan.strata.begin(), plan.strata.end(),
-                                     [](const StratumPlan& s) { return s.cases > 0; });
+  const bool has_cases =
+      std::ranges::any_of(plan.strata, [](const StratumPlan& s) { return s.cases > 0; });
   if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0 && plan.search == 0)
     return top.problem("there is nothing to do");
   return std::nullopt;
@@ -375,7 +374,7 @@ bool is_made_of(CampaignPlan plan, const CampaignPlan& other) {
                          with_queries(of_plugin),
                          with_queries(without_relations(of_plugin)),
                          query_plan(of_plugin)};
-  return std::any_of(variants.begin(), variants.end(), [&](CampaignPlan variant) {
+  return std::ranges::any_of(variants, [&](CampaignPlan variant) {
     variant.seconds = 0;
     return plan_text(plan) == plan_text(variant);
   });

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +20,7 @@ constexpr std::uint64_t share_of(std::uint64_t n, std::uint64_t shares) {
 }
 
 struct OwnCases {
-  std::vector<corpus::Case> cases;
+  std::vector<Case> cases;
   std::string digest;  // SHA-256 over names and bytes of their files
 };
 
@@ -43,7 +41,7 @@ struct CampaignRequest : Subject {
   std::optional<OwnCases> own_cases;
   // Sequences on which a plug-in is run again and again, besides the scenes
   // (phases/phases.h).
-  std::vector<corpus::Case> repeated;
+  std::vector<Case> repeated;
 
   // Returns the word of the isolation that was asked for; empty if none was.
   const char* isolation_word() const { return limits.isolation ? name_of(*limits.isolation) : ""; }

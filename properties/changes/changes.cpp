@@ -10,10 +10,6 @@
 
 namespace assay::properties {
 
-using corpus::Case;
-using detector::Point;
-using detector::Positions;
-
 double largest_along(const Case& c, int axis) {
   double largest = 0;
   for (const double* x : numbers_along(c, axis)) largest = std::max(largest, std::abs(*x));
@@ -22,8 +18,7 @@ double largest_along(const Case& c, int axis) {
 
 bool is_finite(const Case& c) {
   const auto numbers = numbers_along(c);
-  return std::all_of(numbers.begin(), numbers.end(),
-                     [](const double* x) { return std::isfinite(*x); });
+  return std::ranges::all_of(numbers, [](const double* x) { return std::isfinite(*x); });
 }
 
 namespace {
@@ -103,8 +98,7 @@ Case mirrored(Case c, int axis) {
   return c;
 }
 
-void set_path(Case& c, const corpus::CaseStep& step, std::int32_t vertex,
-              const detector::MovingPoint& path) {
+void set_path(Case& c, const CaseStep& step, std::int32_t vertex, const MovingPoint& path) {
   for (int k = 0; k < 3; ++k) {
     c.frames[at(step.from)](vertex, k) = path.t0[at(k)];
     c.frames[at(step.to)](vertex, k) = path.t1[at(k)];
@@ -121,12 +115,12 @@ void renumber_vertices(Case& c, const Numbers& new_number) {
 
 void reorder_triangles(Form& form, const Numbers& new_number) {
   auto& triangles = form.c.triangles;
-  triangles(new_number, Eigen::all) = detector::Triangles(triangles);
+  triangles(new_number, Eigen::all) = Triangles(triangles);
   const auto parent = form.parent;
   for (std::size_t t = 0; t < parent.size(); ++t) form.parent[at(new_number[t])] = parent[t];
 }
 
-void add_mesh(Case& c, const detector::Triangles& triangles,
+void add_mesh(Case& c, const Triangles& triangles,
               const std::function<Positions(std::size_t)>& places) {
   const auto vertices = c.frames.front().rows(), rows = c.triangles.rows();
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
@@ -142,7 +136,7 @@ void add_mesh(Case& c, const detector::Triangles& triangles,
 void put_side_by_side(Case& c, int copies) {
   const double reach = largest_along(c);
   const auto own = c.frames;
-  const detector::Triangles triangles = c.triangles;
+  const Triangles triangles = c.triangles;
   for (int k = 1; k < copies; ++k) {
     add_mesh(c, triangles, [&](std::size_t f) {
       Positions positions = own[f];
@@ -152,7 +146,7 @@ void put_side_by_side(Case& c, int copies) {
   }
 }
 
-void take_frames(Case& c, const Numbers& frames, std::vector<corpus::CaseStep> script) {
+void take_frames(Case& c, const Numbers& frames, std::vector<CaseStep> script) {
   std::map<std::int32_t, std::int32_t> number;
   Numbers numbers;
   for (const auto frame : frames) {
@@ -193,7 +187,7 @@ Numbers triangles_of(const Case& c) {
 
 Form unchanged(const Case& c) {
   Form form{c, triangles_of(c), {}};
-  const auto steps = corpus::steps_of(form.c).size();
+  const auto steps = steps_of(form.c).size();
   for (std::size_t s = 0; s < steps; ++s) form.step.push_back(s);
   return form;
 }
@@ -224,7 +218,7 @@ std::optional<Form> form_of(const CaseChange& change, const Case& c) {
   bare.source = c.source;
   bare.triangles = c.triangles;
   bare.frames = c.frames;
-  bare.script = corpus::steps_of(c);
+  bare.script = steps_of(c);
   const Case base = change.on_grid ? on_a_grid(bare) : bare;
   auto form = change.of(base);
   if (form && base.frames != bare.frames) form->step.clear();
@@ -242,7 +236,7 @@ MaybeForm if_exact(const std::optional<Case>& c) {
 }
 
 Numbers reversed(Numbers numbers) {
-  std::reverse(numbers.begin(), numbers.end());
+  std::ranges::reverse(numbers);
   return numbers;
 }
 
@@ -333,7 +327,7 @@ MaybeForm halve_steps(const Case& c, Random&) {
     exact &= m - a == b - m;
     return m;
   };
-  for (const auto& step : corpus::steps_of(c)) {
+  for (const auto& step : steps_of(c)) {
     if (!step.commit) {
       script.push_back(step);
       continue;
@@ -358,9 +352,9 @@ MaybeForm halve_steps(const Case& c, Random&) {
 MaybeForm play_back(const Case& c, Random&) {
   Form form = unchanged(c);
   form.same_times = false;
-  std::reverse(form.c.frames.begin(), form.c.frames.end());
-  std::reverse(form.c.script.begin(), form.c.script.end());
-  std::reverse(form.step.begin(), form.step.end());
+  std::ranges::reverse(form.c.frames);
+  std::ranges::reverse(form.c.script);
+  std::ranges::reverse(form.step);
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
   for (auto& step : form.c.script) step = {last - step.to, last - step.from, step.commit};
   return form;

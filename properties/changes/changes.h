@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
@@ -19,7 +18,7 @@ class Random;
 
 // A case in another form.
 struct Form {
-  corpus::Case c;
+  Case c;
   // By triangle of the form: the same triangle in the case, or the one of which it is a part.
   Numbers parent;
   // By step of the case: the same step in the form. Empty if the answers cannot be compared,
@@ -33,7 +32,7 @@ struct CaseChange {
   // The random numbers are drawn by the case's id and this word.
   std::string_view seed;
   // Returns nothing if the change does not apply, or if it would round a coordinate.
-  std::optional<Form> (*draw)(const corpus::Case&, Random&);
+  std::optional<Form> (*draw)(const Case&, Random&);
   // The change starts from a case whose coordinates were rounded before (on_a_grid).
   bool on_grid = false;
   // The steps of the case are asked for unchanged, between other steps that must not matter: a
@@ -41,7 +40,7 @@ struct CaseChange {
   bool same_calls = false;
   bool keeps_lengths = true;
 
-  std::optional<Form> of(const corpus::Case& c) const;
+  std::optional<Form> of(const Case& c) const;
 };
 
 // The list. Each change keeps answers, pairs (but for the numbers of triangles), and times, unless
@@ -63,9 +62,9 @@ extern const CaseChange split_edges;        // in all triangles that have them (
 }  // namespace changes
 
 // Returns the case, reduced to its mesh, frames and steps, in this form.
-std::optional<Form> form_of(const CaseChange& change, const corpus::Case& c);
+std::optional<Form> form_of(const CaseChange& change, const Case& c);
 
-Form unchanged(const corpus::Case& c);
+Form unchanged(const Case& c);
 
 // The parts from which changes are made. If a case has a view primitive and ghosts, these change
 // with the mesh.
@@ -97,7 +96,7 @@ auto numbers_along(Case& c, int axis = -1) {
 }
 
 // Returns the addresses of all coordinates of a query: point by point, at its start and at its end.
-inline std::vector<double*> numbers_of(detector::FourPoints& query) {
+inline std::vector<double*> numbers_of(FourPoints& query) {
   std::vector<double*> numbers;
   for (auto& point : query.points) {
     for (auto* end : {&point.t0, &point.t1}) {
@@ -108,13 +107,13 @@ inline std::vector<double*> numbers_of(detector::FourPoints& query) {
 }
 
 // Returns the greatest magnitude of the coordinates of numbers_along.
-double largest_along(const corpus::Case& c, int axis = -1);
-bool is_finite(const corpus::Case& c);
+double largest_along(const Case& c, int axis = -1);
+bool is_finite(const Case& c);
 
 // Rounds every coordinate to a multiple of one power of two: 2^-30 times the least power of two
 // above all coordinates (or the least denormal, if that is greater). Translations and middle places
 // are then exact.
-corpus::Case on_a_grid(corpus::Case c);
+Case on_a_grid(Case c);
 
 // Returns whether a + b is a double, and if so sets `sum` to it.
 bool adds_exactly(double a, double b, double& sum);
@@ -122,33 +121,30 @@ bool adds_exactly(double a, double b, double& sum);
 bool scales_exactly(double& x, int exponent);
 
 // Scale by 2^exponent, and translate; return nothing if a coordinate would be rounded.
-std::optional<corpus::Case> scaled(corpus::Case c, int exponent);
-std::optional<corpus::Case> translated(corpus::Case c, const detector::Point& by);
+std::optional<Case> scaled(Case c, int exponent);
+std::optional<Case> translated(Case c, const Point& by);
 // Mirrors the case along an axis, and turns its triangles over.
-corpus::Case mirrored(corpus::Case c, int axis);
+Case mirrored(Case c, int axis);
 
 // Gives a vertex this path in the step from one frame to another.
-void set_path(corpus::Case& c, const corpus::CaseStep& step, std::int32_t vertex,
-              const detector::MovingPoint& path);
+void set_path(Case& c, const CaseStep& step, std::int32_t vertex, const MovingPoint& path);
 // Gives vertex v the number new_number[v]. A relation stays as it is.
-void renumber_vertices(corpus::Case& c, const Numbers& new_number);
+void renumber_vertices(Case& c, const Numbers& new_number);
 // Gives triangle t the number new_number[t].
 void reorder_triangles(Form& form, const Numbers& new_number);
-// Do both, after drawing another first corner for each triangle. The second function also draws the
-// numbers.
-Form renumbered(Random& random, const corpus::Case& c, const Numbers& vertices,
-                const Numbers& triangles);
-corpus::Case renumbered(Random& random, const corpus::Case& c);
+// Do both, after drawing another first corner for each triangle. The second draws numbers, too.
+Form renumbered(Random& random, const Case& c, const Numbers& vertices, const Numbers& triangles);
+Case renumbered(Random& random, const Case& c);
 
 // Adds a mesh with a place for each of its vertices in each frame of the case.
-void add_mesh(corpus::Case& c, const detector::Triangles& triangles,
-              const std::function<detector::Positions(std::size_t frame)>& places);
+void add_mesh(Case& c, const Triangles& triangles,
+              const std::function<Positions(std::size_t frame)>& places);
 // Puts copies of the mesh side by side, so far apart that none meets another.
-void put_side_by_side(corpus::Case& c, int copies);
+void put_side_by_side(Case& c, int copies);
 
 // Keeps only these frames, each once and in this order, and makes the script of these steps, which
 // name frames by their old numbers. The script is left out if its steps are just the consecutive
 // frames.
-void take_frames(corpus::Case& c, const Numbers& frames, std::vector<corpus::CaseStep> script);
+void take_frames(Case& c, const Numbers& frames, std::vector<CaseStep> script);
 
 }  // namespace assay::properties

@@ -16,8 +16,7 @@ using Corners = std::array<std::int32_t, 3>;
 // Whether the area vector N(t) vanishes at no time of the step: along some axis its three Bernstein
 // coefficients have one strict sign. Each is a sum of four products of two differences at most; the
 // differences, products and sums have less than 8 roundings, so 2^-40 of the sizes covers them.
-bool surely_keeps_area(const Corners& v, const detector::Positions& x_t0,
-                       const detector::Positions& x_t1) {
+bool surely_keeps_area(const Corners& v, const Positions& x_t0, const Positions& x_t1) {
   using Vector = Eigen::RowVector3d;
   const Vector a0 = x_t0.row(v[1]) - x_t0.row(v[0]), b0 = x_t0.row(v[2]) - x_t0.row(v[0]);
   const Vector a1 = x_t1.row(v[1]) - x_t1.row(v[0]), b1 = x_t1.row(v[2]) - x_t1.row(v[0]);
@@ -89,17 +88,17 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
   return true;
 }
 
-// A contact is closed faces without a common vertex that meet. Let two such faces of two triangles
-// meet at x. x lies in a part of each, on faces of these parts whose only further vertices are
-// split points; a split point is common to two parts only if both triangles had the edge, and lie
-// on either side of it, which faces without a common vertex do not. Conversely, let parts meet in
-// faces without a common vertex. Their triangles meet there too. If these have a vertex p in
-// common, and the one part meets the other at a split point m of an edge (p,q), follow the edge
-// from m towards q: it leaves the other triangle, which is convex, at q or through a face without
-// p, and either is a contact of the two triangles at the same time. So contacts and their times
-// stay, up to which part it is. A triangle without area may meet itself in its parts, which is why
-// none is split.
-std::optional<Form> split_some_edges(const corpus::Case& c, Random& random) {
+// A contact is closed faces without a common vertex that meet. Let x be where two such faces of two
+// triangles meet. x lies in a part of each, on faces of these parts that have no other vertices
+// than the split points besides; a split point is common to two parts only if both triangles had
+// the edge, and lie on either side of it, which faces without a common vertex do not. Conversely,
+// let parts meet in faces without a common vertex. Their triangles meet there too. If these have a
+// vertex p in common, and the one part meets the other at a split point m of an edge (p,q), follow
+// the edge from m towards q: it leaves the other triangle, which is convex, at q or through a face
+// without p, and either is a contact of the two triangles at the same time. So contacts and their
+// times stay, up to which part it is. A triangle without area may meet itself in its parts, which
+// is why none is split.
+std::optional<Form> split_some_edges(const Case& c, Random& random) {
   Form form = unchanged(c);
   const int count = random.between(1, 4);
   int splits = 0;

@@ -38,7 +38,7 @@ void weigh(const Claims& claims, StepDiff& diff) {
   if (!diff.breaches.empty()) diff.outcome = Outcome::defect;
 }
 
-Contract contract_of(const detector::Options& options) {
+Contract contract_of(const Options& options) {
   Contract contract;
   if (options.separation > 0) contract.adjacency = Adjacency::no_shared_vertex;
   contract.separation = options.separation;

@@ -12,8 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include "detector/mesh/step_types.h"
-#include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
 #include "properties/claims/contract.h"
 #include "properties/words.h"
@@ -38,8 +36,8 @@ constexpr auto names_of(Outcome) {
 
 // A pair whose first time the detector states wrongly.
 struct WrongTime {
-  detector::TrianglePair pair;
-  detector::TimeEnclosure detector, oracle;
+  TrianglePair pair;
+  TimeEnclosure detector, oracle;
 };
 
 // How far a stated first time is off, as a share of the step. The lower end of the interval counts,
@@ -54,7 +52,7 @@ struct TimeOff {
 
 // The first time of the detector and of the oracle, and how far they are apart.
 struct FirstTimes {
-  detector::TimeEnclosure detector, oracle;
+  TimeEnclosure detector, oracle;
   TimeOff off;
 };
 
@@ -68,9 +66,9 @@ struct CandidateCount {
 struct LimitDiff {
   double share = -1;  // of the step; -1: not stated
   double way = 0;     // the share, or, if none, the part of the way that the positions go
-  std::optional<detector::TimeEnclosure> ahead;  // the first contact time of the step, if any
+  std::optional<TimeEnclosure> ahead;  // the first contact time of the step, if any
   // The first contact on the straight way to the place where the caller stops.
-  std::optional<detector::PairContact> hit;
+  std::optional<PairContact> hit;
   bool is_cut = false;      // the step has no contact, and the limiter stops it early
   bool too_far = false;     // the stated share is not below the first contact time
   bool too_short = false;   // the way is shorter than claimed, not excused
@@ -80,14 +78,14 @@ struct LimitDiff {
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
-  std::vector<Claim> breaches;  // claims of the detector that this step refutes
-  detector::Answer answer = detector::Answer::undecided;  // the detector's
-  bool oracle_complete = false;                           // false: the oracle was stopped
-  bool nothing_in_contact = false;  // by a complete oracle; left-out contacts count
-  bool starts_near = false;         // StepTruth::starts_near
-  bool claims_pairs = false;        // all-pairs or first-pairs is claimed
-  bool unanswered_contact = false;  // a contact that counts, and no answer that can be judged
-  bool owes_answer = false;         // a valid step within the capacity has no answer
+  std::vector<Claim> breaches;        // claims of the detector that this step refutes
+  Answer answer = Answer::undecided;  // the detector's
+  bool oracle_complete = false;       // false: the oracle was stopped
+  bool nothing_in_contact = false;    // says a complete oracle, whatever is left out
+  bool starts_near = false;           // StepTruth::starts_near
+  bool claims_pairs = false;          // all-pairs or first-pairs is claimed
+  bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
+  bool owes_answer = false;           // a valid step within the capacity has none
   // The detector or the oracle was stopped: only the part that both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
@@ -97,19 +95,19 @@ struct StepDiff {
   bool late_first = false, early_first = false;
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
-  std::vector<detector::PairContact> missing;
-  bool is_without_excuse = false;               // first-pairs asks for a missing pair
-  std::vector<detector::PairContact> excuses;   // missing pairs that no claim asks for
-  std::vector<detector::PairContact> spurious;  // reported, but not in contact
+  std::vector<PairContact> missing;
+  bool is_without_excuse = false;     // first-pairs asks for one of them
+  std::vector<PairContact> excuses;   // missing pairs that no claim asks for
+  std::vector<PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
   std::vector<WrongTime> late, early;
 
-  // With a slack: the first pair that comes within it, if the interval of the detector's first time
-  // ends before that.
-  std::optional<detector::PairContact> first_in_slack;
+  // With a slack, the first pair that comes within it, if the detector's first time ends before the
+  // pair does.
+  std::optional<PairContact> first_in_slack;
 
   // The earliest contact that counts, if any.
-  std::optional<detector::PairContact> first_contact;
+  std::optional<PairContact> first_contact;
   // The detector's first time, and the exact first time of the contacts that count, if both answer
   // collision.
   std::optional<FirstTimes> first;
@@ -120,13 +118,13 @@ struct StepDiff {
 
   // Pairs in contact that the contract lets the detector leave out. `left_out_missed`: if these
   // pairs counted, the answer `free`, or the first time, would be wrong.
-  std::vector<detector::PairContact> left_out;
+  std::vector<PairContact> left_out;
   bool left_out_missed = false;
 
   // Only for a detector that claims candidates (judge_candidates); nothing if it failed to give
   // them.
   std::optional<CandidateCount> candidates;
-  std::vector<detector::PairContact> missing_candidates;
+  std::vector<PairContact> missing_candidates;
   std::optional<LimitDiff> limit;    // only of a limiter
   bool has_answer = true;            // false: the library gives candidates or limits, no answers
   std::optional<StepLoad> overload;  // only if the step was refused as beyond the capacity
@@ -136,19 +134,16 @@ struct StepDiff {
 // claim is not broken). `by` is the evidence: a contact of the oracle, a contact within the slack
 // only, a pair with a wrong time, a pair that is not in contact, or nothing that could be named.
 struct WithinSlack {
-  detector::PairContact contact;
+  PairContact contact;
 };
 struct Symptom {
   const char* kind = nullptr;
-  std::variant<std::monostate, detector::PairContact, WithinSlack, WrongTime,
-               detector::TrianglePair>
-      by = {};
+  std::variant<std::monostate, PairContact, WithinSlack, WrongTime, TrianglePair> by = {};
 };
 // Returns the first of the two that breaks the claim.
 inline Symptom operator|(const Symptom& a, const Symptom& b) { return a.kind ? a : b; }
 
-inline Symptom if_so(bool is_so, const char* kind,
-                     const std::optional<detector::PairContact>& contact = {}) {
+inline Symptom if_so(bool is_so, const char* kind, const std::optional<PairContact>& contact = {}) {
   if (!is_so) return {};
   return contact ? Symptom{kind, *contact} : Symptom{kind};
 }
@@ -340,9 +335,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
 // Returns the claims of the built-in detector. exact: all claims. bounded: all but no-spurious (its
 // intervals hold the times by construction, see StepResult::first). double and float: deterministic
 // and total. With pairs first, no arithmetic claims all-pairs.
-inline Claims claims_of(const detector::Options& options) {
-  const bool exact = options.arithmetic == detector::Arithmetic::exact;
-  const bool is_proved = exact || options.arithmetic == detector::Arithmetic::bounded;
+inline Claims claims_of(const Options& options) {
+  const bool exact = options.arithmetic == Arithmetic::exact;
+  const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;
   Claims claims = {Claim::deterministic, Claim::total};
   if (!is_proved) return claims;
   claims = claims.with({Claim::free_sound, Claim::not_late, Claim::first_time, Claim::first_pairs});
@@ -361,7 +356,7 @@ inline constexpr double built_in_progress = 0.9;
 
 // Returns the contract of the built-in detector with these options: it asks for contacts, or for
 // pairs without a shared vertex that come within a separation.
-Contract contract_of(const detector::Options& options);
+Contract contract_of(const Options& options);
 
 // Returns the claims that are judged under this contract (ClaimRow::why_void). If it has a margin,
 // the detector may report a collision before there is one. Its false alarms are then judged with

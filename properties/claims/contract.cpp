@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
 
@@ -95,8 +94,8 @@ bool beyond_capacity(const Contract& contract, const StepLoad& load) {
          exceeds(load.candidates, contract.capacity_candidates);
 }
 
-detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest) {
-  detector::CountedPairs pairs;
+CountedPairs tested_pairs(const Contract& contract, const Positions& rest) {
+  CountedPairs pairs;
   pairs.level = contract.counts;
   pairs.rings = contract.rings;
   pairs.rest_distance = contract.rest_distance;
@@ -104,7 +103,7 @@ detector::CountedPairs tested_pairs(const Contract& contract, const detector::Po
   return pairs;
 }
 
-int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair) {
+int shared_vertices(const TrianglesView& triangles, TrianglePair pair) {
   int shared = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) shared += triangles(pair.a, i) == triangles(pair.b, j) ? 1 : 0;
@@ -112,30 +111,28 @@ int shared_vertices(const detector::TrianglesView& triangles, detector::Triangle
   return shared;
 }
 
-bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
-                detector::TrianglePair pair) {
+bool leaves_out(const Contract& contract, const TrianglesView& triangles, TrianglePair pair) {
   if (contract.adjacency == Adjacency::all) return false;
   const int most_shared = contract.adjacency == Adjacency::not_edge_sharing ? 1 : 0;
   return shared_vertices(triangles, pair) > most_shared;
 }
 
-detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates) {
+Positions round_to(const PositionsView& x, Coordinates coordinates) {
   if (coordinates == Coordinates::float64) return x;
   // Two steps, through memory: g++ 12 drops two conversions in a row where it vectorises.
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = x.cast<float>();
   return rounded.cast<double>();
 }
 
-detector::Positions displacement(const detector::PositionsView& x_t0,
-                                 const detector::PositionsView& x_t1) {
+Positions displacement(const PositionsView& x_t0, const PositionsView& x_t1) {
   return round_to(x_t1 - x_t0, Coordinates::float32);
 }
 
-double length_of(const detector::PositionsView& x, const Edge& edge) {
+double length_of(const PositionsView& x, const Edge& edge) {
   return (x.row(edge[0]) - x.row(edge[1])).cwiseAbs().maxCoeff();
 }
 
-std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
+std::string beyond_range(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract) {
   if (!contract.has_range()) return "";
   for (Eigen::Index v = 0; v < x.rows(); ++v) {

@@ -8,9 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
 #include "detector/plugin/assay_detector.h"
 #include "properties/fields.h"
 #include "properties/words.h"
@@ -195,30 +192,28 @@ bool beyond_capacity(const Contract& contract, const StepLoad& load);
 
 // Returns the relation of the pairs that the contract tests, on a mesh whose vertices are at rest
 // at `rest`.
-detector::CountedPairs tested_pairs(const Contract& contract, const detector::Positions& rest);
+CountedPairs tested_pairs(const Contract& contract, const Positions& rest);
 
-int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
+int shared_vertices(const TrianglesView& triangles, TrianglePair pair);
 
 // Returns whether the contract's adjacency alone lets the detector leave this pair out.
-bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
-                detector::TrianglePair pair);
+bool leaves_out(const Contract& contract, const TrianglesView& triangles, TrianglePair pair);
 
 // Returns the positions that both the detector and the oracle get. A coordinate beyond float32
 // becomes infinite.
-detector::Positions round_to(const detector::PositionsView& x, Coordinates coordinates);
+Positions round_to(const PositionsView& x, Coordinates coordinates);
 
 // Returns the displacement that a float32 detector gets for a step: the nearest to the exact way.
-detector::Positions displacement(const detector::PositionsView& x_t0,
-                                 const detector::PositionsView& x_t1);
+Positions displacement(const PositionsView& x_t0, const PositionsView& x_t1);
 
 using Edge = std::array<std::int32_t, 2>;
 
-double length_of(const detector::PositionsView& x, const Edge& edge);
+double length_of(const PositionsView& x, const Edge& edge);
 
 // Returns where a mesh with these edges leaves the contract's range, with the member of the
 // contract: "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long,
 // below least_nonzero, 1e-06". Empty if it does not.
-std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
+std::string beyond_range(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract);
 
 }  // namespace assay::properties

@@ -10,17 +10,11 @@ namespace assay::properties {
 
 namespace {
 
-using detector::BoundaryHandler;
-using detector::MovingPoint;
-using detector::PositionsView;
-using detector::SteppedMesh;
-using detector::Surface;
-
 // Finds no loops if `is_closed` says so. It is given the number of triangles at each edge.
 template <bool (*is_closed)(const std::vector<std::size_t>&)>
 struct TakenAsClosed : BoundaryHandler {
-  Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
-                   detector::PacedStop& pace) const override {
+  Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
+                   PacedStop& pace) const override {
     Surface surface = BoundaryHandler::close_up(triangles, vertex_count, pace);
     if (pace.stopped()) return surface;
     std::vector<std::size_t> uses;
@@ -36,17 +30,16 @@ struct TakenAsClosed : BoundaryHandler {
 
 bool always(const std::vector<std::size_t>&) { return true; }
 bool edges_used_evenly(const std::vector<std::size_t>& uses) {
-  return std::all_of(uses.begin(), uses.end(), [](auto n) { return n % 2 == 0; });
+  return std::ranges::all_of(uses, [](auto n) { return n % 2 == 0; });
 }
 bool no_edge_used_once(const std::vector<std::size_t>& uses) {
-  return std::all_of(uses.begin(), uses.end(), [](auto n) { return n > 1; });
+  return std::ranges::all_of(uses, [](auto n) { return n > 1; });
 }
 
 // Places the apexes as if the mesh rested where it is at one end of the step.
 template <PositionsView SteppedMesh::*end>
 struct ApexOfEnd : BoundaryHandler {
-  std::vector<MovingPoint> place_apexes(const Surface& surface,
-                                        const std::vector<detector::ApexRule>& rules,
+  std::vector<MovingPoint> place_apexes(const Surface& surface, const std::vector<ApexRule>& rules,
                                         const SteppedMesh& motion) const override {
     return BoundaryHandler::place_apexes(surface, rules, {motion.*end, motion.*end});
   }
@@ -55,21 +48,19 @@ struct ApexOfEnd : BoundaryHandler {
 // Each step chooses anew the rule that suits its start best, so an apex may jump between two
 // steps.
 struct ApexChosenAnew : BoundaryHandler {
-  std::vector<MovingPoint> place_apexes(const Surface& surface,
-                                        const std::vector<detector::ApexRule>&,
+  std::vector<MovingPoint> place_apexes(const Surface& surface, const std::vector<ApexRule>&,
                                         const SteppedMesh& motion) const override {
-    detector::BoundingVolumeTree tree(surface.mesh, motion.vertices_t0);
-    const auto rules = choose_apexes(surface, tree, motion.vertices_t0, detector::ElementaryTest());
+    BoundingVolumeTree tree(surface.mesh, motion.vertices_t0);
+    const auto rules = choose_apexes(surface, tree, motion.vertices_t0, ElementaryTest());
     return BoundaryHandler::place_apexes(surface, rules, motion);
   }
 };
 
 struct AlwaysCentroid : BoundaryHandler {
-  std::vector<detector::ApexRule> choose_apexes(const Surface& surface,
-                                                detector::BoundingVolumeTree&, const PositionsView&,
-                                                const detector::ElementaryTest&,
-                                                const detector::StopFunction&) const override {
-    return std::vector<detector::ApexRule>(surface.loops.size(), detector::apex_rules[0]);
+  std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree&,
+                                      const PositionsView&, const ElementaryTest&,
+                                      const StopFunction&) const override {
+    return std::vector<ApexRule>(surface.loops.size(), detector::apex_rules[0]);
   }
 };
 
@@ -103,18 +94,12 @@ std::vector<Fault> boundary_faults() {
 
 namespace {
 
-using detector::FourPoints;
-using detector::GhostCounts;
-using detector::GhostSweep;
-using detector::StopFunction;
-
 using Flags = std::vector<std::uint8_t>;
 using GhostIndices = std::span<const std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;
 
 std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
-  return std::count_if(a.begin(), a.end(),
-                       [&](auto v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+  return std::ranges::count_if(a, [&](auto v) { return std::ranges::find(b, v) != b.end(); });
 }
 
 struct NothingSwept : BoundaryHandler {
@@ -160,7 +145,7 @@ struct GhostsNotMoved : BoundaryHandler {
     const auto same = [&](std::size_t i, std::size_t j) { return g[i % 3] == t[j % 3]; };
     const auto contact = [&](const FourPoints& query) {
       return !detector::separated_along_an_axis(query) &&
-             s.elementary.test(query, detector::Want::yes_no).contact;
+             s.elementary.test(query, Want::yes_no).contact;
     };
     for (std::size_t i = 0; i < 3; ++i) {
       if (!same(i, 0) && !same(i, 1) && !same(i, 2) &&
@@ -184,8 +169,8 @@ struct GhostsSkipped : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     std::vector<std::int32_t> first_ghosts;
-    std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(first_ghosts),
-                 [&](std::int32_t ghost) { return !skips(s, ghost); });
+    std::ranges::copy_if(ghosts, std::back_inserter(first_ghosts),
+                         [&](std::int32_t ghost) { return !skips(s, ghost); });
     return BoundaryHandler::sweep(s, first_ghosts, stop, touched, counts);
   }
 };
@@ -206,7 +191,7 @@ struct LoopNeighboursSkipped : BoundaryHandler {
     s.tree.join_boxes(nullptr);
     for (const auto ghost : ghosts) {
       Flags by_this(touched.size(), 0);
-      const detector::HoleTree alone(s.surface.all(), {&ghost, 1}, s.tree.grid(), s.motion);
+      const HoleTree alone(s.surface.all(), {&ghost, 1}, s.tree.grid(), s.motion);
       detector::sweep_hole(s, alone, {}, by_this, counts);
       for (std::size_t t = 0; t < touched.size(); ++t) {
         touched[t] |= by_this[t] && common_vertices(s.surface.all().triangles[at(ghost)],
@@ -217,10 +202,9 @@ struct LoopNeighboursSkipped : BoundaryHandler {
   }
 };
 
-struct VertexFaceTests : detector::ElementaryTest {
-  detector::ContactResult test(const FourPoints& query, detector::Want want) const override {
-    return query.first_group == 1 ? detector::test_contact_past_axis(query, want)
-                                  : detector::ContactResult{};
+struct VertexFaceTests : ElementaryTest {
+  ContactResult test(const FourPoints& query, Want want) const override {
+    return query.first_group == 1 ? detector::test_contact_past_axis(query, want) : ContactResult{};
   }
 };
 

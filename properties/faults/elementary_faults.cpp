@@ -10,13 +10,8 @@
 namespace assay::properties {
 namespace {
 
-using detector::ContactResult;
-using detector::FourPoints;
-using detector::Point;
-using detector::Want;
-
 // Gives right answers, but suppresses some contacts.
-class ContactDropped : public detector::ElementaryTest {
+class ContactDropped : public ElementaryTest {
  public:
   ContactResult test(const FourPoints& query, Want) const override {
     ContactResult right = detector::test_contact_past_axis(query, Want::first_time);
@@ -77,30 +72,28 @@ bool after_first_root(const FourPoints& query, const ContactResult& right) {
   return !f.is_zero() && detector::roots_in_unit_interval(f).front().enclosure() < right.time;
 }
 
-int orientation_at(const FourPoints& query, Point detector::MovingPoint::*end) {
+int orientation_at(const FourPoints& query, Point MovingPoint::*end) {
   const auto& x = query.points;
   return detector::orientation(x[1].*end, x[2].*end, x[3].*end, x[0].*end);
 }
 
 bool oriented_alike_at_ends(const FourPoints& query, const ContactResult&) {
-  return orientation_at(query, &detector::MovingPoint::t0) *
-             orientation_at(query, &detector::MovingPoint::t1) >
-         0;
+  return orientation_at(query, &MovingPoint::t0) * orientation_at(query, &MovingPoint::t1) > 0;
 }
 
 bool from_behind(const FourPoints& query, const ContactResult&) {
-  return !is_edge_edge(query) && orientation_at(query, &detector::MovingPoint::t0) < 0;
+  return !is_edge_edge(query) && orientation_at(query, &MovingPoint::t0) < 0;
 }
 
-struct PiercingIgnored : detector::ElementaryTest {
+struct PiercingIgnored : ElementaryTest {
   bool pierces(const Point&, const Point&, const std::array<Point, 3>&) const override {
     return false;
   }
 };
 
 // Rounds the times of contacts.
-template <void (*round)(detector::TimeEnclosure&)>
-struct Rounded : detector::ElementaryTest {
+template <void (*round)(TimeEnclosure&)>
+struct Rounded : ElementaryTest {
   ContactResult test(const FourPoints& query, Want want) const override {
     ContactResult result = detector::test_contact_past_axis(query, want);
     round(result.time);
@@ -108,8 +101,8 @@ struct Rounded : detector::ElementaryTest {
   }
 };
 
-void up(detector::TimeEnclosure& time) { time.lo = time.hi; }
-void to_float(detector::TimeEnclosure& time) { time.lo = time.hi = static_cast<float>(time.lo); }
+void up(TimeEnclosure& time) { time.lo = time.hi; }
+void to_float(TimeEnclosure& time) { time.lo = time.hi = static_cast<float>(time.lo); }
 
 double determinant(const Point& a, const Point& b, const Point& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
@@ -135,7 +128,7 @@ bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
     const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
     sum[a + b + c] += determinant(edges[0][a], edges[1][b], edges[2][c]);
   }
-  const auto [least, greatest] = std::minmax_element(sum.begin(), sum.end());
+  const auto [least, greatest] = std::ranges::minmax_element(sum);
   constexpr double unit = 0x1p-53;
   const double bound = 22 * unit * std::max(std::abs(*least), std::abs(*greatest));
   return *least > bound || *greatest < -bound;
@@ -199,7 +192,7 @@ std::vector<Fault> elementary_faults() {
        "F_doubled_features",
        5,
        "a feature pair in the place of another is dropped as a duplicate",
-       {detector::Culling::bvh}},
+       {Culling::bvh}},
   };
 }
 

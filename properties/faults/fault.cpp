@@ -23,15 +23,14 @@ std::span<const Fault> faults() {
 const Fault* find_fault(std::string_view name) {
   const auto all = faults();
   const auto place =
-      std::find_if(all.begin(), all.end(), [&](const Fault& fault) { return fault.name == name; });
+      std::ranges::find_if(all, [&](const Fault& fault) { return fault.name == name; });
   return place == all.end() ? nullptr : &*place;
 }
 
 std::size_t planted_count() {
   const auto all = faults();
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const Fault& fault) {
-    return fault.status == FaultStatus::planted;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      all, [](const Fault& fault) { return fault.status == FaultStatus::planted; }));
 }
 
 }  // namespace assay::properties

@@ -8,7 +8,6 @@
 #include <span>
 #include <string_view>
 
-#include "detector/options.h"
 #include "detector/step/stages.h"
 #include "properties/words.h"
 
@@ -28,7 +27,7 @@ constexpr auto names_of(FaultStatus) {
 
 struct PlantedStage {
   std::string_view stage;  // name of the stage that is replaced
-  detector::Stages (*stages)(const detector::Options&) = nullptr;
+  detector::Stages (*stages)(const Options&) = nullptr;
 };
 
 struct Fault : PlantedStage {
@@ -42,7 +41,7 @@ struct Fault : PlantedStage {
   std::string_view about{};  // the mistake, in a line
   // Options of the detector in which the fault is planted. If a row of the registry states none:
   // view points, all pairs.
-  detector::Options options{detector::Culling::view_point};
+  Options options{Culling::view_point};
   FaultStatus status = FaultStatus::planted;
   std::string_view reason{};  // for open and equivalent faults: why they are so
   // The fault shows only in a disturbed run (run_disturbed of case_run.h).

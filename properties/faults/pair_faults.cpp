@@ -9,20 +9,12 @@ namespace assay::properties {
 namespace {
 
 namespace flag = detector::flag;
-using detector::PairSink;
-using detector::PairTables;
-using detector::PositionsView;
-using detector::SearchCounts;
-using detector::SearchInput;
-using detector::SteppedMesh;
-using detector::Topology;
-using detector::TrianglePair;
 
 // K with other tables.
 template <void (*change)(PairTables&)>
-struct Changed : detector::PairRule {
+struct Changed : PairRule {
   PairTables candidates() const override {
-    PairTables tables = detector::PairRule::candidates();
+    PairTables tables = PairRule::candidates();
     change(tables);
     return tables;
   }
@@ -40,18 +32,18 @@ void only_opposite_signs(PairTables& tables) {
 
 void across_by_sign(PairTables& tables) { tables.across = tables.within; }
 
-struct NoClosure : detector::PairRule {
+struct NoClosure : PairRule {
   PairTables closure() const override { return {}; }
 };
 
-struct ClosureFromOneSide : detector::PairRule {
+struct ClosureFromOneSide : PairRule {
   bool joins_closure(const TrianglePair& contact, std::int32_t t) const override {
     return t == contact.a;
   }
 };
 
 // Tests the triangles that joined the closure against V+ alone.
-struct ClosureLeavesNegative : detector::PairRule {
+struct ClosureLeavesNegative : PairRule {
   PairTables closure() const override {
     PairTables tables;
     tables.within.add(flag::positive, flag::grown);
@@ -60,10 +52,10 @@ struct ClosureLeavesNegative : detector::PairRule {
 };
 
 // The standard search, which withholds some of its pairs from the sink.
-class FilteredSearch : public detector::TreeSearch {
+class FilteredSearch : public TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
-    return detector::TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
+    return TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
       return skips(input.mesh, a, b) || sink(a, b);
     });
   }
@@ -84,8 +76,8 @@ struct NeighboursSkipped : FilteredSearch {
 // Leaves out a triangle that has no area at t=0 or t=1, as if nothing could be hit there.
 class ZeroAreaDropped : public FilteredSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
-           detector::PacedStop& pace) const override {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) const override {
     if (!FilteredSearch::fit(tree, mesh, motion, pace)) return false;
     dropped_.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < dropped_.size(); ++t) {
@@ -124,8 +116,8 @@ Box swept_box(const std::array<std::int32_t, 3>& triangle, const SteppedMesh& mo
 // Takes boxes that only touch for apart. So contacts in their common face are lost.
 class OpenBoxes : public FilteredSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
-           detector::PacedStop& pace) const override {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) const override {
     if (!FilteredSearch::fit(tree, mesh, motion, pace)) return false;
     boxes_.clear();
     for (const auto& triangle : mesh.triangles) {
@@ -146,19 +138,19 @@ class OpenBoxes : public FilteredSearch {
 };
 
 template <bool end>
-struct StillBoxes : detector::TreeSearch {
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
-           detector::PacedStop& pace) const override {
+struct StillBoxes : TreeSearch {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) const override {
     const PositionsView& x = end ? motion.vertices_t1 : motion.vertices_t0;
     return tree.refit(mesh, {x, x}, pace);
   }
 };
 
 // Searches K and one round of the closure. What that round finds starts no further one.
-class SinglePassClosure : public detector::TreeSearch {
+class SinglePassClosure : public TreeSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
-           detector::PacedStop& pace) const override {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) const override {
     searches_ = 0;
     return TreeSearch::fit(tree, mesh, motion, pace);
   }

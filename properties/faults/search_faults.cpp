@@ -13,19 +13,10 @@ namespace assay::properties {
 namespace {
 
 namespace flag = detector::flag;
-using detector::BoundingVolumeTree;
-using detector::MarkingCounts;
-using detector::Marks;
-using detector::PairSink;
-using detector::PairTable;
-using detector::SearchCounts;
-using detector::SearchInput;
-using detector::SteppedMesh;
-using detector::Topology;
 
 // A flag that is cleared at a leaf is cleared at all nodes above it, though another leaf there may
 // have it.
-struct ClearedForOthersToo : detector::Marking {
+struct ClearedForOthersToo : Marking {
   void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
              MarkingCounts& counts) const override {
     for (std::int32_t node = leaf;; node = tree.parent(node)) {
@@ -38,7 +29,7 @@ struct ClearedForOthersToo : detector::Marking {
 
 // Stops marking at a parent that has any flag, as if all nodes above it were then marked with this
 // flag. They may be marked with another one.
-struct MarkedUntilAnyFlag : detector::Marking {
+struct MarkedUntilAnyFlag : Marking {
   void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
             MarkingCounts& counts) const override {
     for (std::int32_t node = leaf;; node = tree.parent(node)) {
@@ -52,7 +43,7 @@ struct MarkedUntilAnyFlag : detector::Marking {
 };
 
 // Gathers the flags of a parent from its first child alone.
-struct GatheredFromFirstChild : detector::Marking {
+struct GatheredFromFirstChild : Marking {
   void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
              MarkingCounts& counts) const override {
     marks.node_flags[at(leaf)] &= static_cast<std::uint8_t>(~flags);
@@ -67,7 +58,7 @@ struct GatheredFromFirstChild : detector::Marking {
 // Walks down the partial trees of V+, V-, V0 and Vv one after the other. If a node has a single
 // child in the first tree that is asked for, the node is left for that child, though its other
 // child may be in the next tree.
-class SkippedForOneSet : public detector::TreeSearch {
+class SkippedForOneSet : public TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     return input.tree.join_boxes(input.pace) &&
@@ -126,10 +117,10 @@ class SkippedForOneSet : public detector::TreeSearch {
 };
 
 // Fits the tree to the first step that searches, and to no other.
-class FittedOnce : public detector::TreeSearch {
+class FittedOnce : public TreeSearch {
  public:
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
-           detector::PacedStop& pace) const override {
+           PacedStop& pace) const override {
     fitted_ = fitted_ || TreeSearch::fit(tree, mesh, motion, pace);
     return fitted_;
   }
@@ -140,7 +131,7 @@ class FittedOnce : public detector::TreeSearch {
 
 // A search that was stopped is meant to continue where it was. But the next search, of whatever
 // step, leaves out as many pairs as the stopped one had looked at.
-class GoesOnAfterStop : public detector::TreeSearch {
+class GoesOnAfterStop : public TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     std::uint64_t count = 0;
@@ -157,7 +148,7 @@ class GoesOnAfterStop : public detector::TreeSearch {
 
 // All detectors of the process count their box tests in one place, and each takes the sum that
 // accumulated while it searched for its own.
-struct CountedTogether : detector::TreeSearch {
+struct CountedTogether : TreeSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     static std::atomic<std::uint64_t> box_tests = 0;
     const std::uint64_t before = box_tests;
@@ -209,13 +200,7 @@ std::vector<Fault> search_faults() {
 
 namespace {
 
-using detector::Contour;
-using detector::ContourMaker;
-using detector::DirectedEdge;
-using detector::DirectionSet;
-using detector::MovingContour;
-using detector::NormalConeSearch;
-using Triangle = std::array<detector::MovingPoint, 3>;
+using Triangle = std::array<MovingPoint, 3>;
 
 Triangle at_rest(Triangle triangle, bool at_end) {
   for (auto& p : triangle) (at_end ? p.t0 : p.t1) = at_end ? p.t1 : p.t0;
@@ -270,9 +255,9 @@ struct FirstWalk : ContourMaker {
     if (boundary.empty()) return;
     std::vector<std::int32_t> walk = {from(boundary[0])};
     for (;;) {
-      const auto leaves = std::find_if(boundary.begin(), boundary.end(),
-                                       [&](DirectedEdge e) { return from(e) == walk.back(); });
-      const auto again = std::find(walk.begin(), walk.end(), to(*leaves));
+      const auto leaves =
+          std::ranges::find_if(boundary, [&](DirectedEdge e) { return from(e) == walk.back(); });
+      const auto again = std::ranges::find(walk, to(*leaves));
       if (again != walk.end()) {
         out.insert(out.end(), again, walk.end());
         return;
@@ -290,14 +275,14 @@ struct JoinedAtVertex : NormalConeSearch {
 
 // Two patches that are each free by itself, and face one direction, are taken to be free together.
 struct PatchesOneByOne : NormalConeSearch {
-  Contour joined(detector::ContourUnion&, Contour a, Contour b) const override {
+  Contour joined(ContourUnion&, Contour a, Contour b) const override {
     return a.size() < b.size() ? b : a;
   }
 };
 
 // In exact arithmetic auto hardly ever asks for cones, because fans of vertices prove the same.
-constexpr detector::Options auto_with_cones{detector::Culling::automatic, detector::Start::verified,
-                                            detector::Pairs::all, detector::Arithmetic::bounded};
+constexpr Options auto_with_cones{Culling::automatic, Start::verified, Pairs::all,
+                                  Arithmetic::bounded};
 
 }  // namespace
 

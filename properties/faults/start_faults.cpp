@@ -9,19 +9,13 @@
 namespace assay::properties {
 namespace {
 
-using detector::GivenStep;
-using detector::ReleaseRule;
-using detector::StepCost;
-using detector::StepMarks;
-using detector::ViewSign;
-
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
 // Adds the triangles that meet another one of their component at t=0.
 void add_own_contacts(const GivenStep& step, std::size_t c, Flags& touched) {
-  detector::FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
-                                     detector::Want::yes_no);
+  FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
+                           Want::yes_no);
   const auto own = step.own_triangles(c);
   for (std::size_t i = 0; i < own.size(); ++i) {
     for (std::size_t j = i + 1; j < own.size(); ++j) contacts.add_candidate(own[i], own[j], true);
@@ -39,8 +33,7 @@ struct StartHalfChecked : ReleaseRule {
                     const Components& components) const override {
     Flags touched(step.surface.mesh.triangles.size(), 0);
     step.tree.refit(step.surface.mesh, step.motion.at_start());
-    const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
-                                     step.elementary, true};
+    const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary, true};
     Flags is_seen(step.surface.all().triangles.size(), 0);
     for (const auto component : components) {
       const std::size_t c = at(component);
@@ -52,9 +45,8 @@ struct StartHalfChecked : ReleaseRule {
                                      marks.clean);
       if (layers == StartLayers::by_piece) continue;
       const auto own = step.own_triangles(c);
-      const bool some =
-          layers == StartLayers::not_looked_at ||
-          std::any_of(own.begin(), own.end(), [&](auto t) { return marks.clean[at(t)] != 0; });
+      const bool some = layers == StartLayers::not_looked_at ||
+                        std::ranges::any_of(own, [&](auto t) { return marks.clean[at(t)] != 0; });
       for (const auto t : own) marks.clean[at(t)] = some && !touched[at(t)];
     }
     return true;
@@ -71,8 +63,8 @@ struct LowestLayerIsCommon : ReleaseRule {
       const std::size_t c = at(component);
       Flags touched(step.surface.mesh.triangles.size(), 0);
       add_own_contacts(step, c, touched);
-      const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
-                                       step.elementary, true};
+      const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary,
+                             true};
       step.boundary.sweep(still, step.ghosts(c), step.stop, touched, cost.counts.ghosts);
       std::optional<int> common;
       for (const auto t : step.own_triangles(c)) {
@@ -99,13 +91,13 @@ struct StartNotChecked : ReleaseRule {
 };
 
 bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangles) {
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
+  return std::ranges::all_of(
+      triangles, [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
 }
 
 // `surface` is the surface of the step, or its mesh without ghosts.
 bool all_positive_at_start(const GivenStep& step, const StepMarks& marks, std::size_t c,
-                           const detector::Topology& surface) {
+                           const Topology& surface) {
   const auto& primitive = marks.primitives[c];
   return detector::all_positive_at(surface, surface.components[c], step.motion.vertices_t0,
                                    primitive.q0.t0, primitive.q1.t0);

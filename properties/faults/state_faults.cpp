@@ -10,46 +10,39 @@ namespace assay::properties {
 
 namespace {
 
-using detector::GivenStep;
-using detector::PairContact;
-using detector::ReleaseRule;
-using detector::StepCost;
-using detector::StepMarks;
-using detector::StepState;
+using PairList = std::vector<PairContact>;
 
-using Pairs = std::vector<PairContact>;
-
-// Computes the state after the step from a start at which too many triangles count as clean, or
-// from a step whose findings are partly forgotten.
-template <void (*forget)(StepMarks&, Pairs&, bool& complete)>
+// What the step leaves behind is computed from a start at which too much is believed clean, or
+// from a step that is made to have seen too little.
+template <void (*forget)(StepMarks&, PairList&, bool& complete)>
 struct Forgotten : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     StepMarks first_marks = marks;
-    Pairs first_pairs = pairs;
+    PairList first_pairs = pairs;
     forget(first_marks, first_pairs, complete);
     ReleaseRule::settle(step, first_marks, first_pairs, complete, state);
   }
 };
 
-void dirty(StepMarks& marks, Pairs&, bool&) { marks.clean.assign(marks.clean.size(), 1); }
-void violated(StepMarks& marks, Pairs&, bool&) { marks.touched.assign(marks.touched.size(), 0); }
-void contacts(StepMarks&, Pairs& pairs, bool& complete) {
+void dirty(StepMarks& marks, PairList&, bool&) { marks.clean.assign(marks.clean.size(), 1); }
+void violated(StepMarks& marks, PairList&, bool&) { marks.touched.assign(marks.touched.size(), 0); }
+void contacts(StepMarks&, PairList& pairs, bool& complete) {
   pairs.clear();
   complete = true;
 }
-void later_pairs(StepMarks&, Pairs&, bool& complete) { complete = true; }
+void later_pairs(StepMarks&, PairList&, bool& complete) { complete = true; }
 
 struct ReleasedOnNoContact : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
-    if (pairs.empty()) std::fill(state.clean.begin(), state.clean.end(), 1);
+    if (pairs.empty()) std::ranges::fill(state.clean, 1);
   }
 };
 
 struct OneSideDirty : ReleaseRule {
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, {}, true, state);
     for (const auto& contact : pairs) {
@@ -61,7 +54,7 @@ struct OneSideDirty : ReleaseRule {
 
 // After a step without views, an open component becomes dirty only if the step found a contact.
 struct LostByContactAlone : ReleaseRule {
-  bool knows_clean(const GivenStep& step, const Pairs& pairs, std::size_t c) const override {
+  bool knows_clean(const GivenStep& step, const PairList& pairs, std::size_t c) const override {
     return pairs.empty() || ReleaseRule::knows_clean(step, pairs, c);
   }
 };
@@ -69,7 +62,7 @@ struct LostByContactAlone : ReleaseRule {
 // Carries clean bits through a step without views as through any other step, whether or not there
 // are ghosts.
 struct CarriedPastGhosts : ReleaseRule {
-  bool knows_clean(const GivenStep&, const Pairs&, std::size_t) const override { return true; }
+  bool knows_clean(const GivenStep&, const PairList&, std::size_t) const override { return true; }
 };
 
 // Tests against the ghosts only those triangles that the step before found in contact.
@@ -78,17 +71,16 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
     std::vector<std::int32_t> triangles;
     const auto is_met = [&](std::int32_t t) {
-      return std::any_of(step.last_state->contacts.begin(), step.last_state->contacts.end(),
-                         [&](const auto& pair) { return pair.a == t || pair.b == t; });
+      return std::ranges::any_of(step.last_state->contacts,
+                                 [&](const auto& pair) { return pair.a == t || pair.b == t; });
     };
-    std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(triangles), is_met);
+    std::ranges::copy_if(in_doubt, std::back_inserter(triangles), is_met);
     return triangles;
   }
 };
 
 struct KeptElsewhere : ReleaseRule {
-  bool still_holds(const StepState&, const detector::PositionsView&,
-                   const detector::PacedStop&) const override {
+  bool still_holds(const StepState&, const PositionsView&, const PacedStop&) const override {
     return true;
   }
 };
@@ -97,7 +89,7 @@ struct KeptElsewhere : ReleaseRule {
 // that place was found free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
-  void settle(const GivenStep& step, const StepMarks& marks, const Pairs& pairs, bool complete,
+  void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(step, marks, pairs, complete, state);
     free_from_.resize(pairs.empty() ? step.motion.size() : 0, 3);
@@ -108,17 +100,16 @@ class EvaluationKept : public ReleaseRule {
     if (!ReleaseRule::release(step, marks, cost, components)) return false;
     const bool is_known =
         free_from_.rows() == step.motion.size() && free_from_ == step.motion.vertices_t0;
-    if (is_known) std::fill(marks.clean.begin(), marks.clean.end(), 1);
+    if (is_known) std::ranges::fill(marks.clean, 1);
     return true;
   }
 
  private:
-  mutable detector::Positions free_from_;
+  mutable Positions free_from_;
 };
 
-constexpr detector::Options auto_views{detector::Culling::view_auto};
-constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
-                                           detector::Pairs::first};
+constexpr Options auto_views{Culling::view_auto};
+constexpr Options first_pairs = {Culling::view_point, Start::verified, Pairs::first};
 
 }  // namespace
 
@@ -157,8 +148,6 @@ std::vector<Fault> state_faults() {
 namespace {
 
 using Flags = std::vector<std::uint8_t>;
-using Components = std::vector<std::int32_t>;
-using Triangles = std::vector<std::int32_t>;
 
 enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
@@ -168,13 +157,13 @@ enum class ReleasedLayers { of_pieces, by_connection, across_touched, not_looked
 template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
-               const Components& components) const override {
+               const Numbers& components) const override {
     Flags touched(marks.clean.size(), 0), is_seen(touched);
-    const detector::FloatGrid grid(step.motion.at_start());
+    const FloatGrid grid(step.motion.at_start());
     if (contacts == Contacts::tested) detector::add_lasting_contacts(step, cost, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
-      Triangles in_doubt;
+      Numbers in_doubt;
       for (const auto t : step.own_triangles(c)) {
         if (!marks.clean[at(t)]) in_doubt.push_back(t);
       }
@@ -202,7 +191,7 @@ struct ReleaseHalfChecked : ReleaseRule {
   // Lets pieces continue through triangles that are touched. Only the touched triangles themselves
   // stay dirty.
   void release_across_touched(const GivenStep& step, StepMarks& marks, std::size_t c,
-                              const Triangles& in_doubt, const Flags& touched) const {
+                              const Numbers& in_doubt, const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
     Flags is_seen(nothing);
     detector::release_pieces({step.surface, step.motion.vertices_t0, nothing}, c, in_doubt,
@@ -212,7 +201,7 @@ struct ReleaseHalfChecked : ReleaseRule {
 
   // Releases a triangle if it has a clean neighbour at any edge, however many triangles meet at
   // that edge.
-  static void release_connected(const GivenStep& step, StepMarks& marks, const Triangles& in_doubt,
+  static void release_connected(const GivenStep& step, StepMarks& marks, const Numbers& in_doubt,
                                 const Flags& touched) {
     const auto& mesh = step.surface.mesh;
     for (bool grows = true; grows;) {
@@ -221,8 +210,8 @@ struct ReleaseHalfChecked : ReleaseRule {
         if (marks.clean[at(t)] || touched[at(t)]) continue;
         for (const auto edge : mesh.triangle_edges[at(t)]) {
           const auto around = mesh.edge_triangles.row(edge);
-          marks.clean[at(t)] |= std::any_of(around.begin(), around.end(),
-                                            [&](auto s) { return marks.clean[at(s)] != 0; });
+          marks.clean[at(t)] |=
+              std::ranges::any_of(around, [&](auto s) { return marks.clean[at(s)] != 0; });
         }
         grows |= marks.clean[at(t)] != 0;
       }
@@ -234,7 +223,7 @@ struct ReleaseHalfChecked : ReleaseRule {
 // at them.
 struct ReleasedWhileTouched : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
-               const Components& components) const override {
+               const Numbers& components) const override {
     if (!ReleaseRule::release(step, marks, cost, components)) return false;
     const auto& mesh = step.surface.mesh;
     const Flags released = marks.clean;
@@ -252,8 +241,8 @@ struct ReleasedWhileTouched : ReleaseRule {
 // Asks for the state of a triangle by its place in the component, and so gets the answer for a
 // triangle of another component.
 struct WitnessesByPlace : ReleaseRule {
-  Triangles witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
-    Triangles triangles;
+  Numbers witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
+    Numbers triangles;
     const auto own = step.own_triangles(c);
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (marks.clean[i]) triangles.push_back(own[i]);

@@ -11,11 +11,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::MovingTriangle;
-using detector::Polynomial;
-using detector::ViewPrimitive;
-using detector::ViewSign;
-
 ViewSign linear_in_time(const ViewPolynomials& view) {
   return strict_sign(linear_between_ends(view.h0));
 }
@@ -44,7 +39,7 @@ ViewSign touching_zero_is_positive(const ViewPolynomials& view) {
   const Polynomial& f = view.h0;
   if (f.is_zero()) return ViewSign::positive;
   double since = 0;
-  const auto is_negative_at = [&](double t) { return f.sign_at(detector::Dyadic::of(t)) < 0; };
+  const auto is_negative_at = [&](double t) { return f.sign_at(Dyadic::of(t)) < 0; };
   for (const auto& root : detector::roots_in_unit_interval(f)) {
     if (is_negative_at((since + root.enclosure().lo) / 2)) return strict_sign(f);
     since = root.enclosure().hi;
@@ -54,12 +49,12 @@ ViewSign touching_zero_is_positive(const ViewPolynomials& view) {
              : ViewSign::positive;
 }
 
-ViewSign sign_of_coefficients(const detector::Cubic& f, int depth) {
-  const auto [least, greatest] = std::minmax_element(f.begin(), f.end());
+ViewSign sign_of_coefficients(const Cubic& f, int depth) {
+  const auto [least, greatest] = std::ranges::minmax_element(f);
   if (*least > 0) return ViewSign::positive;
   if (*greatest < 0) return ViewSign::negative;
   if (depth == 10) return ViewSign::zero;
-  detector::Cubic left, right;
+  Cubic left, right;
   detector::halve(f, left, right);
   return common_sign(
       {sign_of_coefficients(left, depth + 1), sign_of_coefficients(right, depth + 1)});
@@ -211,11 +206,11 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
   return right_sign(triangle, midpoint(primitive));
 }
 
-// Asks for the winding number at the midpoint, from which the view is taken. The winding number at
-// an end would say nothing.
-struct FreeFromMidpoint : detector::ReleaseRule {
-  bool is_free(const detector::GivenStep& step, const detector::StepMarks& marks,
-               detector::StepCost&, std::size_t c) const override {
+// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
+// say nothing.
+struct FreeFromMidpoint : ReleaseRule {
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
+               std::size_t c) const override {
     const auto& triangles = step.component(c).triangles;
     for (const auto t : triangles) {
       if (marks.signs[at(t)] != ViewSign::positive) return false;
@@ -226,7 +221,7 @@ struct FreeFromMidpoint : detector::ReleaseRule {
 };
 
 Fault midpoint_with_its_winding(Fault fault) {
-  fault.stages = [](const detector::Options& options) {
+  fault.stages = [](const Options& options) {
     auto stages = with<Signs<from_midpoint>>(options);
     stages.release = std::make_shared<FreeFromMidpoint>();
     return stages;

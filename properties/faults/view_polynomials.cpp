@@ -7,11 +7,8 @@
 namespace assay::properties {
 
 using detector::Integer;
-using detector::MovingPoint;
 using detector::MovingTriangle;
 using detector::Polynomial;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 namespace {
 
@@ -105,7 +102,7 @@ ViewSign sign_of(const ViewPieces& p) {
   const auto vanishes = [](const Polynomial& h, auto is_active, const Polynomial& region) {
     if (h.is_zero()) return region.is_zero() || detector::has_root_in_unit_interval(region);
     const auto roots = detector::roots_in_unit_interval(h);
-    return std::any_of(roots.begin(), roots.end(), is_active);
+    return std::ranges::any_of(roots, is_active);
   };
   const bool at_ends = vanishes(
                            p.h0, [&](const auto& root) { return root.sign_of(p.g0) <= 0; }, p.g0) ||
@@ -122,7 +119,7 @@ ViewSign sign_of(const ViewPieces& p) {
 MovingPoint still(Sample sample, const MovingPoint& point) {
   if (sample == Sample::start) return {point.t0, point.t0};
   if (sample == Sample::end) return {point.t1, point.t1};
-  detector::Point middle;
+  Point middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * point.t0[k] + 0.5 * point.t1[k];
   return {middle, middle};
 }
@@ -135,16 +132,14 @@ ViewSign sign_at(Sample sample, const MovingTriangle& triangle, const ViewPrimit
 
 ViewSign common_sign(std::initializer_list<ViewSign> signs) {
   const ViewSign first = *signs.begin();
-  return std::all_of(signs.begin(), signs.end(), [&](ViewSign s) { return s == first; })
-             ? first
-             : ViewSign::zero;
+  return std::ranges::all_of(signs, [&](ViewSign s) { return s == first; }) ? first
+                                                                            : ViewSign::zero;
 }
 
 bool TriangleSigns::classify(const detector::Topology& surface,
-                             const detector::Component& component,
-                             const detector::SteppedMesh& motion, const ViewPrimitive& primitive,
-                             std::vector<ViewSign>& signs, detector::ViewCounts& counts,
-                             detector::PacedStop&) const {
+                             const detector::Component& component, const SteppedMesh& motion,
+                             const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
+                             detector::ViewCounts& counts, detector::PacedStop&) const {
   for (const auto t : component.triangles) {
     const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return motion.path(v[i]); };

@@ -6,6 +6,7 @@
 
 #include "detector/exact/real_root.h"
 #include "detector/view/view_signs.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -24,10 +25,10 @@ struct ViewPolynomials {
   std::array<detector::Polynomial, 3> g0, g1;  // by corner: (p - q0).d, (p - q1).d
 };
 ViewPolynomials view_polynomials(const detector::MovingTriangle& triangle,
-                                 const detector::ViewPrimitive& primitive);
+                                 const ViewPrimitive& primitive);
 
 // Returns the sign of f if f keeps it over [0,1] and has no zero there; else zero.
-detector::ViewSign strict_sign(const detector::Polynomial& f);
+ViewSign strict_sign(const detector::Polynomial& f);
 
 // Replace f by its value at t=0, by its value at t=1, or by the line through both values.
 detector::Polynomial at_start(const detector::Polynomial& f);
@@ -43,22 +44,21 @@ struct ViewPieces {
 };
 ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
-detector::ViewSign sign_of(const ViewPieces& pieces);
+ViewSign sign_of(const ViewPieces& pieces);
 
 // Hold things still at t=0, 1/2 or 1 (exact if the middle of two coordinates is a double): return
 // the sign of a triangle that is held still together with the primitive, or a still point.
 enum class Sample { start, middle, end };
-detector::ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
-                           const detector::ViewPrimitive& primitive);
-detector::MovingPoint still(Sample sample, const detector::MovingPoint& point);
+ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
+                 const ViewPrimitive& primitive);
+MovingPoint still(Sample sample, const MovingPoint& point);
 
 // Returns the common sign of all; zero if they differ.
-detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
+ViewSign common_sign(std::initializer_list<ViewSign> signs);
 
 // Returns the common sign at these times, wrongly taken for the sign of the whole step.
 template <Sample... samples>
-detector::ViewSign sampled(const detector::MovingTriangle& triangle,
-                           const detector::ViewPrimitive& primitive) {
+ViewSign sampled(const detector::MovingTriangle& triangle, const ViewPrimitive& primitive) {
   return common_sign({sign_at(samples, triangle, primitive)...});
 }
 
@@ -66,19 +66,19 @@ detector::ViewSign sampled(const detector::MovingTriangle& triangle,
 class TriangleSigns : public detector::ViewClassifier {
  public:
   bool classify(const detector::Topology& surface, const detector::Component& component,
-                const detector::SteppedMesh& motion, const detector::ViewPrimitive& primitive,
-                std::vector<detector::ViewSign>& signs, detector::ViewCounts& counts,
+                const SteppedMesh& motion, const ViewPrimitive& primitive,
+                std::vector<ViewSign>& signs, detector::ViewCounts& counts,
                 detector::PacedStop& pace) const override;
-  virtual detector::ViewSign sign(const detector::MovingTriangle& triangle,
-                                  const detector::ViewPrimitive& primitive) const = 0;
+  virtual ViewSign sign(const detector::MovingTriangle& triangle,
+                        const ViewPrimitive& primitive) const = 0;
 };
 
 // A TriangleSigns whose sign is given by the function `look`, from the step's polynomials or from
 // the triangle itself.
 template <auto look>
 struct Signs : TriangleSigns {
-  detector::ViewSign sign(const detector::MovingTriangle& triangle,
-                          const detector::ViewPrimitive& primitive) const override {
+  ViewSign sign(const detector::MovingTriangle& triangle,
+                const ViewPrimitive& primitive) const override {
     if constexpr (std::is_invocable_v<decltype(look), const ViewPolynomials&>) {
       return look(view_polynomials(triangle, primitive));
     } else {
@@ -88,7 +88,6 @@ struct Signs : TriangleSigns {
 };
 
 // Returns the sign that the detector's own view test gives.
-detector::ViewSign right_sign(const detector::MovingTriangle& triangle,
-                              const detector::ViewPrimitive& primitive);
+ViewSign right_sign(const detector::MovingTriangle& triangle, const ViewPrimitive& primitive);
 
 }  // namespace assay::properties

@@ -12,18 +12,14 @@ namespace assay::properties {
 
 namespace {
 
-using detector::MovingPoint;
-using detector::Point;
-using detector::Positions;
-
 // In a relation the vertices from `first` on are a body of their own, and at rest they are as at
-// the start. Facts about the case without them are dropped.
-void tell_of_added(corpus::Case& c, std::int32_t first) {
+// the start. What was said of the case without them is dropped.
+void tell_of_added(Case& c, std::int32_t first) {
   if (c.counted) {
     auto& [pairs, steps] = *c.counted;
     steps.clear();
     if (!pairs.body.empty()) {
-      const auto fresh = *std::max_element(pairs.body.begin(), pairs.body.end()) + 1;
+      const auto fresh = *std::ranges::max_element(pairs.body) + 1;
       pairs.body.resize(static_cast<std::size_t>(c.frames.front().rows()), fresh);
     }
     if (!pairs.rest.empty()) {
@@ -129,16 +125,16 @@ Approach draw_approach(Random& random, double d) {
   return approach;
 }
 
-corpus::Case with_approach(corpus::Case c, double d, Random& random) {
+Case with_approach(Case c, double d, Random& random) {
   const Approach approach = draw_approach(random, d);
   const auto& [a, b] = approach;
   if (const auto query = query_of(c)) {
-    detector::FourPoints aimed = *query;
+    FourPoints aimed = *query;
     aimed.points = query->first_group == 1 ? std::array{b[0], a[0], a[1], a[2]}
                                            : std::array{a[0], a[1], b[0], b[1]};
     return case_of_query(aimed, c.id);
   }
-  const auto steps = corpus::steps_of(c);
+  const auto steps = steps_of(c);
   const auto& step = one_of(random, steps);
   double largest = greatest_of(c);
   for (const auto* triangle : {&a, &b}) {
@@ -152,16 +148,14 @@ corpus::Case with_approach(corpus::Case c, double d, Random& random) {
   const double away = std::ldexp(1.0, std::ilogb(largest) + 6);
   const auto vertices = static_cast<std::int32_t>(c.frames.front().rows());
   for (auto& frame : c.frames) frame.array() += away;
-  const detector::Triangles two{{0, 1, 2}, {3, 4, 5}};
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
   add_mesh(c, two, [&](std::size_t f) {
     const bool has_moved = static_cast<std::int32_t>(f) >= step.to;
-    Positions x(6, 3);
-    for (int i = 0; i < 6; ++i) {
-      const auto& [t0, t1] = i < 3 ? a[at(i)] : b[at(i - 3)];
-      const Point& p = has_moved ? t1 : t0;
-      x.row(i) << p[0], p[1], p[2];
+    Points x;
+    for (const auto& triangle : {a, b}) {
+      for (const auto& [t0, t1] : triangle) x.push_back(has_moved ? t1 : t0);
     }
-    return x;
+    return as_rows<Positions>(x);
   });
   tell_of_added(c, vertices);
   return c;
@@ -172,8 +166,8 @@ namespace {
 constexpr std::int32_t side = 112;  // vertices along each side of the sheet
 static_assert(std::size_t{side} * side > 3 * detector::shared_piece);
 
-detector::Triangles triangles_of_sheet() {
-  detector::Triangles triangles(Eigen::Index{2} * (side - 1) * (side - 1), 3);
+Triangles triangles_of_sheet() {
+  Triangles triangles(Eigen::Index{2} * (side - 1) * (side - 1), 3);
   Eigen::Index t = 0;
   for (std::int32_t i = 0; i + 1 < side; ++i) {
     for (std::int32_t j = 0; j + 1 < side; ++j) {
@@ -187,7 +181,7 @@ detector::Triangles triangles_of_sheet() {
 
 }  // namespace
 
-std::optional<corpus::Case> with_far_body(corpus::Case c, double apart) {
+std::optional<Case> with_far_body(Case c, double apart) {
   const double largest = greatest_of(c);
   constexpr double most = 0x1p900;
   if (!(largest > 1 / most && largest < most && apart < most)) return std::nullopt;

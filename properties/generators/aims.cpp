@@ -76,8 +76,8 @@ class Aimer {
 
   // Lets the middle of an edge (v, u) meet an edge of the target.
   bool cross_edges(const Aim& aimed, double t) {
-    const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
-                                  [&](const Face& f) { return has(f, aimed.vertex); });
+    const auto own =
+        std::ranges::find_if(draft_.faces, [&](const Face& f) { return has(f, aimed.vertex); });
     const auto u = (*own)[0] == aimed.vertex ? (*own)[1] : (*own)[0];
     if (aimed.target[0] == u || aimed.target[1] == u) return false;
     const Point meet = between(place_at(aimed.target[0], t), place_at(aimed.target[1], t),
@@ -107,8 +107,8 @@ class Aimer {
   // Keeps a face of the vertex and the target in the plane in which the target rests, in all
   // frames.
   void flatten(const Aim& aimed) {
-    const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
-                                  [&](const Face& f) { return has(f, aimed.vertex); });
+    const auto own =
+        std::ranges::find_if(draft_.faces, [&](const Face& f) { return has(f, aimed.vertex); });
     const auto axis = at(random_.below(3));
     const double level = at(x_t0(), aimed.target[0])[axis];
     for (auto& x : draft_.frames) {

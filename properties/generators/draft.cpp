@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "oracle/mesh/mesh_features.h"
 #include "properties/random.h"
 
 namespace assay::properties {
@@ -44,32 +45,14 @@ void drop_unused_vertices(Draft& draft) {
 void drop_invalid_faces(Draft& draft) {
   std::set<Face> faces;
   std::erase_if(draft.faces, [&](Face face) {
-    std::sort(face.begin(), face.end());
+    std::ranges::sort(face);
     const bool repeats = face[0] == face[1] || face[1] == face[2];
     return repeats || !faces.insert(face).second;
   });
 }
 
 bool is_cycle(const std::vector<Face>& faces) {
-  // An edge and its reverse are sorted to the same place, where they cancel.
-  std::vector<std::array<std::int32_t, 3>> edges;
-  for (const auto& f : faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t u = f[k], v = f[(k + 1) % 3];
-      edges.push_back({std::min(u, v), std::max(u, v), u < v ? 1 : -1});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
-    int sum = 0;
-    std::size_t j = i;
-    for (; j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]; ++j) {
-      sum += edges[j][2];
-    }
-    if (sum != 0) return false;
-    i = j;
-  }
-  return true;
+  return oracle::closes(as_rows<Triangles>(faces), Triangles(0, 3));
 }
 
 Draft joined(Draft a, const Draft& b) {
@@ -82,7 +65,7 @@ Draft joined(Draft a, const Draft& b) {
   return a;
 }
 
-double greatest_of(const corpus::Case& c) {
+double greatest_of(const Case& c) {
   double greatest = 0;
   for (const auto& frame : c.frames) {
     if (frame.size() > 0) greatest = std::max(greatest, frame.cwiseAbs().maxCoeff());
@@ -92,25 +75,12 @@ double greatest_of(const corpus::Case& c) {
 
 RandomCase finished(Draft draft, std::string id) {
   RandomCase random_case;
-  corpus::Case& c = random_case.c;
+  Case& c = random_case.c;
   c.id = std::move(id);
-  c.triangles.resize(static_cast<Eigen::Index>(draft.faces.size()), 3);
-  for (std::size_t t = 0; t < draft.faces.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      c.triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(k)) = draft.faces[t][k];
-    }
-  }
-  for (const auto& x : draft.frames) {
-    detector::Positions frame(static_cast<Eigen::Index>(x.size()), 3);
-    for (std::size_t v = 0; v < x.size(); ++v) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        frame(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(k)) = x[v][k];
-      }
-    }
-    c.frames.push_back(std::move(frame));
-  }
-  if (!draft.q0.empty()) c.view = corpus::CaseView{std::move(draft.q0), std::move(draft.q1)};
-  std::sort(draft.tags.begin(), draft.tags.end());
+  c.triangles = as_rows<Triangles>(draft.faces);
+  for (const auto& x : draft.frames) c.frames.push_back(as_rows<Positions>(x));
+  if (!draft.q0.empty()) c.view = CaseView{std::move(draft.q0), std::move(draft.q1)};
+  std::ranges::sort(draft.tags);
   draft.tags.erase(std::unique(draft.tags.begin(), draft.tags.end()), draft.tags.end());
   random_case.tags = std::move(draft.tags);
   for (const auto& tag : random_case.tags) c.about += (c.about.empty() ? "" : ", ") + tag;

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
@@ -21,7 +19,7 @@ class Random;
 // ascending. They say what the generator aimed at. Only the oracle can tell whether, say, an aimed
 // contact is the first one of its step.
 struct RandomCase {
-  corpus::Case c;
+  Case c;
   std::vector<std::string> tags;
 };
 
@@ -29,7 +27,6 @@ struct RandomCase {
 // For the same reason no expression here or in the generators draws two random numbers in an order
 // that the language leaves open (arguments of a call, operands of +).
 
-using detector::Point;
 using Points = std::vector<Point>;
 
 inline Point operator+(const Point& a, const Point& b) {
@@ -123,7 +120,7 @@ void drop_invalid_faces(Draft& draft);
 bool is_cycle(const std::vector<Face>& faces);
 
 // Returns the greatest magnitude of a coordinate in the frames of the case.
-double greatest_of(const corpus::Case& c);
+double greatest_of(const Case& c);
 
 // Turns the draft into a case. Its tags are sorted, each once.
 RandomCase finished(Draft draft, std::string id);

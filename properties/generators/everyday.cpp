@@ -361,7 +361,7 @@ Draft falling_piece(Random& random, bool is_closed, int size) {
     std::rotate(p.begin(), p.begin() + 2 - static_cast<std::ptrdiff_t>(axis), p.end());
     for (double& c : p) c *= sign;
   };
-  for (auto& x : d.frames) std::for_each(x.begin(), x.end(), turn_up);
+  for (auto& x : d.frames) std::ranges::for_each(x, turn_up);
   for (auto& l : d.landings) {
     l.axis = axis;
     turn_up(l.way);

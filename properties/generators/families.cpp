@@ -262,21 +262,9 @@ RandomCase make_case(const Family& family, std::string_view id) {
 
 namespace {
 
-using detector::Positions;
-
-bool is_free(const Positions& x_t0, const Positions& x_t1, const corpus::Case& c) {
-  return oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}}).answer == detector::Answer::free;
-}
-
-Point shortened(const Point& a, const Point& b, double s) {
-  Point p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + s * (b[k] - a[k]);
-  return p;
-}
-
 class Responder {
  public:
-  explicit Responder(const corpus::Case& c) : original_(c), case_(c) {
+  explicit Responder(const Case& c) : original_(c), case_(c) {
     case_.frames.assign(1, c.frames.front());
     case_.expected = {};
     case_.ghosts.reset();
@@ -287,7 +275,7 @@ class Responder {
     }
   }
 
-  corpus::Case run() {
+  Case run() {
     for (std::size_t k = 0; k + 1 < original_.frames.size(); ++k) step(k);
     return std::move(case_);
   }
@@ -313,15 +301,14 @@ class Responder {
   void add_place(const std::vector<Point>& points, std::vector<Point>& new_points, std::size_t k,
                  double s) {
     const Point from = new_points[static_cast<std::size_t>(now_)];
-    const Point to = s == 1 ? points[k + 1] : shortened(from, points[k + 1], s);
+    const Point to = s == 1 ? points[k + 1] : between(from, points[k + 1], s);
     new_points.push_back(to);
   }
 
   void step(std::size_t k) {
     const std::int32_t whole = add_frame(k, 1);
-    const auto judgement =
-        oracle::judge_step({frame(now_), frame(whole)}, case_.triangles, {1, {}});
-    if (judgement.answer == detector::Answer::free) {
+    const auto judgement = judge(whole);
+    if (judgement.answer == Answer::free) {
       case_.script.push_back({now_, whole, true});
       now_ = whole;
       return;
@@ -333,9 +320,8 @@ class Responder {
     // reverted.
     if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
-    // The shortened step is judged again, because rounded positions can touch although the exact
-    // ones do not.
-    const bool free = is_free(frame(now_), frame(part), case_);
+    // This is judged again, because rounded positions can touch although the exact ones do not.
+    const bool free = judge(part).answer == Answer::free;
     case_.script.push_back({now_, part, free});
     if (free) now_ = part;
   }
@@ -343,16 +329,20 @@ class Responder {
   // The greatest power of two that is at most t / 2. It is 0 if t is 0.
   static double below_half(double t) { return t == 0 ? 0 : std::ldexp(1, std::ilogb(t) - 1); }
 
-  const Positions& frame(std::int32_t f) const { return case_.frames[static_cast<std::size_t>(f)]; }
+  // The step from where the mesh is to a frame.
+  oracle::StepJudgement judge(std::int32_t to) const {
+    return oracle::judge_step({case_.frames[at(now_)], case_.frames[at(to)]}, case_.triangles,
+                              {1, {}});
+  }
 
-  const corpus::Case& original_;
-  corpus::Case case_;
+  const Case& original_;
+  Case case_;
   std::int32_t now_ = 0;  // the frame that the mesh is in
 };
 
 }  // namespace
 
-corpus::Case with_response(const corpus::Case& c) {
+Case with_response(const Case& c) {
   assert(c.script.empty());
   return Responder(c).run();
 }

@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/cases/case_file.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -71,6 +71,6 @@ RandomCase make_case(const Family& family, std::string_view id);
 // Frames and script are explicit, so the case replays without the oracle. A view primitive moves
 // with the frames. Expected facts and ghosts are dropped. Costs the oracle's judgement of each
 // step and of each shortened one. REQUIRES that `c` has no script of its own.
-corpus::Case with_response(const corpus::Case& c);
+Case with_response(const Case& c);
 
 }  // namespace assay::properties

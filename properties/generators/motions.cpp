@@ -190,7 +190,7 @@ std::vector<const Motion*> some_motions(Random& random, int count, bool exact_to
     for (const auto& m : motion_table) {
       place -= weight(m);
       if (place >= 0) continue;
-      if (std::find(motions.begin(), motions.end(), &m) == motions.end()) motions.push_back(&m);
+      if (std::ranges::find(motions, &m) == motions.end()) motions.push_back(&m);
       break;
     }
   }

@@ -22,16 +22,8 @@ void for_each_point(Draft& draft, const Change& change) {
   for (auto& p : draft.q1) change(p);
 }
 
-}  // namespace
-
-void round_to_grid(Draft& draft, double scale, int bits) {
-  const double unit = std::ldexp(1, bits);
-  for_each_point(draft, [=](Point& p) {
-    // Adding 0.0 turns -0 into 0, because -0 is written differently.
-    for (double& c : p) c = std::floor(c * scale * unit + 0.5) / unit + 0.0;
-  });
-}
-
+// Gives some vertices a coordinate that lies beside another vertex's, by 1 to 3 units of the last
+// place.
 void place_ulp_neighbours(Random& random, Draft& draft) {
   for (int changes = random.between(1, 6); changes > 0; --changes) {
     Points& x = one_of(random, draft.frames);
@@ -45,6 +37,16 @@ void place_ulp_neighbours(Random& random, Draft& draft) {
     p[k] = units_beyond(c, random.between(1, 3), towards);
   }
   draft.tag("menu:ulp");
+}
+
+}  // namespace
+
+void round_to_grid(Draft& draft, double scale, int bits) {
+  const double unit = std::ldexp(1, bits);
+  for_each_point(draft, [=](Point& p) {
+    // Adding 0.0 turns -0 into 0, because -0 is written differently.
+    for (double& c : p) c = std::floor(c * scale * unit + 0.5) / unit + 0.0;
+  });
 }
 
 void move_far(Random& random, Draft& draft) {
@@ -150,9 +152,7 @@ void miss_nearly(Random& random, Draft& draft) {
 
 namespace {
 
-using detector::CountedPairs;
-
-void choose_bodies(Random& random, const corpus::Case& c, CountedPairs& pairs) {
+void choose_bodies(Random& random, const Case& c, CountedPairs& pairs) {
   const auto mesh = detector::make_topology(c.triangles, c.frames.front().rows());
   const int most = 3;
   const int bodies = std::min(most, static_cast<int>(mesh.components.size()));
@@ -171,7 +171,7 @@ void choose_bodies(Random& random, const corpus::Case& c, CountedPairs& pairs) {
 }
 
 // A sum of magnitudes, so that it has the same bits on every machine.
-double length_of_some_edge(Random& random, const corpus::Case& c) {
+double length_of_some_edge(Random& random, const Case& c) {
   const auto t = random.below(static_cast<int>(c.triangles.rows()));
   const auto& x = c.frames.front();
   double sum = 0;
@@ -179,8 +179,8 @@ double length_of_some_edge(Random& random, const corpus::Case& c) {
   return sum;
 }
 
-// Leaves two features of the pair out, unless the drawn ones share a vertex.
-void leave_out_features(Random& random, const corpus::Case& c, const detector::TrianglePair& pair,
+// Two features of the pair, unless those that are drawn share a vertex.
+void leave_out_features(Random& random, const Case& c, const TrianglePair& pair,
                         CountedPairs& pairs) {
   const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
   const auto rotation_of = [&](std::int32_t t) {
@@ -200,8 +200,8 @@ void leave_out_features(Random& random, const corpus::Case& c, const detector::T
 
 }  // namespace
 
-CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
-                              std::span<const detector::PairContact> in_contact) {
+CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
+                              std::span<const PairContact> in_contact) {
   CountedPairs pairs;
   pairs.level =
       random.one_in(4) ? detector::CountedLevel::features : detector::CountedLevel::triangles;
@@ -236,7 +236,7 @@ CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Ca
 }
 
 void add_relation(Random& random, RandomCase& random_case) {
-  corpus::Case& c = random_case.c;
+  Case& c = random_case.c;
   CountedPairs pairs;
   pairs.level =
       random.one_in(2) ? detector::CountedLevel::triangles : detector::CountedLevel::features;
@@ -250,7 +250,7 @@ void add_relation(Random& random, RandomCase& random_case) {
   if (!pairs.apart.empty()) random_case.tags.push_back("relation:bodies");
   if (pairs.rings > 0) random_case.tags.push_back("relation:rings");
   if (pairs.rest_distance > 0) random_case.tags.push_back("relation:rest-distance");
-  std::sort(random_case.tags.begin(), random_case.tags.end());
+  std::ranges::sort(random_case.tags);
   c.counted = corpus::CaseRelation{std::move(pairs), {}};
 }
 

@@ -6,9 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
-#include "detector/mesh/step_types.h"
 #include "properties/generators/draft.h"
 #include "properties/random.h"
 
@@ -108,10 +106,6 @@ void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 // Rounds to multiples of 2^-bits (small integers for bits = 0) after scaling by `scale`.
 void round_to_grid(Draft& draft, double scale, int bits);
-
-// Gives some vertices a coordinate that lies beside another vertex's, by 1 to 3 units of the last
-// place.
-void place_ulp_neighbours(Random& random, Draft& draft);
 
 // Adds an offset with exponents up to 40, so that low bits are rounded away.
 void move_far(Random& random, Draft& draft);
@@ -218,8 +212,8 @@ constexpr auto names_of(LeftOut) {
 // single_pairs: about every second pair of `in_contact`, or a pair of its features. near_at_rest:
 // pairs nearer than a length between an edge and 2^-10 of it, with one of the frames at rest.
 // REQUIRES that something is left out.
-detector::CountedPairs relation_without(LeftOut left_out, Random& random, const corpus::Case& c,
-                                        std::span<const detector::PairContact> in_contact);
+CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
+                              std::span<const PairContact> in_contact);
 
 // Bodies that are added to a case, far from its own.
 
@@ -230,7 +224,7 @@ detector::CountedPairs relation_without(LeftOut left_out, Random& random, const 
 // or only in the middle. The features are a vertex and a face, edge or vertex, or two edges,
 // crossing or parallel.
 struct Approach {
-  std::array<detector::MovingPoint, 3> a, b;
+  std::array<MovingPoint, 3> a, b;
 };
 Approach draw_approach(Random& random, double d);
 
@@ -238,7 +232,7 @@ Approach draw_approach(Random& random, double d);
 // expected facts of the case are dropped. A query (query_case.h) becomes one of the features of an
 // approach instead: b0 and the face a, or the edges a0a1 and b0b1. A mesh with coordinates above
 // most_aimed stays as it is. REQUIRES a step, and d from least_aimed to most_aimed.
-corpus::Case with_approach(corpus::Case c, double d, Random& random);
+Case with_approach(Case c, double d, Random& random);
 inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
 
 // A body that makes a small case large, so that a detector shares its work out to several threads.
@@ -250,6 +244,6 @@ inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
 // common vertex come within `apart`: every step has the same answer as without the sheet. In a
 // relation the sheet is a body of its own. Views and facts are dropped. Returns nothing if
 // coordinates are too large or too small.
-std::optional<corpus::Case> with_far_body(corpus::Case c, double apart);
+std::optional<Case> with_far_body(Case c, double apart);
 
 }  // namespace assay::properties

@@ -5,17 +5,14 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "detector/detector.h"
 #include "oracle/distance/step_distance.h"
+#include "oracle/mesh/pair_relation.h"
 
 namespace assay::properties {
-
-using detector::Answer;
-using detector::PairContact;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
 
 namespace {
 
@@ -47,7 +44,7 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   for (const auto& contact : missing) losses.insert(contact.pair);
   const auto is_lost = [&](const auto& contact) { return losses.contains(contact.pair); };
   for (const auto& part : contact_parts(pairs, first)) {
-    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
+    if (!std::ranges::all_of(part, is_lost)) continue;
     for (const auto& contact : part) of_lost_parts.insert(contact.pair);
   }
   const auto begin = std::stable_partition(
@@ -57,22 +54,20 @@ void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEn
   missing.erase(begin, missing.end());
 }
 
-bool is_unanswered_contact(const detector::StepResult& result, const StepTruth& truth) {
+bool is_unanswered_contact(const StepResult& result, const StepTruth& truth) {
   return (result.answer == Answer::error || result.answer == Answer::undecided) && truth.first &&
          !truth.starts_near;
 }
 
 // The parts of compare(), which states their order.
 struct Comparison {
-  Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract,
-             const detector::TrianglesView& triangles)
-      : result_(result),
-        judgement_(judgement),
-        claims_(claims),
-        contract_(contract),
-        times_{claims.has(Claim::times_unique), contract.time_tolerance},
-        truth_(truth_of(judgement, contract, triangles)) {}
+  const StepResult& result_;
+  const StepJudgement& judgement_;
+  const Claims& claims_;
+  const Contract& contract_;
+  Times times_;
+  StepTruth truth_;
+  StepDiff diff_ = {};
 
   // Returns the pairs that may be reported: those in contact, or those within the slack.
   const std::vector<PairContact>& allowed_pairs() const {
@@ -182,14 +177,6 @@ struct Comparison {
     weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);
     return std::move(diff_);
   }
-
-  const detector::StepResult& result_;
-  const oracle::StepJudgement& judgement_;
-  const Claims& claims_;
-  const Contract& contract_;
-  Times times_;
-  StepTruth truth_;
-  StepDiff diff_;
 };
 
 // The place of a finite double among all of them. -0 and 0 have the same place.
@@ -207,10 +194,14 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
   return {};
 }
 
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const Claims& claims, const Contract& contract,
-                 const detector::TrianglesView& triangles) {
-  Comparison comparison(result, judgement, claims, contract, triangles);
+StepDiff compare(const StepResult& result, const StepJudgement& judgement, const Claims& claims,
+                 const Contract& contract, const TrianglesView& triangles) {
+  Comparison comparison{result,
+                        judgement,
+                        claims,
+                        contract,
+                        {claims.has(Claim::times_unique), contract.time_tolerance},
+                        truth_of(judgement, contract, triangles)};
   auto& diff = comparison.diff_;
   auto& truth = comparison.truth_;
   diff.answer = result.answer;
@@ -234,97 +225,109 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   return comparison.weighed(diff.partial ? Outcome::undecided : Outcome::holds);
 }
 
-oracle::AskedFeatures asked_features(const Contract& contract) {
-  switch (contract.features) {
-    case TestedFeatures::both:
-      return oracle::AskedFeatures::all;
-    case TestedFeatures::vertex_face:
-      return oracle::AskedFeatures::vertex_face;
-    case TestedFeatures::edge_edge:
-      return oracle::AskedFeatures::edge_edge;
+oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& triangles,
+                                 std::initializer_list<const CountedPairs*> all) {
+  std::shared_ptr<const oracle::MeshFeatures> features;  // Relations refer to them.
+  std::vector<std::shared_ptr<const oracle::PairRelation>> relations;
+  for (const auto* pairs : all) {
+    if (!pairs || pairs->count_all()) continue;
+    if (!features)
+      features = std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(triangles));
+    relations.push_back(std::make_shared<const oracle::PairRelation>(*pairs, *features));
   }
-  return oracle::AskedFeatures::all;
+  return [&contract, triangles, features, relations](std::int32_t a, std::int32_t b) {
+    return !leaves_out(contract, triangles, {a, b}) &&
+           std::ranges::all_of(relations,
+                               [&](const auto& relation) { return relation->counts_faces(a, b); });
+  };
 }
 
-std::string stage_that_lost(const detector::TrianglesView& triangles,
-                            const detector::PositionsView& x_t0,
-                            const detector::PositionsView& x_t1, TrianglePair pair,
-                            detector::Options options) {
+std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
+                            const PositionsView& x_t1, TrianglePair pair, Options options) {
   options.start = detector::Start::unknown;
   options.pairs = detector::Pairs::all;
-  const auto finds = [&](detector::Culling culling) {
+  const auto finds = [&](Culling culling) {
     options.culling = culling;
     auto creation = detector::Detector::create(triangles, x_t0, options);
     if (!creation) return false;
     const auto result = creation.value().evaluate(x_t0, x_t1);
-    return std::any_of(result.pairs.begin(), result.pairs.end(),
-                       [&](const PairContact& contact) { return contact.pair == pair; });
+    return std::ranges::any_of(result.pairs,
+                               [&](const PairContact& contact) { return contact.pair == pair; });
   };
   constexpr Eigen::Index most_triangles_without_tree = 2000;
-  if (finds(detector::Culling::bvh)) return "view sets";
+  if (finds(Culling::bvh)) return "view sets";
   if (triangles.rows() > most_triangles_without_tree) return "pair search or elementary test";
-  return finds(detector::Culling::none) ? "pair search" : "elementary test";
+  return finds(Culling::none) ? "pair search" : "elementary test";
 }
 
-void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
-                      const Claims& claims, const Contract& contract,
-                      const detector::TrianglesView& triangles, StepDiff& diff) {
-  if (!claims.has(Claim::candidates)) return;
-  const StepTruth truth = truth_of(judgement, contract, triangles);
+namespace {
+
+void judge_candidates(const CandidatePairs* candidates, const JudgedStep& step, StepDiff& diff) {
+  if (!step.claims.has(Claim::candidates)) return;
+  const StepTruth truth = step.truth();
   diff.starts_near = truth.starts_near;
-  if (candidates) {
-    auto ours = candidates->begin();
+  const bool are_given = candidates && *candidates;
+  if (are_given) {
+    auto ours = (*candidates)->begin();
+    const auto end = (*candidates)->end();
     for (const auto& contact : truth.pairs) {
-      while (ours != candidates->end() && *ours < contact.pair) ++ours;
-      const bool is_there = ours != candidates->end() && *ours == contact.pair;
-      if (!is_there) diff.missing_candidates.push_back(contact);
+      while (ours != end && *ours < contact.pair) ++ours;
+      if (ours == end || *ours != contact.pair) diff.missing_candidates.push_back(contact);
     }
-    diff.candidates = {candidates->size(), truth.pairs.size()};
+    diff.candidates = {(*candidates)->size(), truth.pairs.size()};
   }
-  weigh(claims.only(claims_about({About::broad_phase})), diff);
-  if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+  weigh(step.claims.only(claims_about({About::broad_phase})), diff);
+  if (diff.outcome == Outcome::holds && !(are_given && step.judgement.complete)) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   }
 }
 
-StepDiff diff_of_refusal(const oracle::StepJudgement& judgement, const Claims& claims,
-                         const Contract& contract, const detector::TrianglesView& triangles) {
+StepDiff diff_of_refusal(const JudgedStep& step) {
   StepDiff diff;
   diff.answer = Answer::error;
-  diff.oracle_complete = judgement.complete;
-  const StepTruth truth = truth_of(judgement, contract, triangles);
+  diff.oracle_complete = step.judgement.complete;
+  const StepTruth truth = step.truth();
   diff.starts_near = truth.starts_near;
-  diff.overload = {static_cast<std::uint64_t>(triangles.rows()), truth.pairs.size(),
-                   judgement.feature_candidates};
-  if (beyond_capacity(contract, *diff.overload)) {
+  diff.overload = {static_cast<std::uint64_t>(step.triangles.rows()), truth.pairs.size(),
+                   step.judgement.feature_candidates};
+  if (beyond_capacity(step.contract, *diff.overload)) {
     diff.outcome = Outcome::refused;
-  } else if (!judgement.complete) {
+  } else if (!step.judgement.complete) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;
   } else {
     diff.owes_answer = true;
     diff.outcome = Outcome::error;
-    weigh(claims, diff);
+    weigh(step.claims, diff);
   }
   return diff;
 }
 
-StepDiff diff_without_answer(const detector::StepResult& result,
-                             const oracle::StepJudgement& judgement, const Claims& claims,
-                             const Contract& contract, const detector::TrianglesView& triangles) {
+StepDiff diff_without_answer(const StepResult& result, const JudgedStep& step) {
   StepDiff diff;
   diff.has_answer = false;
-  if (result.answer != detector::Answer::error) return diff;
-  diff.unanswered_contact = is_unanswered_contact(result, truth_of(judgement, contract, triangles));
+  if (result.answer != Answer::error) return diff;
+  diff.unanswered_contact = is_unanswered_contact(result, step.truth());
   diff.owes_answer = true;
   diff.outcome = Outcome::error;
-  weigh(claims, diff);
+  weigh(step.claims, diff);
   return diff;
 }
 
-using detector::Answer;
-using detector::PairContact;
+}  // namespace
+
+StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& step) {
+  if (is_over_capacity(run, place)) return diff_of_refusal(step);
+  const auto& result = run.steps[place];
+  StepDiff diff = run.has_answers
+                      ? compare(result, step.judgement, step.claims, step.contract, step.triangles)
+                      : diff_without_answer(result, step);
+  diff.oracle_complete = step.judgement.complete;
+  judge_candidates(place < run.candidates.size() ? &run.candidates[place] : nullptr, step, diff);
+  if (place < run.limits.size()) judge_limit(run.limits[place], step, diff);
+  return diff;
+}
 
 Answer StepTruth::answer() const {
   if (first) return Answer::collision;
@@ -345,19 +348,19 @@ void add_others(const std::vector<PairContact>& others, std::vector<PairContact>
 
 }  // namespace
 
-oracle::StepJudgement judge_under(const Contract& contract, const detector::SteppedMesh& motion,
-                                  const detector::TrianglesView& triangles,
-                                  oracle::JudgeOptions options) {
-  options.features = asked_features(contract);
+StepJudgement judge_under(const Contract& contract, const SteppedMesh& motion,
+                          const TrianglesView& triangles, JudgeOptions options) {
+  using enum oracle::AskedFeatures;
+  constexpr oracle::AskedFeatures asked[] = {all, vertex_face, edge_edge};  // by TestedFeatures
+  options.features = asked[static_cast<std::size_t>(contract.features)];
   auto judgement =
       contract.separation > 0
           ? oracle::judge_distance(motion, triangles, {contract.separation, 0}, {options})
           : oracle::judge_step(motion, triangles, options);
   if (contract.margin == 0 || !contract.judges_alarms()) return judgement;
-  auto slack =
-      oracle::judge_distance(motion, triangles, {contract.separation, contract.margin},
-                             {oracle::JudgeOptions{options.jobs, options.stop,
-                                                   oracle::AskedFeatures::all, options.counted}});
+  auto slack = oracle::judge_distance(
+      motion, triangles, {contract.separation, contract.margin},
+      {JudgeOptions{options.jobs, options.stop, oracle::AskedFeatures::all, options.counted}});
   judgement.complete &= slack.complete;
   // Contacts of neighbours do not count, and may be reported.
   if (contract.separation == 0) add_others(judgement.pairs, slack.pairs);
@@ -365,8 +368,8 @@ oracle::StepJudgement judge_under(const Contract& contract, const detector::Step
   return judgement;
 }
 
-StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
-                   const detector::TrianglesView& triangles) {
+StepTruth truth_of(const StepJudgement& judgement, const Contract& contract,
+                   const TrianglesView& triangles) {
   StepTruth truth;
   truth.complete = judgement.complete;
   for (const auto& contact : contract.tests_part() ? judgement.asked_pairs : judgement.pairs) {
@@ -380,9 +383,8 @@ StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contr
                         !(contact.time < counted_pair->time);
     if (!counts) truth.left_out.push_back(contact);
   }
-  const auto first =
-      std::min_element(truth.pairs.begin(), truth.pairs.end(),
-                       [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
+  const auto first = std::ranges::min_element(
+      truth.pairs, [](const PairContact& a, const PairContact& b) { return a.time < b.time; });
   if (first != truth.pairs.end()) truth.first = *first;
   truth.starts_near = contract.separation > 0 && truth.first && truth.first->time.hi == 0;
   return truth;
@@ -409,8 +411,8 @@ class Parts {
 
 }  // namespace
 
-std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
-                                       const detector::TimeEnclosure& time) {
+std::vector<ContactPart> contact_parts(const std::vector<PairContact>& pairs,
+                                       const TimeEnclosure& time) {
   Parts parts;
   for (const auto& contact : pairs) {
     if (contact.time == time) parts.join(contact.pair.a, contact.pair.b);

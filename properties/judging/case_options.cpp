@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char *limits = "limits", *asked = "asked";
 
-// Returns false for an unknown name or word; the options then stay as they are.
-bool set_option(detector::Options& options, std::string_view name, std::string_view word) {
+// False for a name or a word that is none; the options then stay as they are.
+bool set_option(Options& options, std::string_view name, std::string_view word) {
   if (name == "separation") {
     double distance = 0;
     const char* const end = word.data() + word.size();
@@ -35,10 +35,10 @@ bool set_option(detector::Options& options, std::string_view name, std::string_v
 
 }  // namespace
 
-OptionWords options_text(const detector::Options& options) {
+OptionWords options_text(const Options& options) {
   OptionWords text;
   for_each_choice(options, [&](const char* name, auto option) { text[name] = name_of(option); });
-  if (options.arithmetic == detector::Options().arithmetic) text.erase("arithmetic");
+  if (options.arithmetic == Options().arithmetic) text.erase("arithmetic");
   if (options.separation != 0) text["separation"] = fmt::format("{}", options.separation);
   return text;
 }
@@ -49,14 +49,14 @@ OptionWords configuration_text(const Configuration& configuration) {
   return text;
 }
 
-detector::Options options_of(const corpus::Case& c) {
-  detector::Options options;
+Options options_of(const Case& c) {
+  Options options;
   for (const auto& [name, word] : c.options) set_option(options, name, word);
   return options;
 }
 
-Expected<detector::Options> read_options(const corpus::Case& c) {
-  detector::Options options;
+Expected<Options> read_options(const Case& c) {
+  Options options;
   for (const auto& [name, word] : c.options) {
     if (!set_option(options, name, word)) {
       return Problem{fmt::format("option {} = '{}' is not known", name, word)};
@@ -65,7 +65,7 @@ Expected<detector::Options> read_options(const corpus::Case& c) {
   return options;
 }
 
-Expected<Configuration> read_configuration(const corpus::Case& c, std::string name) {
+Expected<Configuration> read_configuration(const Case& c, std::string name) {
   auto options = read_options(c);
   if (!options) return options.error();
   Configuration configuration{std::move(name), options.value()};

@@ -6,28 +6,25 @@
 #include <map>
 #include <string>
 
-#include "corpus/cases/case_file.h"
-#include "detector/options.h"
 #include "properties/problem.h"
-#include "properties/words.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
 
 // Reads the options that a case states; the others are the defaults. Fails at an unknown name or
 // word; the problem does not name the case's file.
-Expected<detector::Options> read_options(const corpus::Case& c);
+Expected<Options> read_options(const Case& c);
 // Reads the options as a configuration of this name.
-Expected<Configuration> read_configuration(const corpus::Case& c, std::string name);
+Expected<Configuration> read_configuration(const Case& c, std::string name);
 
 // Returns the options of a case that is known to state them correctly. Options that are not
 // understood are ignored.
-detector::Options options_of(const corpus::Case& c);
+Options options_of(const Case& c);
 
 // Return the words with which a case states these options: culling, start and pairs always, the
 // others if they are not the default.
 using OptionWords = std::map<std::string, std::string, std::less<>>;
-OptionWords options_text(const detector::Options& options);
+OptionWords options_text(const Options& options);
 OptionWords configuration_text(const Configuration& configuration);
 
 }  // namespace assay::properties

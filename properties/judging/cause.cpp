@@ -9,17 +9,9 @@
 #include "oracle/instant/instant.h"
 #include "oracle/query/contact.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/words.h"
 
 namespace assay::properties {
 namespace {
-
-using detector::FeatureKind;
-using detector::MovingPoint;
-using detector::PairContact;
-using detector::PositionsView;
-using detector::SteppedMesh;
-using detector::TrianglesView;
 
 using Rational = std::array<mpq_class, 3>;
 
@@ -38,28 +30,34 @@ bool has_no_area_by(const TrianglesView& triangles, std::int32_t triangle, const
   return is_zero_cross(u, v);
 }
 
-constexpr const char* time_words[] = {"t inside", "t at 1", "t near 0", "t at 0"};
-constexpr const char* shape_words[] = {"generic",
-                                       "double root",
-                                       "at the end of a feature",
-                                       "coplanar throughout",
-                                       "parallel edges",
-                                       "without area",
-                                       "distance to a face",
-                                       "distance of two edges",
-                                       "distance to an edge",
-                                       "distance of two vertices",
-                                       "beyond the distance"};
-constexpr const char* number_words[] = {"ordinary numbers", "tiny numbers", "huge numbers"};
-constexpr const char* sharing_words[] = {"sharing nothing", "sharing a vertex", "sharing an edge"};
-constexpr const char* at_rest = "at rest";
-constexpr const char* near_start = "near contact at the start";
+// The words of a cause. Each list goes from the most ordinary to the oddest, and what is not worth
+// a word is empty.
+constexpr const char *inside = "t inside", *at_1 = "t at 1", *near_0 = "t near 0", *at_0 = "t at 0";
+constexpr const char* time_words[] = {inside, at_1, near_0, at_0};
 
-CauseTime time_of(const detector::TimeEnclosure& t) {
+constexpr const char *generic = "generic", *double_root = "double root",
+                     *at_end_of_feature = "at the end of a feature",
+                     *coplanar_throughout = "coplanar throughout",
+                     *parallel_edges = "parallel edges", *without_area = "without area",
+                     *distance_to_face = "distance to a face",
+                     *distance_of_edges = "distance of two edges",
+                     *distance_to_edge = "distance to an edge",
+                     *distance_of_vertices = "distance of two vertices",
+                     *beyond_distance = "beyond the distance";
+constexpr const char* shape_words[] = {
+    generic,          double_root,          at_end_of_feature, coplanar_throughout,
+    parallel_edges,   without_area,         distance_to_face,  distance_of_edges,
+    distance_to_edge, distance_of_vertices, beyond_distance};
+
+constexpr const char* number_words[] = {"", "tiny numbers", "huge numbers"};
+constexpr const char* sharing_words[] = {"", "sharing a vertex", "sharing an edge"};
+constexpr const char *at_rest = "at rest", *near_start = "near contact at the start";
+
+const char* time_of(const TimeEnclosure& t) {
   constexpr double thousandth = 0x1p-10, last_units = 0x1p-40;
-  if (t.hi == 0) return CauseTime::at_0;
-  if (t.lo >= 1 - last_units) return CauseTime::at_1;
-  return t.hi <= thousandth ? CauseTime::near_0 : CauseTime::inside;
+  if (t.hi == 0) return at_0;
+  if (t.lo >= 1 - last_units) return at_1;
+  return t.hi <= thousandth ? near_0 : inside;
 }
 
 // A distance that is this share of the extent: of the longest side of the box around all vertices
@@ -72,34 +70,22 @@ double share_of_extent(const PositionsView& x, double share) {
   return half * (2 * share);
 }
 
-CauseShape shape_of(oracle::ContactShape shape) {
-  switch (shape) {
-    case oracle::ContactShape::parallel_edges:
-      return CauseShape::parallel_edges;
-    case oracle::ContactShape::coplanar_throughout:
-      return CauseShape::coplanar_throughout;
-    case oracle::ContactShape::double_root:
-      return CauseShape::double_root;
-    case oracle::ContactShape::at_end_of_feature:
-      return CauseShape::at_end_of_feature;
-    case oracle::ContactShape::generic:
-      break;
-  }
-  return CauseShape::generic;
+const char* word_of(oracle::ContactShape shape) {
+  constexpr const char* words[] = {parallel_edges, coplanar_throughout, double_root,
+                                   at_end_of_feature, generic};
+  return words[static_cast<std::size_t>(shape)];
 }
 
 // The two triangles of a pair during a step.
 class PairOfStep {
  public:
-  PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair)
-      : triangles_(triangles), motion_(motion), pair_(pair), faces_{pair.a, pair.b} {}
-
-  // Says that the pair holds the two features of a query. Then only the vertices of these features
-  // count, and of the triangles only the face.
-  void set_query(const detector::Feature& features) {
-    query_ = features;
-    faces_.clear();
-    if (features.kind == FeatureKind::vertex_face) faces_.push_back(pair_.b);
+  // `query`: the pair holds the two features of a query. Of its vertices these alone count, and of
+  // its triangles the face alone.
+  PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
+             const std::optional<Feature>& query)
+      : triangles_(triangles), motion_(motion), pair_(pair), query_(query) {
+    if (!query || query->kind == FeatureKind::vertex_face) faces_.push_back(pair.b);
+    if (!query) faces_.push_back(pair.a);
   }
 
   MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
@@ -110,12 +96,11 @@ class PairOfStep {
   }
 
   bool moves() const {
-    return std::any_of(std::begin(corners), std::end(corners), [&](int k) {
-      return moves(corner(pair_.a, k)) || moves(corner(pair_.b, k));
-    });
+    return std::ranges::any_of(
+        corners, [&](int k) { return moves(corner(pair_.a, k)) || moves(corner(pair_.b, k)); });
   }
 
-  CauseNumbers numbers() const {
+  const char* numbers() const {
     bool is_tiny = false, is_huge = false;
     for (const auto triangle : {pair_.a, pair_.b}) {
       for (const int k : corners) {
@@ -128,25 +113,21 @@ class PairOfStep {
         }
       }
     }
-    return is_huge ? CauseNumbers::huge : is_tiny ? CauseNumbers::tiny : CauseNumbers::ordinary;
+    return number_words[is_huge ? 2 : is_tiny ? 1 : 0];
   }
 
-  CauseSharing sharing() const {
-    if (query_) return CauseSharing::nothing;
-    int shared = 0;
-    for (const int k : corners) {
-      for (const int l : corners) shared += corner(pair_.a, k) == corner(pair_.b, l);
-    }
-    return static_cast<CauseSharing>(std::min(shared, 2));
+  const char* sharing() const {
+    const int shared = query_ ? 0 : shared_vertices(triangles_, pair_);
+    return sharing_words[std::min(shared, 2)];
   }
 
   bool is_near_at_start() const {
     constexpr double near_share = 1e-5;
     const auto& x = motion_.vertices_t0;
     if (query_) {
-      detector::FourPoints q;
+      FourPoints q;
       q.first_group = query_->kind == FeatureKind::vertex_face ? 1 : 2;
-      detector::Positions places(4, 3);
+      Positions places(4, 3);
       for (std::size_t i = 0; i < 4; ++i) {
         q.points[i] = path(query_->vertices[i]);
         places.row(static_cast<Eigen::Index>(i)) = x.row(query_->vertices[i]);
@@ -154,14 +135,14 @@ class PairOfStep {
       const double distance = share_of_extent(places, near_share);
       return distance > 0 && !start_apart(q, distance);
     }
-    detector::Triangles two(2, 3);
+    Triangles two(2, 3);
     two << triangles_.row(pair_.a), triangles_.row(pair_.b);
     const double distance = share_of_extent(x, near_share);
     return distance > 0 && oracle::any_nearer_than(x, two, distance,
                                                    [](std::int32_t, std::int32_t) { return true; });
   }
 
-  bool is_without_area(const detector::TimeEnclosure& t) const {
+  bool is_without_area(const TimeEnclosure& t) const {
     for (const auto triangle : faces_) {
       if (has_no_area(triangle, motion_.vertices_t0) || has_no_area(triangle, motion_.vertices_t1))
         return true;
@@ -171,20 +152,20 @@ class PairOfStep {
   }
 
   // Tells what is special about the contact of these two features.
-  CauseShape shape(const PairContact& contact, bool of_distance) const {
-    if (is_without_area(contact.time)) return CauseShape::without_area;
+  const char* shape(const PairContact& contact, bool of_distance) const {
+    if (is_without_area(contact.time)) return without_area;
     const auto& v = contact.feature.vertices;
     if (of_distance) return shape_of_distance(contact);
     if (contact.feature.kind == FeatureKind::vertex_face) {
-      return shape_of(oracle::shape_of(
+      return word_of(oracle::shape_of(
           detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}}, contact.time));
     }
-    return shape_of(oracle::shape_of(
+    return word_of(oracle::shape_of(
         detector::EdgeEdge{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}}, contact.time));
   }
 
  private:
-  CauseShape shape_of_distance(const PairContact& contact) const {
+  const char* shape_of_distance(const PairContact& contact) const {
     const auto& v = contact.feature.vertices;
     const bool is_vertex_face = contact.feature.kind == FeatureKind::vertex_face;
     const auto places = oracle::closest_places(
@@ -193,15 +174,15 @@ class PairOfStep {
     const auto is_inside = [](double share) { return 0 < share && share < 1; };
     const bool first = is_inside(places.first), second = is_inside(places.second);
     if (!is_vertex_face) {
-      return first && second   ? CauseShape::distance_of_edges
-             : first || second ? CauseShape::distance_to_edge
-                               : CauseShape::distance_of_vertices;
+      return first && second   ? distance_of_edges
+             : first || second ? distance_to_edge
+                               : distance_of_vertices;
     }
     const bool beside_first = is_inside(1 - places.first - places.second);
     const int corners_held = (places.first > 0) + (places.second > 0) + beside_first;
-    return corners_held == 3   ? CauseShape::distance_to_face
-           : corners_held == 2 ? CauseShape::distance_to_edge
-                               : CauseShape::distance_of_vertices;
+    return corners_held == 3   ? distance_to_face
+           : corners_held == 2 ? distance_to_edge
+                               : distance_of_vertices;
   }
 
   static constexpr int corners[] = {0, 1, 2};
@@ -223,67 +204,42 @@ class PairOfStep {
 
   const TrianglesView& triangles_;
   const SteppedMesh& motion_;
-  const detector::TrianglePair pair_;
+  const TrianglePair pair_;
   std::vector<std::int32_t> faces_;
-  std::optional<detector::Feature> query_;
+  std::optional<Feature> query_;
 };
 
-Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact, bool of_distance) {
-  Cause cause{time_of(contact.time), false, std::nullopt, pair.numbers(), pair.sharing()};
-  cause.is_near_at_start = cause.time != CauseTime::at_0 && pair.is_near_at_start();
-  for (const std::int32_t v : contact.feature.vertices) cause.is_moving |= v >= 0 && pair.moves(v);
-  const bool has_shape = contact.feature.kind == FeatureKind::vertex_face ||
-                         contact.feature.kind == FeatureKind::edge_edge;
-  if (has_shape) cause.shape = pair.shape(contact, of_distance);
-  // Features that rest and meet are coplanar anyway, so that says nothing.
-  if (!cause.is_moving && cause.shape == CauseShape::coplanar_throughout)
-    cause.shape = CauseShape::generic;
-  return cause;
-}
-
-Cause cause_without_contact(const PairOfStep& pair, bool of_distance) {
-  Cause cause{std::nullopt,   pair.moves(),   std::nullopt,
-              pair.numbers(), pair.sharing(), pair.is_near_at_start()};
-  if (of_distance) cause.shape = CauseShape::beyond_distance;
-  return cause;
+std::string joined(std::initializer_list<std::string_view> words) {
+  std::string text;
+  for (const auto word : words) {
+    if (!word.empty()) text.append(text.empty() ? "" : ", ").append(word);
+  }
+  return text;
 }
 
 }  // namespace
 
-Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
-               const PairContact& contact, bool of_distance) {
-  return cause_of_contact({triangles, motion, contact.pair}, contact, of_distance);
+std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
+                     const PairContact& contact, bool of_distance, bool of_query) {
+  const auto& [kind, vertices] = contact.feature;
+  const PairOfStep pair(triangles, motion, contact.pair,
+                        of_query ? std::optional(contact.feature) : std::nullopt);
+  const char* const time = time_of(contact.time);
+  const bool moves =
+      std::ranges::any_of(vertices, [&](std::int32_t v) { return v >= 0 && pair.moves(v); });
+  const bool has_shape = kind == FeatureKind::vertex_face || kind == FeatureKind::edge_edge;
+  const char* shape = has_shape ? pair.shape(contact, of_distance) : "";
+  // Features that rest and meet are coplanar anyway, so that says nothing.
+  if (!moves && shape == coplanar_throughout) shape = generic;
+  return joined({time, moves ? "moving" : at_rest, shape, pair.sharing(),
+                 time != at_0 && pair.is_near_at_start() ? near_start : "", pair.numbers()});
 }
 
-Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
-                     const PairContact& contact, bool of_distance) {
-  PairOfStep pair(triangles, motion, contact.pair);
-  pair.set_query(contact.feature);
-  return cause_of_contact(pair, contact, of_distance);
-}
-
-Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
-                     const detector::Feature& features, bool of_distance) {
-  PairOfStep pair(triangles, motion, {0, 1});
-  pair.set_query(features);
-  return cause_without_contact(pair, of_distance);
-}
-
-Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
-               detector::TrianglePair pair, bool of_distance) {
-  return cause_without_contact({triangles, motion, pair}, of_distance);
-}
-
-std::string text_of(const Cause& cause) {
-  std::string text;
-  const auto add = [&](const char* word) { text.append(text.empty() ? "" : ", ").append(word); };
-  if (cause.time) add(word_of(time_words, *cause.time));
-  add(cause.is_moving ? "moving" : at_rest);
-  if (cause.shape) add(word_of(shape_words, *cause.shape));
-  if (cause.sharing != CauseSharing::nothing) add(word_of(sharing_words, cause.sharing));
-  if (cause.is_near_at_start) add(near_start);
-  if (cause.numbers != CauseNumbers::ordinary) add(word_of(number_words, cause.numbers));
-  return text;
+std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair of,
+                     bool of_distance, const std::optional<Feature>& query) {
+  const PairOfStep pair(triangles, motion, of, query);
+  return joined({pair.moves() ? "moving" : at_rest, of_distance ? beyond_distance : "",
+                 pair.sharing(), pair.is_near_at_start() ? near_start : "", pair.numbers()});
 }
 
 int oddity_of(std::string_view signature) {

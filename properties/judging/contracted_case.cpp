@@ -6,9 +6,8 @@
 #include <map>
 
 #include "oracle/distance/feature_distance.h"
-#include "oracle/instant/instant.h"
-#include "oracle/mesh/pair_relation.h"
 #include "properties/changes/changes.h"
+#include "properties/judging/agreement.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -17,28 +16,20 @@ namespace {
 
 // Returns a pair of triangles because of which the contract does not take a step that starts with
 // the mesh at x. Only pairs that count, and that the detector tests, are looked at.
-std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsView& x,
-                                                    const corpus::Case& c,
-                                                    const Contract& contract) {
+std::optional<TrianglePair> pair_too_near(const PositionsView& x, const Case& c,
+                                          const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
   const auto own = tested_pairs(contract, c.frames.front());
-  oracle::MeshFeatures features;
-  std::optional<oracle::PairRelation> tested, counted_relation;
-  if (c.counted || !own.count_all()) features = oracle::mesh_features(c.triangles);
-  if (!own.count_all()) tested.emplace(own, features);
-  if (c.counted) counted_relation.emplace(c.counted->pairs, features);
-  return oracle::any_nearer_than(x, c.triangles, distance, [&](std::int32_t a, std::int32_t b) {
-    return !leaves_out(contract, c.triangles, {a, b}) && (!tested || tested->counts_faces(a, b)) &&
-           (!counted_relation || counted_relation->counts_faces(a, b));
-  });
+  return oracle::any_nearer_than(x, c.triangles, distance,
+                                 counted_under(contract, c.triangles, {&own, counted_of(c)}));
 }
 
-// Rounds the relation to the detector's coordinates. If the detector takes no relation, every pair
-// counts, and only the bodies stay, because they name triangles. Returns whether all numbers are
-// finite.
-bool contract_relation(corpus::Case& c, const Contract& contract) {
+// The relation as the detector sees it: as coarse as its coordinates. If it can be told none, every
+// pair counts, and what is left are the bodies, because they name triangles. Returns whether it can
+// be so.
+bool contract_relation(Case& c, const Contract& contract) {
   if (c.counted && !contract.takes_relations) {
-    detector::CountedPairs names;
+    CountedPairs names;
     names.body = std::move(c.counted->pairs.body);
     c.counted.reset();
     if (!names.body.empty()) c.counted.emplace(corpus::CaseRelation{std::move(names), {}});
@@ -56,17 +47,16 @@ bool contract_relation(corpus::Case& c, const Contract& contract) {
 }
 
 // Why the contract does not take the mesh at these places, rounded already; empty if it does.
-std::string why_no_frame(const detector::PositionsView& x, const std::vector<Edge>& edges,
+std::string why_no_frame(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract) {
   if (!x.allFinite()) return "a coordinate has no float32";
   return beyond_range(x, edges, contract);
 }
 
 // The exact end of a displacement; nothing if it is no double.
-std::optional<detector::Positions> exact_end(const detector::Positions& x,
-                                             const detector::Positions& to) {
-  const detector::Positions way = displacement(x, to), end = x + way;
-  // If the sum was rounded, taking one part away does not give the other part.
+std::optional<Positions> exact_end(const Positions& x, const Positions& to) {
+  const Positions way = displacement(x, to), end = x + way;
+  // What is rounded is not the same when either part is taken away again.
   if (!end.allFinite() || end - x != way || end - way != x) return std::nullopt;
   return end;
 }
@@ -74,9 +64,9 @@ std::optional<detector::Positions> exact_end(const detector::Positions& x,
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
 // displacement that leads nearest to the end in `original`. Steps whose sum is no double are
 // left out. False if all are. A mesh at rest stays the first frame where the contract goes by it.
-bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& contract) {
+bool hold_displacements(Case& c, Case original, const Contract& contract) {
   std::vector<std::size_t> exact;
-  auto steps = corpus::steps_of(c);
+  auto steps = steps_of(c);
   for (std::size_t s = 0; s < steps.size(); ++s) {
     if (exact_end(start_of(c, steps[s]), end_of(original, steps[s]))) exact.push_back(s);
   }
@@ -84,10 +74,10 @@ bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& 
   if (exact.size() < steps.size()) {
     c = with_steps(c, exact, contract);
     original = with_steps(original, exact, contract);
-    steps = corpus::steps_of(c);
+    steps = steps_of(c);
   }
-  std::vector<detector::Positions> frames;
-  std::vector<corpus::CaseStep> script;
+  std::vector<Positions> frames;
+  std::vector<CaseStep> script;
   if (contract.rest_distance > 0) frames.push_back(c.frames.front());
   for (const auto& step : steps) {
     const auto& x = start_of(c, step);
@@ -103,16 +93,16 @@ bool hold_displacements(corpus::Case& c, corpus::Case original, const Contract& 
   if (c.script == corpus::consecutive_steps(c.frames.size())) c.script.clear();
   c.view.reset();
   c.ghosts.reset();
-  if (c.expected.answer != detector::Answer::error) c.expected = {};
+  if (c.expected.answer != Answer::error) c.expected = {};
   return true;
 }
 
-// Whether a caller can stop at x_t0 + share (x_t1 - x_t0): x_t1 - x_t0 is finite in the contract's
-// coordinates, in each step.
-bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
-  const auto steps = corpus::steps_of(c);
-  return std::all_of(steps.begin(), steps.end(), [&](const corpus::CaseStep& step) {
-    const detector::Positions way = end_of(c, step) - start_of(c, step);
+// Whether who stops at x_t0 + share (x_t1 - x_t0) can: each way of each step is a number of the
+// contract's coordinates.
+bool ways_are_finite(const Case& c, const Contract& contract) {
+  const auto steps = steps_of(c);
+  return std::ranges::all_of(steps, [&](const CaseStep& step) {
+    const Positions way = end_of(c, step) - start_of(c, step);
     return contract.coordinates == Coordinates::float32 ? way.cast<float>().allFinite()
                                                         : way.allFinite();
   });
@@ -120,15 +110,14 @@ bool ways_are_finite(const corpus::Case& c, const Contract& contract) {
 
 }  // namespace
 
-corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
-                        const Contract& contract) {
-  const auto steps = corpus::steps_of(c);
-  corpus::Case out = c;
+Case with_steps(const Case& c, const std::vector<std::size_t>& places, const Contract& contract) {
+  const auto steps = steps_of(c);
+  Case out = c;
   out.expected.steps.clear();
-  if (out.expected.answer != detector::Answer::error) out.expected.answer.reset();
+  if (out.expected.answer != Answer::error) out.expected.answer.reset();
   if (out.counted) out.counted->steps.clear();
   Numbers frames;
-  std::vector<corpus::CaseStep> script;
+  std::vector<CaseStep> script;
   if (contract.rest_distance > 0) frames.push_back(0);
   for (const std::size_t place : places) {
     script.push_back(steps[place]);
@@ -141,12 +130,12 @@ corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& p
   return out;
 }
 
-double extent_of(const corpus::Case& c) {
+double extent_of(const Case& c) {
   const auto& x = c.frames.front();
   return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
 }
 
-std::vector<Edge> edges_of(const corpus::Case& c) {
+std::vector<Edge> edges_of(const Case& c) {
   if (const auto query = says_query(c) ? query_of(c) : std::nullopt) {
     if (query->first_group == 1) return {{1, 2}, {2, 3}, {3, 1}};
     return {{0, 1}, {2, 3}};
@@ -158,14 +147,14 @@ std::vector<Edge> edges_of(const corpus::Case& c) {
   return edges;
 }
 
-std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract& contract) {
-  corpus::Case out = c;
+std::optional<Case> contract_case(const Case& c, const Contract& contract) {
+  Case out = c;
   const auto edges = edges_of(c);
   if (!contract_relation(out, contract)) return std::nullopt;
   for (auto& frame : out.frames) {
-    detector::Positions positions = round_to(frame, contract.coordinates);
-    // Facts about the given coordinates need not hold for the rounded ones.
-    if (positions != frame && out.expected.answer != detector::Answer::error) {
+    Positions positions = round_to(frame, contract.coordinates);
+    // Facts about other coordinates are none about these.
+    if (positions != frame && out.expected.answer != Answer::error) {
       out.expected = {};
       if (out.counted) out.counted->steps.clear();
     }
@@ -181,7 +170,7 @@ std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract&
     return query && takes(contract, *query) ? std::optional(out) : std::nullopt;
   }
   if (contract.start == StartRule::any) return out;
-  const auto steps = corpus::steps_of(out);
+  const auto steps = steps_of(out);
   std::map<std::int32_t, bool> may_start;  // by frame
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < steps.size(); ++s) {
@@ -194,7 +183,7 @@ std::optional<corpus::Case> contract_case(const corpus::Case& c, const Contract&
   return with_steps(out, places, contract);
 }
 
-std::string why_left_out(const corpus::Case& c, const Contract& contract) {
+std::string why_left_out(const Case& c, const Contract& contract) {
   const auto edges = edges_of(c);
   std::size_t number = 0;
   for (const auto& frame : c.frames) {
@@ -216,11 +205,11 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
                          query_word(*query));
     return fmt::format("start {}: the two features start {}", start, distance);
   }
-  const auto steps = corpus::steps_of(c);
+  const auto steps = steps_of(c);
   const auto x = round_to(start_of(c, steps.front()), contract.coordinates);
-  corpus::Case contracted_case = c;
+  Case contracted_case = c;
   for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
-  if (corpus::Case displaced = contracted_case;
+  if (Case displaced = contracted_case;
       contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
     return "motion displacement: the end of every step is no double";
   if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
@@ -233,8 +222,6 @@ std::string why_left_out(const corpus::Case& c, const Contract& contract) {
       steps.size() > 1 ? "step 1 starts, and every other step starts so" : "the step starts");
 }
 
-using detector::FourPoints;
-
 bool start_apart(const FourPoints& q, double distance) {
   // Two triangles of the two features. Where a feature is a point or a segment, so is its triangle.
   // The triangles are then as near to each other as the features.
@@ -242,24 +229,20 @@ bool start_apart(const FourPoints& q, double distance) {
   const std::array<std::size_t, 6> corners = is_vertex_face
                                                  ? std::array<std::size_t, 6>{0, 0, 0, 1, 2, 3}
                                                  : std::array<std::size_t, 6>{0, 1, 1, 2, 3, 3};
-  detector::Positions x(6, 3);
-  for (int v = 0; v < 6; ++v) {
-    const auto& at = q.points[corners[static_cast<std::size_t>(v)]].t0;
-    x.row(v) << at[0], at[1], at[2];
-  }
-  detector::Triangles triangles(2, 3);
-  triangles << 0, 1, 2, 3, 4, 5;
-  return !oracle::any_nearer_than(x, triangles, distance,
+  std::vector<Point> x;
+  for (const auto corner : corners) x.push_back(q.points[corner].t0);
+  const Triangles triangles{{0, 1, 2}, {3, 4, 5}};
+  return !oracle::any_nearer_than(as_rows<Positions>(x), triangles, distance,
                                   [](std::int32_t, std::int32_t) { return true; });
 }
 
-oracle::StepJudgement judge_query(const FourPoints& query, const Contract& contract) {
-  oracle::StepJudgement judgement;
+StepJudgement judge_query(const FourPoints& query, const Contract& contract) {
+  StepJudgement judgement;
   judgement.complete = true;
   judgement.feature_candidates = 1;
   // The two features as a pair, if they meet.
-  const auto pair_at = [&](bool meet, const detector::TimeEnclosure& first) {
-    std::vector<detector::PairContact> pairs;
+  const auto pair_at = [&](bool meet, const TimeEnclosure& first) {
+    std::vector<PairContact> pairs;
     if (!meet) return pairs;
     pairs.push_back({{0, 1}, first, features_of(query)});
     return pairs;
@@ -269,7 +252,7 @@ oracle::StepJudgement judge_query(const FourPoints& query, const Contract& contr
     judgement.rungs.add(answer.rung);
     judgement.pairs = pair_at(answer.near, answer.first);
   } else {
-    const auto answer = oracle::contact_of(query, detector::Want::first_time);
+    const auto answer = oracle::contact_of(query, Want::first_time);
     judgement.rungs.add(answer.rung);
     judgement.pairs = pair_at(answer.contact, answer.first);
   }
@@ -278,7 +261,7 @@ oracle::StepJudgement judge_query(const FourPoints& query, const Contract& contr
     judgement.within_slack = pair_at(slack.near, slack.first);
   }
   judgement.asked_pairs = judgement.pairs;
-  judgement.answer = judgement.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
+  judgement.answer = judgement.pairs.empty() ? Answer::free : Answer::collision;
   if (!judgement.pairs.empty()) judgement.first = judgement.pairs.front().time;
   return judgement;
 }

@@ -24,8 +24,7 @@ std::uint64_t time_of(const Work& work) {
 }
 
 bool has_an_answer(const CaseResults& results) {
-  return std::any_of(results.runs.begin(), results.runs.end(),
-                     [](const CaseRun& run) { return !run.steps.empty(); });
+  return std::ranges::any_of(results.runs, [](const CaseRun& run) { return !run.steps.empty(); });
 }
 
 // The worse of two outcomes.
@@ -33,9 +32,7 @@ Outcome worse(Outcome a, Outcome b) {
   // A case with a refused step says nothing, even if its other steps hold.
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::refused, Outcome::undecided,
                                    Outcome::error, Outcome::defect};
-  const auto rank = [&](Outcome outcome) {
-    return std::find(std::begin(ascending), std::end(ascending), outcome);
-  };
+  const auto rank = [&](Outcome outcome) { return std::ranges::find(ascending, outcome); };
   return rank(a) < rank(b) ? b : a;
 }
 
@@ -55,18 +52,17 @@ void not_answered(Verdict& verdict, const Claims& claims) {
 
 // Which pairs of a case count, and which of them its contract tests, for the oracle.
 struct AskedPairs {
-  AskedPairs(const corpus::Case& c, const Contract& contract, int jobs)
+  AskedPairs(const Case& c, const Contract& contract, int jobs)
       : tested(tested_pairs(contract, c.frames.front())),
-        options{jobs, {}, {}, corpus::counted_of(c), &tested} {}
-  detector::CountedPairs tested;
-  oracle::JudgeOptions options;
+        options{jobs, {}, {}, counted_of(c), &tested} {}
+  CountedPairs tested;
+  JudgeOptions options;
 };
 
-std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c, const Contract& contract,
-                                               int jobs) {
+std::vector<StepJudgement> judge_steps(const Case& c, const Contract& contract, int jobs) {
   const AskedPairs pairs(c, contract, jobs);
-  std::vector<oracle::StepJudgement> judgements;
-  for (const auto& step : corpus::steps_of(c)) {
+  std::vector<StepJudgement> judgements;
+  for (const auto& step : steps_of(c)) {
     judgements.push_back(
         judge_under(contract, {start_of(c, step), end_of(c, step)}, c.triangles, pairs.options));
   }
@@ -118,7 +114,7 @@ void judge(const Exam& exam, CaseResults& results) {
   }
 }
 
-CaseResults examine(const Exam& exam, corpus::Case c) {
+CaseResults examine(const Exam& exam, Case c) {
   CaseResults results;
   results.c = std::move(c);
   run_first(exam, results);
@@ -127,7 +123,7 @@ CaseResults examine(const Exam& exam, corpus::Case c) {
   return results;
 }
 
-std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cases) {
+std::vector<CaseResults> examine(const Exam& exam, std::vector<Case> cases) {
   const auto runs = [&](WorkerProcess& worker) {
     auto all = worker.run(cases, exam.configurations);
     std::vector<std::vector<CaseRun>> by_case(cases.size());
@@ -138,10 +134,10 @@ std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cas
   auto first = runs(*exam.worker);
   std::vector<std::vector<CaseRun>> again(cases.size());
   if (exam.second) {
-    std::reverse(cases.begin(), cases.end());
+    std::ranges::reverse(cases);
     again = runs(*exam.second);
-    std::reverse(cases.begin(), cases.end());
-    std::reverse(again.begin(), again.end());
+    std::ranges::reverse(cases);
+    std::ranges::reverse(again);
   }
   std::vector<CaseResults> results(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -154,47 +150,23 @@ std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cas
   return results;
 }
 
-CaseRun run_alone(WorkerProcess& worker, const corpus::Case& c,
-                  const Configuration& configuration) {
+CaseRun run_alone(WorkerProcess& worker, const Case& c, const Configuration& configuration) {
   return std::move(worker.run(c, {&configuration, 1}).front());
 }
 
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c) {
-  return judge_steps(c, {}, 1);
-}
+std::vector<StepJudgement> judge_case(const Case& c) { return judge_steps(c, {}, 1); }
 
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
-                                              int jobs) {
+std::vector<StepJudgement> judge_case(const Case& c, const Contract& contract, int jobs) {
   if (const auto query = query_of(c)) return {judge_query(*query, contract)};
   return judge_steps(c, contract, jobs);
 }
 
-StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
-                   const Contract& contract) {
+StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract& contract) {
   return truth_of(judgement, says_query(c) ? on_queries(contract) : contract, c.triangles);
 }
 
-StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& step,
-                    const oracle::StepJudgement& judgement, const Claims& claims,
-                    const Contract& contract) {
-  const auto& triangles = step.triangles;
-  if (is_over_capacity(run, place)) return diff_of_refusal(judgement, claims, contract, triangles);
-  const auto& result = run.steps[place];
-  StepDiff diff = run.has_answers
-                      ? compare(result, judgement, claims, contract, triangles)
-                      : diff_without_answer(result, judgement, claims, contract, triangles);
-  diff.oracle_complete = judgement.complete;
-  const CandidatePairs none;
-  const auto& candidates = place < run.candidates.size() ? run.candidates[place] : none;
-  judge_candidates(candidates, judgement, claims, contract, triangles, diff);
-  if (place < run.limits.size())
-    judge_limit(run.limits[place], step, judgement, claims, contract, diff);
-  return diff;
-}
-
-Verdict judge_run(const corpus::Case& c, const CaseRun& run,
-                  std::span<const oracle::StepJudgement> judgements, const Claims& claims,
-                  const Contract& contract, const CaseRun* again) {
+Verdict judge_run(const Case& c, const CaseRun& run, std::span<const StepJudgement> judgements,
+                  const Claims& claims, const Contract& contract, const CaseRun* again) {
   Verdict verdict;
   verdict.explanation = run.explanation;
   verdict.disturbances = run.disturbances + (again ? again->disturbances : 0);
@@ -205,7 +177,7 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
       not_answered(verdict, claims);
       break;
     case RunEnd::refused:
-      if (c.expected.answer != detector::Answer::error) not_answered(verdict, claims);
+      if (c.expected.answer != Answer::error) not_answered(verdict, claims);
       break;
     case RunEnd::beyond_capacity: {
       const StepLoad load = {static_cast<std::uint64_t>(c.triangles.rows()), 0, 0};
@@ -225,14 +197,17 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
       return verdict;
   }
   const Contract of_case = says_query(c) ? on_queries(contract) : contract;
-  const auto script = corpus::steps_of(c);
-  const detector::TrianglesView triangles(c.triangles);
+  const auto script = steps_of(c);
   std::optional<AskedPairs> pairs;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
     if (!pairs) pairs.emplace(c, contract, 1);
-    const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
-    auto diff =
-        judge_step(run, s, {motion, triangles, pairs->options}, judgements[s], claims, of_case);
+    auto diff = judge_step(run, s,
+                           {{start_of(c, script[s]), end_of(c, script[s])},
+                            c.triangles,
+                            pairs->options,
+                            judgements[s],
+                            claims,
+                            of_case});
     verdict.outcome = worse(verdict.outcome, diff.outcome);
     for (const auto claim : diff.breaches) add_broken(verdict, claim);
     verdict.left_out_misses += diff.left_out_missed ? 1 : 0;
@@ -258,31 +233,23 @@ Verdict judge_run(const corpus::Case& c, const CaseRun& run,
   return verdict;
 }
 
-using detector::Answer;
-using detector::Arithmetic;
-using detector::Culling;
-using detector::ViewSign;
-
 namespace {
 
-std::string time_text(const detector::TimeEnclosure& t) {
-  return fmt::format("[{}, {}]", t.lo, t.hi);
-}
+std::string time_text(const TimeEnclosure& t) { return fmt::format("[{}, {}]", t.lo, t.hi); }
 
-class CaseChecker {
- public:
-  CaseChecker(const corpus::Case& c, const detector::Options& options, int jobs)
-      : jobs_(jobs),
-        configuration_{"", options},
-        detector_(built_in_detector().in(configuration_)),
-        claims_(detector_.claims_in(configuration_)),
-        check_{examine({.detector = detector_,
-                        .configurations = {&configuration_, 1},
-                        .oracle_jobs = jobs,
-                        .needs_an_answer = true},
-                       c)},
-        case_(check_.c),
-        script_(corpus::steps_of(case_)) {}
+struct CaseChecker {
+  const Case& given_;
+  const Configuration configuration_;
+  const int jobs_;
+  const DetectorUnderTest detector_ = built_in_detector().in(configuration_);
+  const Claims claims_ = detector_.claims_in(configuration_);
+  CaseCheck check_ = {examine({.detector = detector_,
+                               .configurations = {&configuration_, 1},
+                               .oracle_jobs = jobs_,
+                               .needs_an_answer = true},
+                              given_)};
+  const Case& case_ = check_.c;
+  const std::vector<CaseStep> script_ = steps_of(case_);
 
   CaseCheck run() {
     const auto& run = check_.runs[0];
@@ -310,7 +277,7 @@ class CaseChecker {
  private:
   void fail(std::string fact) { check_.broken_facts.push_back(std::move(fact)); }
 
-  detector::SteppedMesh motion(std::size_t s) const {
+  SteppedMesh motion(std::size_t s) const {
     return {start_of(case_, script_[s]), end_of(case_, script_[s])};
   }
 
@@ -328,11 +295,11 @@ class CaseChecker {
       check_facts(where + "of what counts: ", case_.counted->steps[s], truth);
     if (uses_views(configuration_.options.culling) && claims_.has(Claim::free_sound))
       check_signs(where, s, check_.runs[0].steps[s]);
-    if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
+    if (const auto view = view_of_step(case_, s)) check_expected_signs(where, s, *view);
   }
 
   void check_facts(const std::string& where, const corpus::ExpectedStep& expected,
-                   const oracle::StepJudgement& judgement) {
+                   const StepJudgement& judgement) {
     if (judgement.answer != expected.answer) {
       fail(fmt::format("{}oracle answers {}, expected {}", where, name_of(judgement.answer),
                        name_of(expected.answer)));
@@ -352,7 +319,7 @@ class CaseChecker {
 
   // Compares the detector's own signs with the oracle's, for the primitives that the detector
   // used.
-  void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
+  void check_signs(const std::string& where, std::size_t s, const StepResult& result) {
     if (result.answer == Answer::error) return;
     // A step that chose to do without views has no signs.
     if (detector::chooses_views(configuration_.options.culling) && result.signs.empty()) return;
@@ -373,8 +340,7 @@ class CaseChecker {
     }
   }
 
-  void check_expected_signs(const std::string& where, std::size_t s,
-                            const detector::ViewPrimitive& view) {
+  void check_expected_signs(const std::string& where, std::size_t s, const ViewPrimitive& view) {
     if (s >= case_.expected.steps.size() || !case_.expected.steps[s].view_signs) return;
     const auto& expected = *case_.expected.steps[s].view_signs;
     for (Eigen::Index t = 0; t < case_.triangles.rows(); ++t) {
@@ -387,29 +353,20 @@ class CaseChecker {
     }
   }
 
-  ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
-                          const detector::ViewPrimitive& view) const {
+  ViewSign sign_by_oracle(std::size_t s, std::int32_t t, const ViewPrimitive& view) const {
     const auto corner = [&](int i) { return motion(s).path(case_.triangles(t, i)); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }
-
-  int jobs_;
-  Configuration configuration_;
-  DetectorUnderTest detector_;
-  Claims claims_;
-  CaseCheck check_;
-  const corpus::Case& case_;
-  std::vector<corpus::CaseStep> script_;
 };
 
 }  // namespace
 
-CaseCheck check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
+CaseCheck check_case(const Case& c, std::optional<Culling> culling, int jobs,
                      std::optional<Arithmetic> arithmetic) {
   auto options = options_of(c);
   options.culling = culling.value_or(options.culling);
   options.arithmetic = arithmetic.value_or(options.arithmetic);
-  return CaseChecker(c, options, jobs).run();
+  return CaseChecker{c, {"", options}, jobs}.run();
 }
 
 }  // namespace assay::properties

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/subject.h"
 #include "properties/judging/verdict.h"
@@ -20,8 +19,8 @@ namespace assay::properties {
 // The results of the oracle and the detector on one case. Lists have one item for each
 // configuration, except `truth`, which has one for each step.
 struct CaseResults {
-  corpus::Case c;  // as fitted to the contract
-  std::vector<oracle::StepJudgement> truth = {};
+  Case c;  // as fitted to the contract
+  std::vector<StepJudgement> truth = {};
   std::vector<CaseRun> runs = {};
   std::vector<CaseRun> again = {};  // second runs; empty if there are none
   std::vector<Verdict> verdicts = {};
@@ -57,31 +56,23 @@ void run_first(const Exam& exam, CaseResults& results);
 void run_again(const Exam& exam, CaseResults& results);
 void judge(const Exam& exam, CaseResults& results);
 
-CaseResults examine(const Exam& exam, corpus::Case c);
+CaseResults examine(const Exam& exam, Case c);
 // Examines cases, in order. They go to the worker together, and to the second worker together, from
 // the last to the first. Their outputs and times are not told apart.
-std::vector<CaseResults> examine(const Exam& exam, std::vector<corpus::Case> cases);
+std::vector<CaseResults> examine(const Exam& exam, std::vector<Case> cases);
 
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
-CaseRun run_alone(WorkerProcess& worker, const corpus::Case& c, const Configuration& configuration);
+CaseRun run_alone(WorkerProcess& worker, const Case& c, const Configuration& configuration);
 
 // Returns the oracle's judgement of every step of a case, for the pairs that count by its relation.
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c);
+std::vector<StepJudgement> judge_case(const Case& c);
 // Returns the judgements under the contract; for a query (query_case.h) only the query is judged.
 // REQUIRES a contracted case.
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
-                                              int jobs = 1);
+std::vector<StepJudgement> judge_case(const Case& c, const Contract& contract, int jobs = 1);
 
 // Returns the oracle's facts about a step of this case under the contract. Adjacency leaves nothing
 // out of a query (query_case.h).
-StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
-                   const Contract& contract);
-
-// Returns the diff of the step at this place of the run: of its answer, its candidates and its
-// limit (agreement.h). REQUIRES a run that has this step.
-StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& step,
-                    const oracle::StepJudgement& judgement, const Claims& claims,
-                    const Contract& contract);
+StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract& contract);
 
 // Judges a run. The way in which the run ended decides first:
 // - A crash breaks `total`, and so does a refusal, unless the case is expected to be refused. If
@@ -96,9 +87,8 @@ StepDiff judge_step(const CaseRun& run, std::size_t place, const LimitedStep& st
 //
 // Without judgements only the points above are judged. The verdict does not describe a failure.
 // REQUIRES judgements of the same contracted case.
-Verdict judge_run(const corpus::Case& c, const CaseRun& run,
-                  std::span<const oracle::StepJudgement> judgements, const Claims& claims,
-                  const Contract& contract, const CaseRun* again = nullptr);
+Verdict judge_run(const Case& c, const CaseRun& run, std::span<const StepJudgement> judgements,
+                  const Claims& claims, const Contract& contract, const CaseRun* again = nullptr);
 
 // The results of a case of the corpus, and the comparison with its expected facts.
 
@@ -114,7 +104,7 @@ struct CaseCheck : CaseResults {
 // signs (of the detector if it tested the triangle, always of the oracle), and the agreement of
 // detector and oracle. The detector's answer, pairs and signs are judged by the claims of its
 // arithmetic.
-CaseCheck check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
-                     int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
+CaseCheck check_case(const Case& c, std::optional<Culling> culling = {}, int jobs = 1,
+                     std::optional<Arithmetic> arithmetic = {});
 
 }  // namespace assay::properties

@@ -1,11 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <vector>
 
-#include "oracle/instant/instant.h"
-#include "oracle/mesh/pair_relation.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/cause.h"
 #include "properties/worker/plugin/plugin_host.h"
@@ -13,9 +9,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Positions;
-
-// If a limiter promises no progress, it is measured by this one.
+// What a limiter that promises no progress is compared with.
 constexpr double usual_progress = 0.9;
 // A limiter stalls if it stays although a vertex could move by so many units in its last place
 // (L17).
@@ -39,15 +33,16 @@ double ulp(double x, Coordinates coordinates) {
 }
 
 // Whether the share is below the time. A time between two adjacent doubles is above the lower one.
-bool is_before(double share, const detector::TimeEnclosure& time) {
+bool is_before(double share, const TimeEnclosure& time) {
   return time.lo == time.hi ? share < time.lo : share <= time.lo;
 }
 
-class LimitComparison {
- public:
-  LimitComparison(const LimitAnswer& answer, const LimitedStep& step, const StepTruth& truth,
-                  const Claims& claims, const Contract& contract)
-      : answer_(answer), step_(step), truth_(truth), claims_(claims), contract_(contract) {}
+struct LimitComparison {
+  const LimitAnswer& answer_;
+  const JudgedStep& step_;
+  const StepTruth& truth_;
+  const Contract& contract_ = step_.contract;
+  bool was_stopped_ = false;
 
   void judge(StepDiff& diff) {
     LimitDiff& limit = diff.limit.emplace();
@@ -74,11 +69,11 @@ class LimitComparison {
     limit.too_far = answer_.share >= 0 && first && !is_before(answer_.share, first->time);
     // The sign of this is exact but for the least of all doubles.
     const bool is_short = answer_.share >= 0 && std::fma(progress, possible, -limit.way) > 0;
-    if (is_short && claims_.has(Claim::progress)) {
+    if (is_short && step_.claims.has(Claim::progress)) {
       limit.too_short = is_owed(progress * possible, possible);
       limit.is_excused = !limit.too_short;
     }
-    weigh(claims_.only(claims_on_limits), diff);
+    weigh(step_.claims.only(claims_on_limits), diff);
     if (was_stopped_ && diff.outcome == Outcome::holds) {
       diff.partial = true;
       diff.outcome = Outcome::undecided;
@@ -86,7 +81,7 @@ class LimitComparison {
   }
 
  private:
-  std::optional<detector::PairContact> first_on_the_way_to(const Positions& place) {
+  std::optional<PairContact> first_on_the_way_to(const Positions& place) {
     Contract of_way = contract_;
     of_way.margin = 0;  // what comes within a slack is no contact
     const auto judgement =
@@ -147,54 +142,29 @@ class LimitComparison {
         std::max(from.cwiseAbs().maxCoeff(), step_.motion.vertices_t1.cwiseAbs().maxCoeff());
     const double gap = contract_.separation + ulps_of_a_gap * ulp(largest, contract_.coordinates);
     return could_move(share, ulps_of_a_way) && std::isfinite(gap) &&
-           !oracle::any_nearer_than(from, step_.triangles, gap, counted_pairs());
-  }
-
-  // Says of a pair whether the question may be about it.
-  oracle::WantedPair counted_pairs() const {
-    // Relations refer to the features.
-    const auto features =
-        std::make_shared<const oracle::MeshFeatures>(oracle::mesh_features(step_.triangles));
-    std::vector<std::shared_ptr<oracle::PairRelation>> relations;
-    for (const auto* pairs : {step_.options.counted, step_.options.tested}) {
-      if (pairs && !pairs->count_all())
-        relations.push_back(std::make_shared<oracle::PairRelation>(*pairs, *features));
-    }
-    return [this, features, relations](std::int32_t a, std::int32_t b) {
-      return !leaves_out(contract_, step_.triangles, {a, b}) &&
-             std::all_of(relations.begin(), relations.end(),
-                         [&](const auto& relation) { return relation->counts_faces(a, b); });
-    };
+           !oracle::any_nearer_than(from, step_.triangles, gap,
+                                    counted_under(contract_, step_.triangles,
+                                                  {step_.options.counted, step_.options.tested}));
   }
 
   std::string cause_of_stall() const {
     if (!truth_.first) return "nothing is in the way";
-    return text_of(
-        cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0));
+    return cause_of(step_.triangles, step_.motion, *truth_.first, contract_.separation > 0);
   }
-
-  const LimitAnswer& answer_;
-  const LimitedStep& step_;
-  const StepTruth& truth_;
-  const Claims& claims_;
-  const Contract& contract_;
-  bool was_stopped_ = false;
 };
 
 }  // namespace
 
-void judge_limit(const std::optional<LimitAnswer>& answer, const LimitedStep& step,
-                 const oracle::StepJudgement& judgement, const Claims& claims,
-                 const Contract& contract, StepDiff& diff) {
+void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff) {
   if (diff.outcome == Outcome::error) return;
-  const StepTruth truth = truth_of(judgement, contract, step.triangles);
+  const StepTruth truth = step.truth();
   if (!diff.first_contact) diff.first_contact = truth.first;
   if (answer && truth.first && truth.first->time.hi == 0) {
     diff.starts_near |= !diff.has_answer && !diff.candidates;
     return;
   }
-  if (answer && judgement.complete) {
-    LimitComparison(*answer, step, truth, claims, contract).judge(diff);
+  if (answer && step.judgement.complete) {
+    LimitComparison{*answer, step, truth}.judge(diff);
   } else if (diff.outcome == Outcome::holds) {
     diff.partial = true;
     diff.outcome = Outcome::undecided;

@@ -84,7 +84,6 @@ LimitUse use_of(const LimitDiff& limit) {
 }
 
 StepErrors errors_of(const StepDiff& diff) {
-  using detector::Answer;
   StepErrors errors;
   if (!diff.oracle_complete) return errors;
   errors.steps = 1;
@@ -152,8 +151,7 @@ double ratio_of(std::uint64_t of, std::uint64_t in) {
 
 }  // namespace
 
-StepMeasures measures_of(std::span<const StepDiff> diffs,
-                         std::span<const detector::StepResult> results) {
+StepMeasures measures_of(std::span<const StepDiff> diffs, std::span<const StepResult> results) {
   StepMeasures sum;
   for (std::size_t s = 0; s < diffs.size(); ++s) {
     const StepDiff& diff = diffs[s];
@@ -182,7 +180,7 @@ StepMeasures measures_of(std::span<const StepDiff> diffs,
 }
 
 bool has_judged_contact(std::span<const StepDiff> diffs) {
-  return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
+  return std::ranges::any_of(diffs, [](const StepDiff& diff) {
     if (diff.starts_near) return false;
     return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
            : diff.limit    ? diff.limit->ahead && !diff.partial

@@ -158,8 +158,7 @@ ASSAY_FIELDS(StepMeasures, errors, free_squared, contact_squared, without_time, 
              refused, left_out_misses, contact_trials, repeated_trials, relation_trials)
 
 // Returns the measures of one trial's steps. REQUIRES as many results as diffs, in the same order.
-StepMeasures measures_of(std::span<const StepDiff> diffs,
-                         std::span<const detector::StepResult> results);
+StepMeasures measures_of(std::span<const StepDiff> diffs, std::span<const StepResult> results);
 
 // Returns whether a contact that the contract does not leave out was judged in one of the steps.
 bool has_judged_contact(std::span<const StepDiff> diffs);

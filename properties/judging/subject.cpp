@@ -7,7 +7,6 @@
 
 namespace assay::properties {
 
-using detector::Culling;
 using detector::Pairs;
 using detector::Start;
 
@@ -17,8 +16,7 @@ Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
   return configuration.asks_limits ? of_steps.with(claims_on_limits) : of_steps;
 }
 
-Claims DetectorUnderTest::claims_on(const corpus::Case& c,
-                                    const Configuration& configuration) const {
+Claims DetectorUnderTest::claims_on(const Case& c, const Configuration& configuration) const {
   return says_query(c) && !built_in ? query_claims : claims_in(configuration);
 }
 
@@ -50,7 +48,7 @@ DetectorUnderTest built_in_detector() {
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
     detector.configurations.push_back(
         {fmt::format("{}/bounded", name_of(culling)),
-         {culling, Start::verified, Pairs::all, detector::Arithmetic::bounded}});
+         {culling, Start::verified, Pairs::all, Arithmetic::bounded}});
   }
   Configuration limits{"limits", {Culling::automatic}}, within{"within", {Culling::bvh}};
   limits.asks_limits = within.asks_limits = true;

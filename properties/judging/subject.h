@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
@@ -36,7 +35,7 @@ struct DetectorUnderTest {
 
   Claims claims_in(const Configuration& configuration) const;
   // Returns the claims on this case, which may be a query (query_case.h).
-  Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
+  Claims claims_on(const Case& c, const Configuration& configuration) const;
   // Returns the detector in this configuration alone. The contract of the built-in one depends on
   // the configuration, because its options state the question.
   DetectorUnderTest in(const Configuration& configuration) const;

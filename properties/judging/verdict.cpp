@@ -12,11 +12,10 @@
 
 namespace assay::properties {
 
-BodyNames::BodyNames(const detector::CountedPairs* counted_pairs,
-                     const detector::TrianglesView& triangles) {
+BodyNames::BodyNames(const CountedPairs* counted_pairs, const TrianglesView& triangles) {
   if (!counted_pairs || counted_pairs->body.empty()) return;
   const auto& body = counted_pairs->body;
-  std::vector<std::int32_t> sizes(at(*std::max_element(body.begin(), body.end())) + 1, 0);
+  std::vector<std::int32_t> sizes(at(*std::ranges::max_element(body)) + 1, 0);
   by_triangle_.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const auto of = body[at(triangles(t, 0))];
@@ -24,7 +23,7 @@ BodyNames::BodyNames(const detector::CountedPairs* counted_pairs,
   }
 }
 
-std::string BodyNames::text(const detector::TrianglePair& pair) const {
+std::string BodyNames::text(const TrianglePair& pair) const {
   if (empty()) return "";
   return fmt::format(" (triangle {} of body {} and triangle {} of body {})", of(pair.a).triangle,
                      of(pair.a).body, of(pair.b).triangle, of(pair.b).body);
@@ -33,11 +32,11 @@ std::string BodyNames::text(const detector::TrianglePair& pair) const {
 namespace {
 
 // Adds the stage that lost the pair, which tells one failure of this kind from another.
-void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
-                const StepDiff& diff, detector::Options options) {
-  const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
-                                   [&](const auto& miss) { return miss.pair == failure.pair; });
-  options.counted = corpus::counted_of(c);
+void find_stage(Failure& failure, const Case& c, const CaseStep& step, const StepDiff& diff,
+                Options options) {
+  const bool is_lost = std::ranges::any_of(
+      diff.missing, [&](const auto& miss) { return miss.pair == failure.pair; });
+  options.counted = counted_of(c);
   if (is_lost)
     failure.stage =
         stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair, options);
@@ -45,27 +44,25 @@ void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
 
 // Does the same for a plug-in. Nobody knows its stages, so it adds what is special about the
 // contact.
-void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
-                const oracle::StepJudgement& truth, const Contract& contract) {
+void find_cause(Failure& failure, const Case& c, const CaseStep& step, const StepJudgement& truth,
+                const Contract& contract) {
   if (!failure.pair) return;
   const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
   const auto pairs = truth_of(c, truth, contract).pairs;
-  const auto contact = std::find_if(pairs.begin(), pairs.end(),
-                                    [&](const auto& exact) { return exact.pair == *failure.pair; });
+  const auto contact =
+      std::ranges::find_if(pairs, [&](const auto& exact) { return exact.pair == *failure.pair; });
   const bool of_distance = contract.separation > 0;
-  const detector::SteppedMesh motion{x_t0, x_t1};
+  const SteppedMesh motion{x_t0, x_t1};
   const auto query = query_of(c);
-  const bool meets = contact != pairs.end();
-  failure.cause =
-      text_of(query   ? meets ? cause_of_query(c.triangles, motion, *contact, of_distance)
-                              : cause_of_query(c.triangles, motion, features_of(*query), of_distance)
-                : meets ? cause_of(c.triangles, motion, *contact, of_distance)
-                      : cause_of(c.triangles, motion, *failure.pair, of_distance));
+  failure.cause = contact != pairs.end()
+                      ? cause_of(c.triangles, motion, *contact, of_distance, query.has_value())
+                      : cause_of(c.triangles, motion, *failure.pair, of_distance,
+                                 query ? std::optional(features_of(*query)) : std::nullopt);
 }
 
 // Rewrites the explanation of a failed query in terms of features, because the two triangles of a
 // query only hold the features that were asked.
-void name_features(Failure& failure, const detector::FourPoints& query) {
+void name_features(Failure& failure, const FourPoints& query) {
   if (failure.feature.empty()) failure.feature = query_word(query);
   constexpr std::string_view pair = "triangles 0 and 1 ";
   if (failure.explanation.starts_with(pair))
@@ -74,9 +71,9 @@ void name_features(Failure& failure, const detector::FourPoints& query) {
 
 }  // namespace
 
-Failure failure_of(const Verdict& verdict, const corpus::Case& c,
-                   std::span<const oracle::StepJudgement> truth, const CaseRun& run,
-                   const Configuration& configuration, const DetectorUnderTest& detector) {
+Failure failure_of(const Verdict& verdict, const Case& c, std::span<const StepJudgement> truth,
+                   const CaseRun& run, const Configuration& configuration,
+                   const DetectorUnderTest& detector) {
   Failure failure;
   const auto diff = std::ranges::find(verdict.steps, Outcome::defect, &StepDiff::outcome);
   if (diff == verdict.steps.end()) {
@@ -85,7 +82,7 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
     failure.explanation = verdict.explanation.empty() ? failure.kind : verdict.explanation;
   } else {
     const auto s = static_cast<std::size_t>(diff - verdict.steps.begin());
-    const auto step = corpus::steps_of(c)[s];
+    const auto step = steps_of(c)[s];
     failure = failure_of(*diff, run.steps[s], detector.contract);
     if (failure.kind == "error") {
       const auto error = error_of(run, s);
@@ -94,8 +91,8 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
     if (detector.built_in) {
       if (configuration.fault.empty()) find_stage(failure, c, step, *diff, configuration.options);
     } else if (failure.claim == Claim::commit_free) {
-      failure.cause = text_of(cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
-                                       *diff->limit->hit, detector.contract.separation > 0));
+      failure.cause = cause_of(c.triangles, {start_of(c, step), run.limits[s]->positions},
+                               *diff->limit->hit, detector.contract.separation > 0);
     } else {
       find_cause(failure, c, step, truth[s], detector.contract);
     }
@@ -104,7 +101,7 @@ Failure failure_of(const Verdict& verdict, const corpus::Case& c,
   if (const Fault* fault = find_fault(configuration.fault)) failure.stage = fault->stage;
   failure.configuration = configuration.name;
   if (failure.pair)
-    failure.explanation += BodyNames(corpus::counted_of(c), c.triangles).text(*failure.pair);
+    failure.explanation += BodyNames(counted_of(c), c.triangles).text(*failure.pair);
   if (const auto query = query_of(c)) name_features(failure, *query);
   return failure;
 }
@@ -120,15 +117,14 @@ std::string Failure::signature() const {
 
 namespace {
 
-std::string enclosure_text(const detector::TimeEnclosure& t) {
+std::string enclosure_text(const TimeEnclosure& t) {
   return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("[{}, {}]", t.lo, t.hi);
 }
 
 // Gives "collision at 0.5" or "free", for example.
-std::string answer_text(detector::Answer answer, const detector::TimeEnclosure& first) {
-  return answer == detector::Answer::collision
-             ? fmt::format("collision at {}", enclosure_text(first))
-             : name_of(answer);
+std::string answer_text(Answer answer, const TimeEnclosure& first) {
+  return answer == Answer::collision ? fmt::format("collision at {}", enclosure_text(first))
+                                     : name_of(answer);
 }
 
 // What the contract asks of two triangles: to "meet", or to "come within 0.5"; with the slack
@@ -147,7 +143,7 @@ std::string share_text(double share) {
 // Makes the failure of a step from the evidence of its broken claim.
 class FailureOfStep {
  public:
-  FailureOfStep(const StepDiff& diff, const detector::StepResult& result, const Contract& contract)
+  FailureOfStep(const StepDiff& diff, const StepResult& result, const Contract& contract)
       : diff_(diff), contract_(contract), row_(row_of(diff.breaches.front())) {
     failure_.claim = row_.value;
     const Symptom symptom = row_.symptom_of(diff);
@@ -167,14 +163,14 @@ class FailureOfStep {
             ? fmt::format(", and are none of {} candidates", diff.candidates->given_pairs)
             : fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first),
                           diff.first_contact
-                              ? answer_text(detector::Answer::collision, diff.first_contact->time)
-                              : name_of(detector::Answer::free));
+                              ? answer_text(Answer::collision, diff.first_contact->time)
+                              : name_of(Answer::free));
   }
 
   Failure take() { return std::move(failure_); }
 
  private:
-  void tell(const detector::PairContact& contact) {
+  void tell(const PairContact& contact) {
     failure_.pair = contact.pair;
     failure_.feature = name_of(contact.feature.kind);
     failure_.explanation = contact_text(contact, " " + asked_text(contract_));
@@ -189,7 +185,7 @@ class FailureOfStep {
         fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
                     enclosure_text(wrong.detector), enclosure_text(wrong.oracle));
   }
-  void tell(const detector::TrianglePair& pair) {
+  void tell(const TrianglePair& pair) {
     failure_.pair = pair;
     failure_.explanation = fmt::format("triangles {} and {} do not {}", pair.a, pair.b,
                                        asked_text(contract_, contract_.margin));
@@ -229,13 +225,12 @@ class FailureOfStep {
 
 }  // namespace
 
-std::string contact_text(const detector::PairContact& contact, const std::string& what) {
+std::string contact_text(const PairContact& contact, const std::string& what) {
   return fmt::format("triangles {} and {}{} at t = {} ({})", contact.pair.a, contact.pair.b, what,
                      enclosure_text(contact.time), name_of(contact.feature.kind));
 }
 
-Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
-                   const Contract& contract) {
+Failure failure_of(const StepDiff& diff, const StepResult& result, const Contract& contract) {
   return FailureOfStep(diff, result, contract).take();
 }
 

@@ -8,9 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/types.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/subject.h"
 
@@ -26,7 +23,7 @@ class BodyNames {
  public:
   BodyNames() = default;
   // Has no names if there is no relation (null), or one without bodies. O(triangles).
-  BodyNames(const detector::CountedPairs* counted_pairs, const detector::TrianglesView& triangles);
+  BodyNames(const CountedPairs* counted_pairs, const TrianglesView& triangles);
 
   bool empty() const { return by_triangle_.empty(); }
   // REQUIRES names.
@@ -34,7 +31,7 @@ class BodyNames {
     return by_triangle_[detector::at(triangle)];
   }
   // Returns " (triangle 3 of body 0 and triangle 1 of body 2)"; empty if there are no names.
-  std::string text(const detector::TrianglePair& pair) const;
+  std::string text(const TrianglePair& pair) const;
 
  private:
   std::vector<BodyTriangle> by_triangle_;
@@ -46,8 +43,8 @@ struct Failure {
   // How the claim is broken: by a step (ClaimRow::symptom_of), or else "two runs differ", "crashed"
   // or "refused".
   std::string kind;
-  std::size_t step = 0;                        // step of the script
-  std::optional<detector::TrianglePair> pair;  // the first wrong pair
+  std::size_t step = 0;              // step of the script
+  std::optional<TrianglePair> pair;  // the first wrong pair
   std::string configuration;
   std::string stage;        // the stage of the built-in detector that lost the pair
   std::string feature;      // the feature of the pair
@@ -60,12 +57,11 @@ struct Failure {
 
 // Returns "triangles 3 and 8 at t = 0.5 (vertex-face)", with both ends if the time lies between two
 // doubles; `what` stands behind the triangles.
-std::string contact_text(const detector::PairContact& contact, const std::string& what = "");
+std::string contact_text(const PairContact& contact, const std::string& what = "");
 
 // Returns the failure of a step by the first claim that it breaks; configuration, stage and cause
 // are left empty. REQUIRES a diff of this result under this contract that breaks a claim.
-Failure failure_of(const StepDiff& diff, const detector::StepResult& result,
-                   const Contract& contract);
+Failure failure_of(const StepDiff& diff, const StepResult& result, const Contract& contract);
 
 struct Verdict {
   Outcome outcome = Outcome::holds;
@@ -79,8 +75,8 @@ struct Verdict {
 
 // Returns the failure that a verdict shows. In exact arithmetic every bit of the built-in
 // detector's times must be the oracle's; a plug-in is judged by its claims. REQUIRES a defect.
-Failure failure_of(const Verdict& verdict, const corpus::Case& c,
-                   std::span<const oracle::StepJudgement> truth, const CaseRun& run,
-                   const Configuration& configuration, const DetectorUnderTest& detector);
+Failure failure_of(const Verdict& verdict, const Case& c, std::span<const StepJudgement> truth,
+                   const CaseRun& run, const Configuration& configuration,
+                   const DetectorUnderTest& detector);
 
 }  // namespace assay::properties

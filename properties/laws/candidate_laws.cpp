@@ -14,12 +14,9 @@ namespace assay::properties {
 
 namespace {
 
-using detector::PairContact;
-using detector::TimeEnclosure;
-
 bool all_outside(const ContactPart& part, const oracle::Candidates& k) {
-  return std::none_of(part.begin(), part.end(),
-                      [&](const PairContact& contact) { return k.holds(contact.pair); });
+  return std::ranges::none_of(part,
+                              [&](const PairContact& contact) { return k.holds(contact.pair); });
 }
 
 Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
@@ -57,7 +54,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
     for (const auto& part : contact_parts(own, time)) {
       if (!all_outside(part, facts.candidates(s))) continue;
       premise_held = true;
-      const bool earlier = std::any_of(part.begin(), part.end(), [&](const PairContact& contact) {
+      const bool earlier = std::ranges::any_of(part, [&](const PairContact& contact) {
         return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
       if (!earlier) {
@@ -87,8 +84,6 @@ std::span<const Law> first_contact_laws() { return first_contact_law_table; }
 // L7, and the claims of the detector: its pairs and times are compared with those of the oracle.
 
 namespace {
-
-using detector::Answer;
 
 Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
@@ -126,7 +121,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   if (about_contacts && !contact) return not_met();
   if (claim == Claim::free_sound && result.answer != Answer::free && !contact) return not_met();
   const auto diff = compare(result, judgement, claims_of(facts.options()));
-  const bool is_broken = std::count(diff.breaches.begin(), diff.breaches.end(), claim) != 0;
+  const bool is_broken = std::ranges::count(diff.breaches, claim) != 0;
   return holds_if(!is_broken, "refuted");
 }
 
@@ -200,7 +195,7 @@ class EagerMeshSearch : public detector::MeshSearch {
   EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
       : MeshSearch(by), search_(std::move(search)) {}
   bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
-           const detector::SteppedMesh& motion, detector::PacedStop& pace) override {
+           const SteppedMesh& motion, detector::PacedStop& pace) override {
     return search_->fit(tree, mesh, motion, pace);
   }
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
@@ -233,8 +228,8 @@ class EagerProofs : public detector::PairSearch {
   std::shared_ptr<const detector::PairSearch> search_;
 };
 
-std::string left_out(const detector::StepResult& result, const oracle::StepJudgement& judgement) {
-  std::set<detector::TrianglePair> pairs;
+std::string left_out(const StepResult& result, const StepJudgement& judgement) {
+  std::set<TrianglePair> pairs;
   for (const auto& contact : result.pairs) pairs.insert(contact.pair);
   for (const auto& contact : judgement.pairs) {
     if (!pairs.contains(contact.pair))
@@ -247,8 +242,8 @@ std::string left_out(const detector::StepResult& result, const oracle::StepJudge
 // Checks that K without N holds the contacts of L3 and L7 as well.
 void check_what_is_proved(CaseFacts& facts, LawTally& tally) {
   const auto& options = facts.options();
-  if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||
-      options.arithmetic != detector::Arithmetic::exact)
+  if (options.culling != Culling::automatic || options.pairs != detector::Pairs::all ||
+      options.arithmetic != Arithmetic::exact)
     return;
   auto stages = facts.stages_of()(options);
   stages.pair_search = std::make_shared<EagerProofs>(stages.pair_search);

@@ -13,11 +13,8 @@ namespace assay::properties {
 
 namespace {
 
-using detector::PairContact;
-using detector::ViewSign;
-
 // Whether signs and doubts would leave the pair out of K if it were inside one component.
-bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::TrianglePair& pair) {
+bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const TrianglePair& pair) {
   const auto sign = [&](std::int32_t t) { return facts.signs(s)[at(t)]; };
   return !facts.in_doubt(s, pair.a) && !facts.in_doubt(s, pair.b) &&
          sign(pair.a) != ViewSign::zero && sign(pair.a) == sign(pair.b);
@@ -39,7 +36,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;
     };
-    if (std::none_of(pairs.begin(), pairs.end(), same)) {
+    if (std::ranges::none_of(pairs, same)) {
       return fmt::format("({}, {}) of two components is missing or has another time",
                          contact.pair.a, contact.pair.b);
     }
@@ -69,14 +66,12 @@ bool boxes_meet(const CaseFacts& facts, std::size_t s) {
 // The oracle's layers of one component if everything else is taken away.
 oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t component) {
   const auto& surface = facts.surface();
-  detector::Triangles own(0, 3), ghosts(0, 3);
-  for (const auto t : surface.all().components[component].triangles) {
-    const auto& v = surface.all().triangles[at(t)];
-    auto& list = at(t) < surface.mesh.triangles.size() ? own : ghosts;
-    list.conservativeResize(list.rows() + 1, 3);
-    list.bottomRows(1) << v[0], v[1], v[2];
-  }
-  return oracle::layers_at(oracle::Instant(facts.all_t0(s)), own, ghosts);
+  std::vector<std::array<std::int32_t, 3>> own, ghosts;
+  for (const auto t : surface.all().components[component].triangles)
+    (at(t) < surface.mesh.triangles.size() ? own : ghosts)
+        .push_back(surface.all().triangles[at(t)]);
+  return oracle::layers_at(oracle::Instant(facts.all_t0(s)), as_rows<Triangles>(own),
+                           as_rows<Triangles>(ghosts));
 }
 
 Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) {
@@ -98,8 +93,8 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
   return holds();
 }
 
-std::string difference_alone(const CaseFacts& facts, const detector::StepResult& among,
-                             const detector::StepResult& alone, std::size_t component) {
+std::string difference_alone(const CaseFacts& facts, const StepResult& among,
+                             const StepResult& alone, std::size_t component) {
   const auto& own = facts.surface().mesh.components[component].triangles;
   if (alone.doubts.size() != own.size()) return "no answer alone";
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -135,7 +130,7 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
   Random random(facts.source().id);
   const auto component = static_cast<std::size_t>(random.below(static_cast<int>(components)));
   // Vertices keep their numbers, but no triangle uses those of other components.
-  corpus::Case alone = *run;
+  Case alone = *run;
   alone.triangles =
       run->triangles(facts.surface().mesh.components[component].triangles, Eigen::all).eval();
   auto player = PinnedPlayer::make(alone, options_with_views(facts), facts.stages_of());

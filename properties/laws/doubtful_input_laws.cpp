@@ -17,30 +17,26 @@
 namespace assay::properties {
 
 namespace {
-
-using detector::Answer;
 using detector::Detector;
 using detector::InputError;
-using detector::Positions;
-using detector::Triangles;
 
 // Doubtful input (L12) is no surface of a body, and is answered nevertheless.
 
 // Two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
-  std::vector<detector::Point> places;
+  std::vector<Point> places;
   for (const auto& component : facts.surface().mesh.components) {
     for (const auto v : component.vertices) places.push_back(detector::point_of(facts.x_t0(s), v));
   }
-  std::sort(places.begin(), places.end());
-  return std::adjacent_find(places.begin(), places.end()) != places.end();
+  std::ranges::sort(places);
+  return std::ranges::adjacent_find(places) != places.end();
 }
 
 // Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
 // of two products has an error of 3 units of 2^-53 (two differences and one product), and their
 // difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
 // false if the vector is nearer to 0, or if a product overflowed or vanished.
-bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t, 3>& v) {
+bool surely_has_area(const Positions& x, const std::array<std::int32_t, 3>& v) {
   constexpr double error = 16 * 0x1p-53;
   const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
   const double product = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
@@ -52,7 +48,7 @@ bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle)
   const auto& v = facts.surface().mesh.triangles[at(triangle)];
   for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
     if (surely_has_area(*x, v)) continue;
-    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{*x, *x}.path(v[i]); };
+    const auto corner = [&](std::size_t i) { return SteppedMesh{*x, *x}.path(v[i]); };
     if (ExactView({corner(0), corner(1), corner(2)}, {}, 0).has_zero_area()) return true;
   }
   return false;
@@ -106,7 +102,7 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   for (std::int32_t t = 0; t < count; ++t) {
     if (!has_zero_area(facts, s, t)) continue;
     premise_held = true;
-    if (facts.result(s).signs[at(t)] != detector::ViewSign::zero) {
+    if (facts.result(s).signs[at(t)] != ViewSign::zero) {
       return fmt::format("triangle {} has no area at an end, and a sign", t);
     }
   }
@@ -144,10 +140,9 @@ std::string create_wrongly(const CaseFacts& facts, Random& random) {
 }
 
 std::string step_wrong(Detector& detector, const Positions& x_t0, const Positions& x_t1,
-                       std::span<const detector::ViewPrimitive> primitives, InputError error) {
+                       std::span<const ViewPrimitive> primitives, InputError error) {
   const auto result = detector.step(x_t0, x_t1, primitives);
-  if (result.answer == detector::Answer::error && result.problem &&
-      result.problem->error == error) {
+  if (result.answer == Answer::error && result.problem && result.problem->error == error) {
     const auto commit = detector.commit();
     if (commit && commit->error == InputError::nothing_to_commit) return {};
     return "a refused step can be committed";
@@ -162,8 +157,8 @@ std::string step_wrongly(Detector& detector, const CaseFacts& facts, std::size_t
   Positions none = x_t1, shorter = x_t1.topRows(x_t1.rows() - 1), longer(x_t0.rows() + 1, 3);
   none(row, random.below(3)) = std::numeric_limits<double>::quiet_NaN();
   longer << x_t0, 0, 0, 0;
-  const std::vector<detector::ViewPrimitive> too_many(facts.surface().mesh.components.size() + 1);
-  detector::ViewPrimitive endless{};
+  const std::vector<ViewPrimitive> too_many(facts.surface().mesh.components.size() + 1);
+  ViewPrimitive endless{};
   endless.q0.t1[1] = -std::numeric_limits<double>::infinity();
   for (const auto& wrong :
        {step_wrong(detector, x_t0, none, {}, InputError::non_finite_coordinate),

@@ -25,10 +25,9 @@ std::span<const Law> laws() {
   static const std::vector<Law> all = [] {
     std::vector<Law> list;
     for (const auto group :
-         {view_value_laws(), view_set_laws(), first_contact_laws(), one_sign_laws(),
-          all_positive_laws(), pair_set_laws(), state_laws(), component_laws(), boundary_laws(),
-          doubtful_input_laws(), normal_cone_laws(), question_laws(), change_laws(),
-          repetition_laws(), option_laws()})
+         {view_laws(), first_contact_laws(), one_sign_laws(), pair_set_laws(), state_laws(),
+          component_laws(), boundary_laws(), doubtful_input_laws(), normal_cone_laws(),
+          question_laws(), change_laws(), repetition_laws(), option_laws()})
       list.insert(list.end(), group.begin(), group.end());
     return list;
   }();
@@ -41,8 +40,7 @@ bool is_checked_on(const Law& law, std::string_view case_id) {
 
 const Law* law_named(std::string_view name) {
   const auto all = laws();
-  const auto place =
-      std::find_if(all.begin(), all.end(), [&](const Law& law) { return law.name == name; });
+  const auto place = std::ranges::find_if(all, [&](const Law& law) { return law.name == name; });
   return place == all.end() ? nullptr : &*place;
 }
 
@@ -59,13 +57,10 @@ void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTal
 
 namespace {
 
-using detector::MovingPoint;
-using detector::PairContact;
-
 // Compares bits, so that -0 differs from 0.
 bool same(const MovingPoint& a, const MovingPoint& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool same(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
+bool same(const ViewPrimitive& a, const ViewPrimitive& b) {
   return same(a.q0, b.q0) && same(a.q1, b.q1);
 }
 
@@ -76,8 +71,7 @@ bool same(const PairContact& a, const PairContact& b) {
 
 template <class List>
 bool same_lists(const List& a, const List& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return same(x, y); });
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same(x, y); });
 }
 
 // The counts that are compared. Counts of marking depend on earlier steps, too
@@ -96,7 +90,7 @@ bool same_counts(const detector::StepCounts& a, const detector::StepCounts& b) {
 
 }  // namespace
 
-std::string difference(const detector::StepResult& a, const detector::StepResult& b) {
+std::string difference(const StepResult& a, const StepResult& b) {
   if (a.answer != b.answer) return "answer";
   if (a.problem.has_value() != b.problem.has_value()) return "problem";
   if (a.problem && a.problem->error != b.problem->error) return "problem";

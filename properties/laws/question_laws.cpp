@@ -15,10 +15,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-using detector::Culling;
-using detector::StepResult;
-
 // The oracle takes long for distances among many triangles.
 constexpr std::size_t most_triangles_apart = 40;
 
@@ -35,7 +31,7 @@ void check_distance(CaseFacts& facts, LawTally& tally) {
       facts.surface().mesh.triangles.size() > most_triangles_apart)
     return;
   Random random(Random::hash(facts.source().id), Random::hash("distance"));
-  detector::Options options;
+  Options options;
   options.culling = random.one_in(4) ? Culling::none : Culling::bvh;
   options.threads = static_cast<std::uint32_t>(random.between(1, 3));
   options.separation = drawn_distance(facts, random);
@@ -67,15 +63,19 @@ void check_limits(CaseFacts& facts, LawTally& tally) {
   if (!player || !alone) return;
   Contract contract;
   contract.progress = built_in_progress;
-  const oracle::JudgeOptions judge_options;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto &x_t0 = facts.x_t0(s), &x_t1 = facts.x_t1(s);
     const auto limit = player.value().detector().limit(x_t0, x_t1);
     StepDiff diff;
     if (!limit.problem)
       judge_limit(LimitAnswer{limit.share, limit.positions},
-                  {{x_t0, x_t1}, facts.source().triangles, judge_options}, facts.judgement(s),
-                  claims_on_limits, contract, diff);
+                  {{x_t0, x_t1},
+                   facts.source().triangles,
+                   {},
+                   facts.judgement(s),
+                   claims_on_limits,
+                   contract},
+                  diff);
     std::string wrong = limit.problem ? "refused" : "";
     for (const auto claim : diff.breaches) wrong = fmt::format("{}", name_of(claim));
     // The state stays as it is.

@@ -13,9 +13,7 @@ namespace {
 
 using detector::Start;
 
-bool any(const TriangleFlags& flags) {
-  return std::find(flags.begin(), flags.end(), 1) != flags.end();
-}
+bool any(const TriangleFlags& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
 Observation carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.known_from(s) || !facts.is_trusted(s)) return not_met();
@@ -204,8 +202,8 @@ Observation apexes_go_on(CaseFacts& facts, std::size_t s) {
   if (!before) return not_met();
   const auto &was = facts.result(*before).apexes, &is = facts.result(s).apexes;
   if (was.empty() || is.empty()) return not_met();
-  const bool same = std::equal(was.begin(), was.end(), is.begin(), is.end(),
-                               [](const auto& a, const auto& b) { return a.t1 == b.t0; });
+  const bool same =
+      std::ranges::equal(was, is, [](const auto& a, const auto& b) { return a.t1 == b.t0; });
   return holds_if(same, "an apex jumps between two steps");
 }
 
@@ -216,7 +214,7 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   }
   if (!facts.is_trusted(s)) return not_met();
   const TriangleFlags is_held = touched_until(facts, *p);
-  if (std::find(is_held.begin(), is_held.end(), 1) == is_held.end()) return not_met();
+  if (std::ranges::find(is_held, 1) == is_held.end()) return not_met();
   const TriangleFlags clean = may_be_clean(facts, s, is_held);
   for (std::size_t t = 0; t < is_held.size(); ++t) {
     if (is_held[t] && !clean[t] && facts.result(s).doubts[t] == 0) {

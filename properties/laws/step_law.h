@@ -12,11 +12,9 @@ namespace assay::properties {
 
 // The laws of each file, a few laws about one thing; law.cpp joins them.
 
-std::span<const Law> view_value_laws();      // L1
-std::span<const Law> view_set_laws();        // L2, sets
+std::span<const Law> view_laws();            // L1, L2, sets
 std::span<const Law> first_contact_laws();   // L3, L6
-std::span<const Law> one_sign_laws();        // L4
-std::span<const Law> all_positive_laws();    // L5
+std::span<const Law> one_sign_laws();        // L4, L5
 std::span<const Law> pair_set_laws();        // L7, claims
 std::span<const Law> state_laws();           // L8, L9
 std::span<const Law> component_laws();       // L10
@@ -55,6 +53,6 @@ void each_step(CaseFacts& facts, LawTally& tally) {
 
 // Returns the first field in which two results of a step differ, to the last bit; empty if none
 // does. Wall-clock times are not compared.
-std::string difference(const detector::StepResult& a, const detector::StepResult& b);
+std::string difference(const StepResult& a, const StepResult& b);
 
 }  // namespace assay::properties

@@ -15,10 +15,8 @@ namespace assay::properties {
 
 namespace {
 
-using detector::ViewSign;
-
-// Looks at some triangles of the surface at some times. The choice is the same whenever the case is
-// looked at.
+// Looks at some triangles of the surface at some times. They are the same ones whenever the case
+// is looked at.
 template <class Look>
 Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   if (!facts.has_views(s)) return not_met();
@@ -26,14 +24,14 @@ Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   Random random(Random::hash(facts.source().id), s);
   const auto& surface = facts.surface().all();
   const auto start = facts.all_t0(s), end = facts.all_t1(s);
-  const detector::SteppedMesh motion = {start, end};
+  const SteppedMesh motion = {start, end};
   for (int i = 0; i < triangles; ++i) {
     const auto t =
         static_cast<std::size_t>(random.below(static_cast<int>(surface.triangles.size())));
     const auto c = at(surface.component_of_triangle[t]);
     const auto& corners = surface.triangles[t];
-    const std::array<detector::MovingPoint, 3> triangle = {
-        motion.path(corners[0]), motion.path(corners[1]), motion.path(corners[2])};
+    const std::array<MovingPoint, 3> triangle = {motion.path(corners[0]), motion.path(corners[1]),
+                                                 motion.path(corners[2])};
     for (int k = 0; k < times; ++k) {
       const int eighths = random.between(0, 8);
       const ExactView view(triangle, facts.result(s).primitives[c], eighths);
@@ -68,7 +66,7 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
     const std::array<ExactInteger, 3> at_corners = {view.by_region(view.corner(0)),
                                                     view.by_region(view.corner(1)),
                                                     view.by_region(view.corner(2))};
-    const auto [least, greatest] = std::minmax_element(at_corners.begin(), at_corners.end());
+    const auto [least, greatest] = std::ranges::minmax_element(at_corners);
     const ExactInteger inside = view.by_region(view.inner_point(any_weights(random)));
     if (inside < *least || inside > *greatest) return "an inner value is beyond the corners'";
     return {};
@@ -94,28 +92,7 @@ Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
       });
 }
 
-constexpr Law view_value_law_table[] = {
-    {"L1_ClampFormIsRegionForm", "L1",
-     "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
-     "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
-     "nothing: exact rationals at sampled times", each_step<clamp_form_is_region_form>},
-    {"L1_InnerValuesLieBetweenCornerValues", "L1",
-     "The view value at any point of a triangle lies between the least and the greatest of its "
-     "three corners, each seen from its own nearest point.",
-     "nothing: exact rationals at sampled times", each_step<inner_values_lie_between_corners>},
-    {"L1_SignsHoldAtEveryPoint", "L1",
-     "Where the detector calls a triangle positive or negative, every view value of it has that "
-     "sign, at corners and inside.",
-     "nothing: exact rationals at sampled times", each_step<signs_hold_inside>},
-};
-
-}  // namespace
-
-std::span<const Law> view_value_laws() { return view_value_law_table; }
-
 // L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
-
-namespace {
 
 // Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
 // components whose primitive is a point, or only at those whose primitive is not.
@@ -175,7 +152,19 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law view_set_law_table[] = {
+constexpr Law view_law_table[] = {
+    {"L1_ClampFormIsRegionForm", "L1",
+     "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
+     "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
+     "nothing: exact rationals at sampled times", each_step<clamp_form_is_region_form>},
+    {"L1_InnerValuesLieBetweenCornerValues", "L1",
+     "The view value at any point of a triangle lies between the least and the greatest of its "
+     "three corners, each seen from its own nearest point.",
+     "nothing: exact rationals at sampled times", each_step<inner_values_lie_between_corners>},
+    {"L1_SignsHoldAtEveryPoint", "L1",
+     "Where the detector calls a triangle positive or negative, every view value of it has that "
+     "sign, at corners and inside.",
+     "nothing: exact rationals at sampled times", each_step<signs_hold_inside>},
     {"L2_SignsAreTheOracles_Point", "L2",
      "Seen from a point, the sign of each triangle of the mesh over the whole step is the exact "
      "one: positive at all times, negative at all times, or zero.",
@@ -197,13 +186,11 @@ constexpr Law view_set_law_table[] = {
 
 }  // namespace
 
-std::span<const Law> view_set_laws() { return view_set_law_table; }
+std::span<const Law> view_laws() { return view_law_table; }
 
 // L4: if all triangles have one sign and none is in doubt, there is no contact.
 
 namespace {
-
-using detector::ViewPrimitive;
 
 bool is_point(const ViewPrimitive& q) { return q.is_point(); }
 bool is_fixed_line(const ViewPrimitive& q) {
@@ -214,9 +201,8 @@ bool is_any(const ViewPrimitive&) { return true; }
 
 bool is_all_of(CaseFacts& facts, std::size_t s, std::size_t component, ViewSign sign) {
   const auto& own = facts.surface().mesh.components[component].triangles;
-  return std::all_of(own.begin(), own.end(), [&](std::int32_t t) {
-    return !facts.in_doubt(s, t) && facts.signs(s)[at(t)] == sign;
-  });
+  return std::ranges::all_of(
+      own, [&](std::int32_t t) { return !facts.in_doubt(s, t) && facts.signs(s)[at(t)] == sign; });
 }
 
 template <ViewSign sign, bool (*applies)(const ViewPrimitive&)>
@@ -235,28 +221,7 @@ Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
   return premise_held ? holds() : not_met();
 }
 
-constexpr Law one_sign_law_table[] = {
-    {"L4_AllPositiveIsCollisionFree_Point", "L4",
-     "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
-     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
-    {"L4_AllPositiveIsCollisionFree_Line", "L4", "The same seen from a segment that stands still.",
-     "pair set, view signs",
-     each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
-    {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
-     "The same seen from a segment whose ends move.", "pair set, view signs",
-     each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
-    {"L4_AllNegativeIsCollisionFree", "L4",
-     "The mirror: a component whose V+, V0 and Vv are empty has no contact in the step.",
-     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::negative, is_any>>},
-};
-
-}  // namespace
-
-std::span<const Law> one_sign_laws() { return one_sign_law_table; }
-
 // L5: all of S is positive and the winding number is 1, whatever was before.
-
-namespace {
 
 bool is_cycle(const CaseFacts& facts, std::size_t component) {
   return facts.surface().mesh.components[component].is_cycle;
@@ -307,12 +272,24 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   }
   const auto& pairs = facts.judgement(s).pairs;
   if (free == components && pairs.empty()) {
-    return holds_if(facts.result(s).answer == detector::Answer::free, "not answered free");
+    return holds_if(facts.result(s).answer == Answer::free, "not answered free");
   }
   return holds();
 }
 
-constexpr Law all_positive_law_table[] = {
+constexpr Law one_sign_law_table[] = {
+    {"L4_AllPositiveIsCollisionFree_Point", "L4",
+     "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
+     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
+    {"L4_AllPositiveIsCollisionFree_Line", "L4", "The same seen from a segment that stands still.",
+     "pair set, view signs",
+     each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
+    {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
+     "The same seen from a segment whose ends move.", "pair set, view signs",
+     each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
+    {"L4_AllNegativeIsCollisionFree", "L4",
+     "The mirror: a component whose V+, V0 and Vv are empty has no contact in the step.",
+     "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::negative, is_any>>},
     {"L5_AllPositiveAndWindingOneIsFree_Closed", "L5",
      "A closed component that is positive over the step and has winding number 1 at its primitive "
      "at t=0 is free whatever came before, and at both ends every triangle is clean, of layer "
@@ -331,6 +308,6 @@ constexpr Law all_positive_law_table[] = {
 
 }  // namespace
 
-std::span<const Law> all_positive_laws() { return all_positive_law_table; }
+std::span<const Law> one_sign_laws() { return one_sign_law_table; }
 
 }  // namespace assay::properties

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -11,8 +10,6 @@
 namespace assay::properties {
 
 namespace {
-
-using detector::MovingPoint;
 using detector::Separation;
 
 // The query of a family of contacts, asked for a distance.

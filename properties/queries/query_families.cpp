@@ -32,9 +32,6 @@ bool is_dear_query_family(std::string_view name) {
 
 namespace {
 
-using detector::MovingPoint;
-using detector::Point;
-
 Query empty_query(std::uint64_t index) {
   Query q{};
   q.first_group = index % 2 == 0 ? 1 : 2;
@@ -316,9 +313,6 @@ std::span<const Family> self_test_queries() {
 }
 
 namespace {
-
-using detector::MovingPoint;
-using detector::Point;
 
 constexpr int least_exponent = -1074, greatest_exponent = 1020;
 

@@ -43,7 +43,7 @@ bool is_dear_query_family(std::string_view name);
 // late bits (see roots_next_to_one), denormals beside ordinary numbers, neighbouring doubles.
 QueryTask extreme_contact(std::uint64_t seed, std::uint64_t index);
 // Draws the points of such a query.
-void make_extreme(Random& random, std::span<detector::MovingPoint> points);
+void make_extreme(Random& random, std::span<MovingPoint> points);
 
 // Returns a random query as a case. The index of the query is drawn too, because even and odd
 // indices are of two kinds.

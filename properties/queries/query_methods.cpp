@@ -7,7 +7,6 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "detector/contact/elementary.h"
 #include "detector/contact/rungs.h"
@@ -19,12 +18,10 @@
 namespace assay::properties {
 namespace {
 
-using detector::Arithmetic;
 using detector::Decision;
-using detector::Want;
 
 template <class Rung>
-MethodAnswer answer_of(bool is_met, const detector::TimeEnclosure& first, Rung rung, Want want) {
+MethodAnswer answer_of(bool is_met, const TimeEnclosure& first, Rung rung, Want want) {
   MethodAnswer answer{is_met ? Decision::yes : Decision::no, {}, static_cast<int>(rung)};
   if (is_met && want == Want::first_time) answer.first = first;
   return answer;
@@ -163,9 +160,6 @@ const QueryMethod* method_of(std::string_view word) {
 namespace {
 
 using detector::Decision;
-using detector::MovingPoint;
-using detector::TimeEnclosure;
-using detector::Want;
 
 std::string text(const TimeEnclosure& t) { return fmt::format("[{:a}, {:a}]", t.lo, t.hi); }
 std::string text(const oracle::RationalTime& t) {

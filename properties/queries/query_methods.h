@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 #include "oracle/referee/distance_referee.h"
 #include "properties/claims/claims.h"
@@ -18,11 +17,11 @@
 namespace assay::properties {
 
 // A query in the order of both rooms: vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}.
-using Query = detector::FourPoints;
+using Query = FourPoints;
 
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
-  std::optional<detector::TimeEnclosure> first = {};       // set if the method answers with a time
+  std::optional<TimeEnclosure> first = {};                 // set if the method answers with a time
   int rung = 0;                                            // the rung of the method that decided
   // Only from the distance referee: the times between which the first one lies.
   std::optional<oracle::DistanceVerdict> proof = {};
@@ -58,7 +57,7 @@ struct QueryMethod {
 };
 
 // Returns the oracle's answer, with the first time if that is wanted.
-MethodAnswer oracle_answer(const QueryTask& task, detector::Want want);
+MethodAnswer oracle_answer(const QueryTask& task, Want want);
 
 // Returns all methods. The self-test compares with the oracle's timed answer: the oracle asked for
 // yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,
@@ -100,7 +99,7 @@ bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle, cons
 
 // Returns the question, the kind and all coordinates as hexadecimal doubles, one point a line.
 std::string exact_text(const QueryTask& task);
-std::string exact_text(const detector::MovingPoint& path);
+std::string exact_text(const MovingPoint& path);
 // Returns the answers of the oracle and of all methods, one a line: "contact at [0x1p-1, 0x1p-1]".
 // For a distance: the answer of the oracle, and the least distance.
 std::string answers_text(const QueryTask& task);

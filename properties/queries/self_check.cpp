@@ -13,7 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "corpus/cases/case_file.h"
 #include "corpus/json_fields.h"
 #include "detector/detector.h"
 #include "oracle/mesh/step.h"
@@ -96,26 +95,25 @@ namespace {
 // Whole steps of small meshes. They exercise features, spreading and piercing, which single
 // queries do not. The detector tests every pair.
 
-detector::StepResult detect(const SmallStep& step) {
+StepResult detect(const SmallStep& step) {
   auto creation = detector::Detector::create(
-      step.triangles, step.x_t0,
-      {detector::Culling::none, detector::Start::verified, detector::Pairs::all});
+      step.triangles, step.x_t0, {Culling::none, detector::Start::verified, detector::Pairs::all});
   return creation.value().step(step.x_t0, step.x_t1, {});
 }
 
-oracle::StepJudgement judge(const SmallStep& step) {
+StepJudgement judge(const SmallStep& step) {
   return oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
 }
 
 std::optional<std::string> check_step(const SmallStep& step, QueryTally& tally) {
   const auto judgement = judge(step);
-  tally.contacts += judgement.answer == detector::Answer::collision ? 1 : 0;
+  tally.contacts += judgement.answer == Answer::collision ? 1 : 0;
   tally.rungs += judgement.rungs;
   if (compare(detect(step), judgement, claims_of({})).outcome == Outcome::holds) return {};
   return "pairs or times of the oracle's step and the detector's differ";
 }
 
-std::string pairs_text(const char* who, const std::vector<detector::PairContact>& pairs) {
+std::string pairs_text(const char* who, const std::vector<PairContact>& pairs) {
   std::string out = fmt::format("{}: {} pairs\n", who, pairs.size());
   for (const auto& p : pairs) {
     out += fmt::format("  {} {} at [{:a}, {:a}], {}\n", p.pair.a, p.pair.b, p.time.lo, p.time.hi,
@@ -126,7 +124,7 @@ std::string pairs_text(const char* who, const std::vector<detector::PairContact>
 
 std::string step_text(const SmallStep& step) {
   std::string out = step.family + "\n";
-  const detector::SteppedMesh motion{step.x_t0, step.x_t1};
+  const SteppedMesh motion{step.x_t0, step.x_t1};
   for (int v = 0; v < static_cast<int>(step.x_t0.rows()); ++v)
     out += fmt::format("  vertex {}: {}\n", v, exact_text(motion.path(v)));
   for (Eigen::Index t = 0; t < step.triangles.rows(); ++t) {
@@ -190,7 +188,7 @@ Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corp
     if (!query || word.empty() || rung == std::ssize(rungs) || c.expected.steps.empty())
       return corpus::problem_in(file, "no query whose answer and rung are known");
     const auto& step = c.expected.steps[0];
-    const bool is_met = step.answer == detector::Answer::collision;
+    const bool is_met = step.answer == Answer::collision;
     list.push_back({.query = *query,
                     .name = c.about,
                     .truth = MethodAnswer{is_met ? detector::Decision::yes : detector::Decision::no,
@@ -313,7 +311,7 @@ bool SmallWorld::is_least_of_its_class(const Arranged& query) const {
           : p == sort_paths(p, query.first_group);
   if (!in_order) return false;
   const Paths own = sort_paths(p, query.first_group);
-  return std::all_of(symmetries_.begin(), symmetries_.end(), [&](const std::vector<int>& image) {
+  return std::ranges::all_of(symmetries_, [&](const std::vector<int>& image) {
     Paths other;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t e = 0; e < 2; ++e) other[i][e] = image[static_cast<std::size_t>(p[i][e])];

@@ -14,19 +14,7 @@
 namespace assay::properties {
 
 namespace {
-
-using corpus::Case;
 using Corners = std::array<std::int32_t, 3>;
-
-detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
-  detector::Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      matrix(static_cast<Eigen::Index>(t), i) = triangles[t][at(i)];
-    }
-  }
-  return matrix;
-}
 
 // +1 if the corners are an even permutation of their ascending order, else -1.
 int orientation(const Corners& c) {
@@ -37,7 +25,7 @@ int orientation(const Corners& c) {
 // vertices of `before`. A fan takes the apex of the first old ghost with which it shares a vertex,
 // or else the mean of its loop. Vertex v of the old ghosts has become target[v]. REQUIRES
 // before.ghosts.
-corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
+corpus::CaseGhosts renewed_ghosts(const Case& before, const Triangles& triangles,
                                   const std::vector<std::int32_t>& target) {
   const auto& old = *before.ghosts;
   const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
@@ -59,13 +47,13 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
   ghosts.apexes.resize(before.frames.size());
   for (const auto& loop : loops) {
     const auto place =
-        std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
+        std::ranges::find_if(loop, [&](std::int32_t v) { return apex_at.contains(v); });
     for (std::size_t f = 0; f < before.frames.size(); ++f) {
       if (place != loop.end()) {
         ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*place))]);
         continue;
       }
-      detector::Point mean = {0, 0, 0};
+      Point mean = {0, 0, 0};
       for (const auto v : loop) {
         for (int k = 0; k < 3; ++k) {
           mean[at(k)] += before.frames[f](v, k) / static_cast<double>(loop.size());
@@ -87,28 +75,21 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   result.script = c.script;
   result.view = c.view;
   result.options = c.options;
-  result.triangles = matrix_of(triangles);
+  result.triangles = as_rows<Triangles>(triangles);
   if (c.ghosts) result.ghosts = renewed_ghosts(c, result.triangles, target);
 
   const auto vertices = vertex_count(c);
-  std::vector<std::int32_t> number(vertices, -1);
+  Numbers number(vertices, -1), rows;
   for (const auto& corners : triangles) {
     for (const auto v : corners) number[at(v)] = 0;
   }
-  std::vector<Eigen::Index> rows;
   for (std::size_t v = 0; v < vertices; ++v) {
     if (number[v] < 0) continue;
     number[v] = static_cast<std::int32_t>(rows.size());
-    rows.push_back(static_cast<Eigen::Index>(v));
+    rows.push_back(static_cast<std::int32_t>(v));
   }
-  for (const auto& frame : c.frames) {
-    detector::Positions x(static_cast<Eigen::Index>(rows.size()), 3);
-    for (std::size_t v = 0; v < rows.size(); ++v) {
-      x.row(static_cast<Eigen::Index>(v)) = frame.row(rows[v]);
-    }
-    result.frames.push_back(std::move(x));
-  }
-  const auto renumber = [&](detector::Triangles& matrix) {
+  for (const auto& frame : c.frames) result.frames.emplace_back(frame(rows, Eigen::all));
+  const auto renumber = [&](Triangles& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) {
       auto& v = matrix.data()[i];
       const auto old = at(v);
@@ -117,9 +98,8 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   };
   renumber(result.triangles);
   if (c.counted) {
-    NewVertices renumbered;
+    NewVertices renumbered{{}, rows};
     for (const auto end : target) renumbered.number.push_back(number[at(end)]);
-    for (const auto old : rows) renumbered.was.push_back(static_cast<std::int32_t>(old));
     result.counted = {carried_over(c.counted->pairs, c.triangles, result.triangles, renumbered),
                       {}};
   }
@@ -135,7 +115,7 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
 }  // namespace
 
 bool is_valid(const Case& c) {
-  if (c.triangles.rows() == 0 || c.frames.empty() || corpus::steps_of(c).empty()) return false;
+  if (c.triangles.rows() == 0 || c.frames.empty() || steps_of(c).empty()) return false;
   const auto vertices = c.frames.front().rows();
   for (const auto& frame : c.frames) {
     if (frame.rows() != vertices) return false;
@@ -234,19 +214,19 @@ Case seen_from_its_middle(const Case& c) {
   for (const auto& frame : c.frames) sum += frame.colwise().mean();
   sum /= static_cast<double>(c.frames.size());
   Case result = c;
-  const std::vector<detector::Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
-  result.view = corpus::CaseView{middle, {}};
+  const std::vector<Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
+  result.view = CaseView{middle, {}};
   return result;
 }
 
-Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
+Case with_steps(const Case& c, const std::vector<CaseStep>& steps) {
   Case result = c;
   result.expected = {};
   if (result.counted) result.counted->steps.clear();
   result.pending = "{}";
   Numbers frames;
   for (const auto& step : steps) frames.insert(frames.end(), {step.from, step.to});
-  std::sort(frames.begin(), frames.end());
+  std::ranges::sort(frames);
   take_frames(result, frames, steps);
   return result;
 }
@@ -257,8 +237,7 @@ using Edge = std::array<std::int32_t, 2>;
 
 class Carrier {
  public:
-  Carrier(const detector::Triangles& before, const detector::Triangles& after,
-          const NewVertices& vertices)
+  Carrier(const Triangles& before, const Triangles& after, const NewVertices& vertices)
       : vertices_(vertices) {
     std::map<std::array<std::int32_t, 3>, std::int32_t> place;
     for (Eigen::Index t = 0; t < after.rows(); ++t) {
@@ -274,7 +253,7 @@ class Carrier {
     }
   }
 
-  void carry_bodies(const detector::CountedPairs& from, detector::CountedPairs& to) const {
+  void carry_bodies(const CountedPairs& from, CountedPairs& to) const {
     if (from.body.empty()) {
       to.apart = from.apart;
       return;
@@ -290,7 +269,7 @@ class Carrier {
     }
   }
 
-  void carry_lists(const detector::CountedPairs& from, detector::CountedPairs& to) const {
+  void carry_lists(const CountedPairs& from, CountedPairs& to) const {
     for (const auto& [a, b] : from.triangle_pairs) {
       const auto s = triangle_[at(a)], t = triangle_[at(b)];
       if (s >= 0 && t >= 0 && s != t) to.triangle_pairs.push_back({s, t});
@@ -320,10 +299,9 @@ class Carrier {
 
 }  // namespace
 
-detector::CountedPairs carried_over(const detector::CountedPairs& pairs,
-                                    const detector::Triangles& before,
-                                    const detector::Triangles& after, const NewVertices& vertices) {
-  detector::CountedPairs carried;
+CountedPairs carried_over(const CountedPairs& pairs, const Triangles& before,
+                          const Triangles& after, const NewVertices& vertices) {
+  CountedPairs carried;
   carried.level = pairs.level;
   carried.rings = pairs.rings;
   carried.rest_distance = pairs.rest_distance;

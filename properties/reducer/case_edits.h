@@ -13,9 +13,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
-#include "detector/mesh/types.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {
@@ -24,40 +21,39 @@ namespace assay::properties {
 // triangle, step and frame; indices are in range, none twice in a triangle; no two triangles have
 // the same three vertices; coordinates are finite; frames, view and apexes have equal lengths; the
 // relation fits.
-bool is_valid(const corpus::Case& c);
+bool is_valid(const Case& c);
 
-inline std::size_t vertex_count(const corpus::Case& c) {
+inline std::size_t vertex_count(const Case& c) {
   return static_cast<std::size_t>(c.frames.front().rows());
 }
 
-corpus::Case with_triangles(const corpus::Case& c,
-                            const std::vector<std::array<std::int32_t, 3>>& triangles);
+Case with_triangles(const Case& c, const std::vector<std::array<std::int32_t, 3>>& triangles);
 
-std::vector<std::array<std::int32_t, 3>> triangles_of(const corpus::Case& c);
+std::vector<std::array<std::int32_t, 3>> triangles_of(const Case& c);
 
 inline std::array<std::int32_t, 3> as_set(std::array<std::int32_t, 3> corners) {
-  std::sort(corners.begin(), corners.end());
+  std::ranges::sort(corners);
   return corners;
 }
 
 // Returns the case with the triangles t for which keep[t] != 0.
-corpus::Case keep_triangles(const corpus::Case& c, const std::vector<std::uint8_t>& keep);
+Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep);
 
 // Returns the case in which vertex v becomes target[v] (chains are followed to their end; REQUIRES
 // no circles). Triangles that then repeat an index are dropped, and so are pairs of equal,
 // oppositely oriented triangles, so that a cycle stays a cycle.
-corpus::Case merge_vertices(const corpus::Case& c, const std::vector<std::int32_t>& target);
+Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target);
 
 // Closes each loop of unmatched edges with a fan from the loop's vertex number `corner` (modulo
 // its length), without a new vertex. A closed mesh is returned as it is.
-corpus::Case close_loops(const corpus::Case& c, std::size_t corner);
+Case close_loops(const Case& c, std::size_t corner);
 
 // Returns the case seen from a fixed point, the mean of all places of all vertices.
-corpus::Case seen_from_its_middle(const corpus::Case& c);
+Case seen_from_its_middle(const Case& c);
 
 // Returns the case with these steps only. The script is left out if its steps are just the
 // consecutive frames.
-corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
+Case with_steps(const Case& c, const std::vector<CaseStep>& steps);
 
 // Carries the relation of a case, which says which pairs count (detector/mesh/counted_pairs.h),
 // over to a changed mesh.
@@ -73,8 +69,7 @@ struct NewVertices {
 // triangles, over old vertices. A triangle stays the same if its three vertices do. Listed pairs
 // with a part that is gone are left out, and so are bodies without vertices; the others are
 // renumbered in their old order.
-detector::CountedPairs carried_over(const detector::CountedPairs& pairs,
-                                    const detector::Triangles& before,
-                                    const detector::Triangles& after, const NewVertices& vertices);
+CountedPairs carried_over(const CountedPairs& pairs, const Triangles& before,
+                          const Triangles& after, const NewVertices& vertices);
 
 }  // namespace assay::properties

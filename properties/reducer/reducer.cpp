@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "properties/changes/changes.h"
@@ -99,7 +98,7 @@ std::string fails_from_text(std::size_t triangles) {
   return "fails from " + std::to_string(triangles) + " triangles on";
 }
 
-Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+Reduction reduce(const Case& failing, const Judge& judge, const ReduceLimits& limits,
                  const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
   ReductionSearch search(failing, judge, limits, on_better);
   Reduction reduction;
@@ -137,14 +136,11 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
 
 namespace {
 
-bool moves(const std::vector<detector::Point>& places) {
-  for (const auto& place : places) {
-    if (place != places.front()) return true;
-  }
-  return false;
+bool moves(const std::vector<Point>& places) {
+  return std::ranges::any_of(places, [&](const auto& place) { return place != places.front(); });
 }
 
-int rank_of(const std::optional<corpus::CaseView>& view) {
+int rank_of(const std::optional<CaseView>& view) {
   if (!view) return 0;
   return (view->q1.empty() ? 1 : 3) + (moves(view->q0) || moves(view->q1) ? 1 : 0);
 }
@@ -170,9 +166,9 @@ std::uint64_t number_cost(double value) {
   return 100 + 10 * end.size;
 }
 
-MeshSize size_of(const corpus::Case& c) {
+MeshSize size_of(const Case& c) {
   MeshSize size;
-  const auto steps = corpus::steps_of(c);
+  const auto steps = steps_of(c);
   size.steps = steps.size();
   size.triangles = static_cast<std::size_t>(c.triangles.rows());
   size.vertices = c.frames.empty() ? 0 : static_cast<std::size_t>(c.frames.front().rows());
@@ -200,14 +196,14 @@ MeshSize size_of(const corpus::Case& c) {
   return size;
 }
 
-std::string size_text(const corpus::Case& c) {
+std::string size_text(const Case& c) {
   if (says_query(c)) return fmt::format("one {} query", query_word(c));
   const auto size = size_of(c);
   return number(size.triangles, "triangle", "triangles") + ", " +
          number(size.vertices, "vertex", "vertices") + ", " + number(size.steps, "step", "steps");
 }
 
-std::string size_text(const corpus::Case& before, const corpus::Case& after) {
+std::string size_text(const Case& before, const Case& after) {
   const auto from = size_text(before), to = size_text(after);
   return from == to ? from : from + " -> " + to;
 }
@@ -235,7 +231,7 @@ void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place p
 
 }  // namespace
 
-std::vector<NumberGroup> number_groups(corpus::Case& c) {
+std::vector<NumberGroup> number_groups(Case& c) {
   std::vector<NumberGroup> groups;
   for (Eigen::Index v = 0; v < c.frames.front().rows(); ++v) {
     append_groups(groups, c.frames.size(), [&](std::size_t f, std::size_t axis) {
@@ -282,8 +278,8 @@ std::vector<double> simpler_values(double value) {
   const auto cost = number_cost(value);
   std::erase_if(values, [&](double v) { return number_cost(v) >= cost; });
   // Shorter numbers come first. Among equals the order above stays.
-  std::stable_sort(values.begin(), values.end(),
-                   [](double a, double b) { return number_cost(a) < number_cost(b); });
+  std::ranges::stable_sort(values,
+                           [](double a, double b) { return number_cost(a) < number_cost(b); });
   values.erase(std::unique(values.begin(), values.end()), values.end());
   for (double& v : values) v += 0.0;  // no negative zero
   return values;

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -29,7 +29,7 @@ struct Finding {
 };
 
 // Runs a case; returns nothing if it holds. Must be deterministic.
-using Judge = std::function<std::optional<Finding>(const corpus::Case&)>;
+using Judge = std::function<std::optional<Finding>(const Case&)>;
 
 struct ReduceLimits {
   double seconds = 60;
@@ -43,7 +43,7 @@ struct PassStatistics {
 };
 
 struct Reduction {
-  corpus::Case smallest;
+  Case smallest;
   Finding finding;  // of `smallest`; without a signature if the given case did not fail
   std::uint64_t calls = 0;
   double seconds = 0;
@@ -58,14 +58,14 @@ struct Reduction {
 std::string fails_from_text(std::size_t triangles);
 
 // Is called with each smaller case as soon as it is found, so that the case can be saved at once.
-using OnBetter = std::function<void(const corpus::Case&)>;
+using OnBetter = std::function<void(const Case&)>;
 
 // Returns the case with the view primitive that the detector chose by itself written into it;
 // nothing if it chose none. The mesh can then shrink without moving the primitive.
-using MakeViewExplicit = std::function<std::optional<corpus::Case>(const corpus::Case&)>;
+using MakeViewExplicit = std::function<std::optional<Case>(const Case&)>;
 
 // Reduces a failing case, and keeps its id, texts and options; expected facts are cleared.
-Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+Reduction reduce(const Case& failing, const Judge& judge, const ReduceLimits& limits,
                  const OnBetter& on_better = {}, const MakeViewExplicit& make_view_explicit = {});
 
 // Measures the size of a case for the reducer, which prefers smaller sizes.
@@ -92,14 +92,14 @@ struct MeshSize {
 std::uint64_t number_cost(double value);
 
 // Measures a case. O(size of the case).
-MeshSize size_of(const corpus::Case& c);
+MeshSize size_of(const Case& c);
 
 // Returns "162 triangles, 83 vertices, 8 steps"; for a query "one vertex-face query".
-std::string size_text(const corpus::Case& c);
+std::string size_text(const Case& c);
 
 // Returns "162 triangles, 83 vertices, 8 steps -> 4 triangles, 4 vertices, 1 step"; only one of the
 // two texts if they are equal, as for queries.
-std::string size_text(const corpus::Case& before, const corpus::Case& after);
+std::string size_text(const Case& before, const Case& after);
 
 // Lists the coordinates of a case, and simpler values for one of them.
 
@@ -110,7 +110,7 @@ using NumberGroup = std::vector<double*>;
 
 // Returns all groups: those of vertex 0, 1, .. by axis and value, then those of the view, then
 // those of the apexes. The groups are valid as long as the shape of `c` is not changed.
-std::vector<NumberGroup> number_groups(corpus::Case& c);
+std::vector<NumberGroup> number_groups(Case& c);
 
 // Returns values of lower number_cost, simplest first: small integers, then `value` with fewer
 // digits.

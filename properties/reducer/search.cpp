@@ -1,86 +1,21 @@
 #include "properties/reducer/search.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
+#include "properties/random.h"
 #include "properties/reducer/case_edits.h"
+#include "properties/worker/messages.h"
 
 namespace assay::properties {
 namespace {
 
-using corpus::Case;
-
-// A hash of 64 bits over everything that a pass may change. Among a million contents two are taken
-// for one another with a chance of 3e-8. The price is that one proposal is not judged.
-class ContentHash {
- public:
-  void add(std::uint64_t word) {
-    state_ = (std::rotl(state_, 23) ^ word) * 0x9e3779b97f4a7c15u;
-    state_ ^= state_ >> 32;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const std::vector<detector::Point>& points) {
-    add(static_cast<std::uint64_t>(points.size()));
-    for (const auto& point : points) {
-      for (const double value : point) add(value);
-    }
-  }
-  void add(const detector::Triangles& triangles) {
-    add(static_cast<std::uint64_t>(triangles.rows()));
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) {
-      add(static_cast<std::uint64_t>(triangles.data()[i]));
-    }
-  }
-  // In order, with the number of members in front.
-  template <class List, class Members>
-  void add_list(const List& list, const Members& members) {
-    add(static_cast<std::uint64_t>(list.size()));
-    for (const auto& item : list) {
-      for (const std::int32_t member : members(item)) add(static_cast<std::uint64_t>(member));
-    }
-  }
-  void add(const detector::CountedPairs& pairs) {
-    const auto as_it_is = [](const auto& item) { return item; };
-    add(static_cast<std::uint64_t>(pairs.level));
-    add_list(pairs.body, [](std::int32_t body) { return std::array{body}; });
-    add_list(pairs.apart, as_it_is);
-    add(static_cast<std::uint64_t>(pairs.rings));
-    add(pairs.rest_distance);
-    add(pairs.rest);
-    add_list(pairs.triangle_pairs, [](const auto& p) { return std::array{p.a, p.b}; });
-    add_list(pairs.vertex_faces, [](const auto& p) { return std::array{p.vertex, p.face}; });
-    add_list(pairs.edge_pairs, [](const auto& p) {
-      return std::array{p.a[0], p.a[1], p.b[0], p.b[1]};
-    });
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0x243f6a8885a308d3u;
-};
-
+// Returns a hash of 64 bits over everything that a pass may change. Among a million contents two
+// are taken for one another with a chance of 3e-8. The price is that one proposal is not judged.
 std::uint64_t hash_of(const Case& c) {
-  ContentHash hash;
-  hash.add(c.triangles);
-  hash.add(static_cast<std::uint64_t>(c.frames.size()));
-  for (const auto& frame : c.frames) {
-    for (Eigen::Index i = 0; i < frame.size(); ++i) hash.add(frame.data()[i]);
-  }
-  for (const auto& step : corpus::steps_of(c)) {
-    hash.add((static_cast<std::uint64_t>(step.from) << 33) ^
-             (static_cast<std::uint64_t>(step.to) << 1) ^ (step.commit ? 1u : 0u));
-  }
-  if (c.view) {
-    hash.add(c.view->q0);
-    hash.add(c.view->q1);
-  }
-  if (c.ghosts) {
-    hash.add(c.ghosts->triangles);
-    for (const auto& apexes : c.ghosts->apexes) hash.add(apexes);
-  }
-  if (c.counted) hash.add(c.counted->pairs);
-  return hash.value();
+  Numbers script;  // without the padding of a step
+  for (const auto& [from, to, commit] : steps_of(c))
+    script.insert(script.end(), {from, to, commit});
+  return Random::hash(encode(c.triangles, c.frames, script, c.view, c.ghosts, c.counted));
 }
 
 }  // namespace
@@ -161,14 +96,9 @@ void ReductionSearch::begin_pass(const std::string& name) {
   const double now = seconds();
   if (!statistics_.empty()) statistics_[pass_].seconds += now - pass_start_;
   pass_start_ = now;
-  for (std::size_t p = 0; p < statistics_.size(); ++p) {
-    if (statistics_[p].name == name) {
-      pass_ = p;
-      return;
-    }
-  }
-  pass_ = statistics_.size();
-  statistics_.push_back({name, 0, 0, 0});
+  const auto place = std::ranges::find(statistics_, name, &PassStatistics::name);
+  pass_ = static_cast<std::size_t>(place - statistics_.begin());
+  if (place == statistics_.end()) statistics_.push_back({name, 0, 0, 0});
 }
 
 Rings rings_of(const ReductionSearch& search) {
@@ -186,7 +116,7 @@ Rings rings_of(const ReductionSearch& search) {
     }
   }
   for (auto& row : rings.neighbours) {
-    std::sort(row.begin(), row.end());
+    std::ranges::sort(row);
     row.erase(std::unique(row.begin(), row.end()), row.end());
   }
 
@@ -213,16 +143,17 @@ Rings rings_of(const ReductionSearch& search) {
     }
   }
   rings.far_first = in_order(vertices);
-  std::stable_sort(rings.far_first.begin(), rings.far_first.end(),
-                   [&](auto a, auto b) { return rings.distance[at(a)] > rings.distance[at(b)]; });
+  std::ranges::stable_sort(rings.far_first, [&](auto a, auto b) {
+    return rings.distance[at(a)] > rings.distance[at(b)];
+  });
   return rings;
 }
 
-corpus::Case within(const corpus::Case& c, const Rings& rings, int ring) {
+Case within(const Case& c, const Rings& rings, int ring) {
   std::vector<std::uint8_t> keep;
   for (const auto& corners : triangles_of(c)) {
-    keep.push_back(std::all_of(corners.begin(), corners.end(),
-                               [&](std::int32_t v) { return rings.distance[at(v)] <= ring; }));
+    keep.push_back(std::ranges::all_of(
+        corners, [&](std::int32_t v) { return rings.distance[at(v)] <= ring; }));
   }
   return keep_triangles(c, keep);
 }

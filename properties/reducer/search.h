@@ -15,24 +15,24 @@ namespace assay::properties {
 class ReductionSearch {
  public:
   // Judges `failing` once. If it fails, has_finding() is true and the case can be reduced.
-  ReductionSearch(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+  ReductionSearch(const Case& failing, const Judge& judge, const ReduceLimits& limits,
                   const OnBetter& on_better);
 
   bool has_finding() const { return !finding_.signature.empty(); }
-  const corpus::Case& best() const { return best_; }
+  const Case& best() const { return best_; }
   const Finding& finding() const { return finding_; }
   const MeshSize& size() const { return size_; }
 
   // Makes `candidate` the best case if it is valid, is smaller, and fails with the same signature.
   // Returns whether it did.
-  bool offer(const corpus::Case& candidate);
+  bool offer(const Case& candidate);
 
   // Makes `candidate` the best case as offer() does, even if it is not smaller.
-  bool replace(const corpus::Case& candidate);
+  bool replace(const Case& candidate);
 
   // Returns the judge's finding on a case of any size if its signature matches, or nothing. The
   // best case stays as it is.
-  std::optional<Finding> ask(const corpus::Case& candidate);
+  std::optional<Finding> ask(const Case& candidate);
 
   // Sets which signatures match from now on: those of the same claim and kind, whatever feature and
   // cause (`alone`), or only those equal to the best case's whole signature at that time.
@@ -48,13 +48,13 @@ class ReductionSearch {
   const std::vector<PassStatistics>& statistics() const { return statistics_; }
 
  private:
-  void keep(const corpus::Case& candidate, const MeshSize& size, Finding finding);
+  void keep(const Case& candidate, const MeshSize& size, Finding finding);
 
   const Judge& judge_;
   ReduceLimits limits_;
   const OnBetter& on_better_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  corpus::Case best_;
+  Case best_;
   Finding finding_;
   MeshSize size_;
   MeshSize reported_;  // the smallest size passed to on_better_
@@ -89,7 +89,7 @@ struct Rings {
 Rings rings_of(const ReductionSearch& search);
 
 // Returns the case with the triangles whose vertices all have a distance of `ring` or less.
-corpus::Case within(const corpus::Case& c, const Rings& rings, int ring);
+Case within(const Case& c, const Rings& rings, int ring);
 
 // Offers to drop or change ranges [begin, end) of a list, halves first. `try_range` is called with
 // ever smaller ranges and returns whether it succeeded. After a success the list (`size`) is

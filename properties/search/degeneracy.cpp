@@ -12,8 +12,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::FourPoints;
 using Vec = Eigen::Vector3d;
 
 constexpr int ends = 8;

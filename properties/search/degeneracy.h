@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "detector/mesh/step_types.h"
 #include "properties/words.h"
 
 namespace assay::properties {
@@ -44,7 +43,7 @@ struct Gap {
 
 // Returns the gap of a query. `time` is the time at which the features meet, or, if they do not, at
 // which they are examined. `separation` is the query's distance, 0 for a contact. About 10 us.
-Gap gap_of(const detector::FourPoints& query, double time, double separation = 0);
+Gap gap_of(const FourPoints& query, double time, double separation = 0);
 
 // Returns one number by which queries are compared: the bits of the smallest share, and half of
 // those of the next. From 0 to 96; a share of 0 counts as 64 bits.
@@ -72,12 +71,11 @@ struct DegeneracyAt {
 // overflows on the way. The bits of `moving` say what moves: bit i is point i at t = 0, bit 4 + i
 // is point i at t = 1. About 20 us.
 inline constexpr unsigned all_ends_move = 0xff;
-std::optional<detector::FourPoints> moved_onto(const detector::FourPoints& query,
-                                               std::span<const DegeneracyAt> goals,
-                                               unsigned moving = all_ends_move);
+std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
+                                     unsigned moving = all_ends_move);
 
 // Return F at a time, and the first root of F in [0, 1] in doubles; nothing if there is none.
-double coplanarity_at(const detector::FourPoints& query, double time);
-std::optional<double> root_of(const detector::FourPoints& query);
+double coplanarity_at(const FourPoints& query, double time);
+std::optional<double> root_of(const FourPoints& query);
 
 }  // namespace assay::properties

@@ -14,9 +14,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::FourPoints;
-using detector::MovingPoint;
-
 // Times at which things are made to happen: the ends, powers of two, and next to the ends.
 double menu_time(Random& random, const FourPoints& q) {
   constexpr double fixed[] = {0, 1, 1, 0.5, 0.5, 0.25, 0.125, 0.75};
@@ -57,16 +54,23 @@ DegeneracyAt any_degeneracy(Random& random, double time) {
   return {kind, time, random.below(4)};
 }
 
-void newton(Random& random, Candidate& child, const MoveContext&) {
+// Makes a move of a whole case out of a change of the four points in focus.
+template <void (*change)(Random&, FourPoints&, const Focus&, const MoveContext&)>
+void in_focus(Random& random, Candidate& child, const MoveContext& context) {
   if (!child.focus) return;
-  const FourPoints q = query_at(child.c, *child.focus);
-  const double time = random.one_in(3) ? child.focus->time : menu_time(random, q);
+  FourPoints q = query_at(child.c, *child.focus);
+  change(random, q, *child.focus, context);
+  set_query(child.c, *child.focus, q);
+}
+
+void newton(Random& random, FourPoints& q, const Focus& focus, const MoveContext&) {
+  const double time = random.one_in(3) ? focus.time : menu_time(random, q);
   std::vector<DegeneracyAt> goals = {any_degeneracy(random, time)};
   if (goals[0].kind == Degeneracy::side || random.one_in(2))
     goals.push_back({Degeneracy::coplanar, time, 0});
   if (random.one_in(2)) goals.push_back(any_degeneracy(random, time));
   const unsigned moving = goals[0].kind == Degeneracy::flat ? all_ends_move : menu_of_ends(random);
-  if (const auto query = moved_onto(q, goals, moving)) set_query(child.c, *child.focus, *query);
+  q = moved_onto(q, goals, moving).value_or(q);
 }
 
 Point place_of(const MovingPoint& p, double t) { return between(p.t0, p.t1, t); }
@@ -81,9 +85,8 @@ void send(MovingPoint& p, const Point& place, double t, bool by_its_start) {
   }
 }
 
-void meet(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus) return;
-  set_query(child.c, *child.focus, brought_together(random, query_at(child.c, *child.focus)));
+void meet(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
+  q = brought_together(random, q);
 }
 
 double neighbour(double x, int steps, Coordinates coordinates) {
@@ -117,30 +120,24 @@ void step_on_lattice(Random& random, FourPoints& q, Coordinates coordinates) {
                                           : steps * 0x1p-52 * unit;
 }
 
-void ulps(Random& random, Candidate& child, const MoveContext& context) {
-  if (!child.focus) return;
-  FourPoints q = query_at(child.c, *child.focus);
+void ulps(Random& random, FourPoints& q, const Focus&, const MoveContext& context) {
   for (int changes = random.between(1, 4); changes > 0; --changes)
     step_on_lattice(random, q, context.contract.coordinates);
-  set_query(child.c, *child.focus, q);
 }
 
 // Walks on the lattice of doubles or floats as long as the exact gap shrinks.
-void walk(Random& random, Candidate& child, const MoveContext& context) {
-  if (!child.focus) return;
+void walk(Random& random, FourPoints& q, const Focus& focus, const MoveContext& context) {
   constexpr int tries = 10;
   const double d = context.contract.separation;
-  FourPoints best = query_at(child.c, *child.focus);
-  double near = nearness(gap_of(best, child.focus->time, d));
+  double near = nearness(gap_of(q, focus.time, d));
   for (int i = 0; i < tries; ++i) {
-    FourPoints q = best;
-    step_on_lattice(random, q, context.contract.coordinates);
-    const double there = nearness(gap_of(q, child.focus->time, d));
+    FourPoints next = q;
+    step_on_lattice(random, next, context.contract.coordinates);
+    const double there = nearness(gap_of(next, focus.time, d));
     if (there < near) continue;
     near = there;
-    best = q;
+    q = next;
   }
-  set_query(child.c, *child.focus, best);
 }
 
 // Rounds all coordinates to so few bits that coincidences become exact.
@@ -154,9 +151,7 @@ void grid(Random& random, Candidate& child, const MoveContext&) {
 }
 
 // Brings the features into one plane, at rest or moving along its normal, in both frames or in one.
-void flatten(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus) return;
-  FourPoints q = query_at(child.c, *child.focus);
+void flatten(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   const auto axis = static_cast<std::size_t>(random.below(3));
   const std::size_t copied = (axis + 1) % 3;
   const int kind = random.below(4);
@@ -170,14 +165,11 @@ void flatten(Random& random, Candidate& child, const MoveContext&) {
     if (kind != 3) p.t0[axis] = level_0;
     p.t1[axis] = kind == 1 ? level_0 : level_1;
   }
-  set_query(child.c, *child.focus, q);
 }
 
-// Brings the features into a plane that no two axes span, as doubles see it: F is then noise of
-// rounding, at the edge of every error bound. The features overlap in the plane throughout.
-void near_a_plane(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus) return;
-  FourPoints q = query_at(child.c, *child.focus);
+// Brings the features into a plane that is not that of two axes, as doubles see it: F is then noise
+// of rounding, at the edge of every error bound. The features overlap in the plane throughout.
+void near_a_plane(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   const double x = random.signed_unit(), y = random.signed_unit();
   const double length = std::sqrt(x * x + y * y + 1);
   Point normal = {x / length, y / length, 1 / length};
@@ -197,7 +189,6 @@ void near_a_plane(Random& random, Candidate& child, const MoveContext&) {
     q.points[0].*end = q.first_group == 1 ? between(between(at(1), at(2), s), at(3), u)
                                           : between(at(1), between(at(2), at(3), s), 1 + u);
   }
-  set_query(child.c, *child.focus, q);
 }
 
 // The points with few bits, so that the sums and products below are exact.
@@ -213,9 +204,9 @@ FourPoints of_few_bits(FourPoints q) {
 }
 
 // Vertex and face touch without crossing, at t = s: an exact double root, as in generators/aims.
-void graze(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus || child.focus->first_group != 1) return;
-  FourPoints q = of_few_bits(query_at(child.c, *child.focus));
+void graze(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
+  if (q.first_group != 1) return;
+  q = of_few_bits(q);
   auto& [vertex, a, b, c] = q.points;
   const double s = random.one_in(2) ? 0.5 : 0.25, share = random.between(1, 4) / 4.0;
   a.t1 = a.t0;
@@ -225,13 +216,11 @@ void graze(Random& random, Candidate& child, const MoveContext&) {
   c.t1 = c.t0 + share * w;
   vertex.t0 = middle + 2 * s * e + s * s * share * w;
   vertex.t1 = middle + (2 * s - 1) * e + s * s * share * w;
-  set_query(child.c, *child.focus, q);
 }
 
 // Two edges become parallel, or a face a segment: throughout, or at one end of the step.
-void align(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus) return;
-  FourPoints q = of_few_bits(query_at(child.c, *child.focus));
+void align(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
+  q = of_few_bits(q);
   auto& [p0, p1, p2, p3] = q.points;
   constexpr double shares[] = {1, -1, 2, 0.5};
   const double share = one_of(random, shares);
@@ -243,28 +232,23 @@ void align(Random& random, Candidate& child, const MoveContext&) {
   }
   if (q.first_group == 2 && random.one_in(2)) {  // one edge goes through the other on its way
     const Point by = p2.t0 - p0.t0;
-    for (auto* p : {&p0, &p1}) {
-      for (std::size_t k = 0; k < 3; ++k) p->t1[k] = p->t0[k] + 2 * by[k];
-    }
+    for (auto* p : {&p0, &p1}) p->t1 = p->t0 + 2 * by;
     p2.t1 = p2.t0;
     p3.t1 = p3.t0;
   }
-  set_query(child.c, *child.focus, q);
 }
 
-// Gives the features the paths of another case's features, in the other case's size or in their
-// own.
-void transplant(Random& random, Candidate& child, const MoveContext& context) {
-  if (!child.focus || !context.other || !context.other->focus) return;
+// Gives the features the paths of those of another case, in its size or in their own.
+void transplant(Random& random, FourPoints& q, const Focus&, const MoveContext& context) {
+  if (!context.other || !context.other->focus) return;
   const auto& other = *context.other->focus;
-  if (other.first_group != child.focus->first_group) return;
-  FourPoints q = query_at(context.other->c, other);
+  if (other.first_group != q.first_group) return;
+  const FourPoints own = q;
+  q = query_at(context.other->c, other);
   if (random.one_in(3)) {  // the ends of one, the start of the other
-    const FourPoints own = query_at(child.c, *child.focus);
     for (std::size_t i = 0; i < 4; ++i)
       (random.one_in(2) ? q.points[i].t0 = own.points[i].t0 : q.points[i].t1 = own.points[i].t1);
   }
-  set_query(child.c, *child.focus, q);
 }
 
 // Brings the case to any size that the contract takes, for thresholds that are lengths.
@@ -291,9 +275,7 @@ void scale(Random& random, Candidate& child, const MoveContext& context) {
 }
 
 // Lets points rest, or takes a step the other way.
-void rest(Random& random, Candidate& child, const MoveContext&) {
-  if (!child.focus) return;
-  FourPoints q = query_at(child.c, *child.focus);
+void rest(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   const int kind = random.below(6);
   for (std::size_t i = 0; i < 4; ++i) {
     auto& p = q.points[i];
@@ -305,7 +287,6 @@ void rest(Random& random, Candidate& child, const MoveContext&) {
     auto& p = one_of(random, q.points);
     p.t1 = kind == 4 ? p.t0 : one_of(random, q.points).t1;
   }
-  set_query(child.c, *child.focus, q);
 }
 
 void shake(Random& random, Candidate& child, const MoveContext&) {
@@ -325,20 +306,22 @@ void shake(Random& random, Candidate& child, const MoveContext&) {
 }
 
 constexpr Move of_features[] = {
-    {"meet", "the features meet at a time and place", MoveKind::features, 5, meet},
+    {"meet", "the features meet at a time and place", MoveKind::features, 5, in_focus<meet>},
     {"scale", "scaled by a power of two, or moved away", MoveKind::features, 2, scale},
     {"newton", "Newton steps onto one degeneracy, or onto two at once", MoveKind::features, 6,
-     newton},
-    {"ulps", "some coordinates go to neighbouring numbers", MoveKind::features, 2, ulps},
-    {"walk", "a walk by ulps along which the gap shrinks", MoveKind::features, 2, walk},
+     in_focus<newton>},
+    {"ulps", "some coordinates go to neighbouring numbers", MoveKind::features, 2, in_focus<ulps>},
+    {"walk", "a walk by ulps along which the gap shrinks", MoveKind::features, 2, in_focus<walk>},
     {"grid", "all coordinates are rounded to few bits", MoveKind::features, 2, grid},
-    {"flatten", "the features lie in one plane", MoveKind::features, 3, flatten},
+    {"flatten", "the features lie in one plane", MoveKind::features, 3, in_focus<flatten>},
     {"plane", "the features lie in one plane but for rounding", MoveKind::features, 3,
-     near_a_plane},
-    {"graze", "vertex and face touch and part again: a double root", MoveKind::features, 2, graze},
-    {"align", "parallel edges, or a face without area", MoveKind::features, 2, align},
-    {"transplant", "the paths of the features of another case", MoveKind::features, 2, transplant},
-    {"rest", "points rest, or go the other way", MoveKind::features, 2, rest},
+     in_focus<near_a_plane>},
+    {"graze", "vertex and face touch and part again: a double root", MoveKind::features, 2,
+     in_focus<graze>},
+    {"align", "parallel edges, or a face without area", MoveKind::features, 2, in_focus<align>},
+    {"transplant", "the paths of the features of another case", MoveKind::features, 2,
+     in_focus<transplant>},
+    {"rest", "points rest, or go the other way", MoveKind::features, 2, in_focus<rest>},
     {"shake", "all vertices, or some, move a little", MoveKind::features, 3, shake},
 };
 

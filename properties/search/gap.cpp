@@ -7,8 +7,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::FourPoints;
 using oracle::Integer;
 using oracle::IntegerPolynomial;
 
@@ -64,7 +62,7 @@ class Sides {
       }
       exponents_[static_cast<std::size_t>(axis)] = exponent;
     }
-    greatest_ = *std::max_element(exponents_.begin(), exponents_.end());
+    greatest_ = *std::ranges::max_element(exponents_);
   }
 
   struct Place {

@@ -17,8 +17,8 @@ namespace {
 
 using Row = Eigen::RowVector3d;
 
-// Whether the mesh may be changed: a relation and ghosts refer to its numbers.
-bool is_plain(const corpus::Case& c) { return !c.counted && !c.ghosts; }
+// Whether the mesh may be changed: a relation and ghosts speak of its numbers.
+bool is_plain(const Case& c) { return !c.counted && !c.ghosts; }
 
 // A triangle becomes another one, a corner at a time; or is doubled in its place, flipped, dropped.
 void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
@@ -26,7 +26,7 @@ void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
   auto triangles = triangles_of(child.c);
   const int kind = random.below(6);
   auto& one = one_of(random, triangles);
-  corpus::Case edited = child.c;
+  Case edited = child.c;
   if (kind == 0) {
     std::swap(one[1], one[2]);
     edited = with_triangles(child.c, triangles);
@@ -39,10 +39,9 @@ void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
     edited = keep_triangles(child.c, is_kept);
   } else if (kind == 3) {
     edited = close_loops(child.c, static_cast<std::size_t>(random.below(3)));
-  } else if (kind == 4) {  // a seam: a copy of the triangle, with its own vertices
-    add_mesh(edited, detector::Triangles{{0, 1, 2}}, [&](std::size_t f) {
-      return detector::Positions(child.c.frames[f](one, Eigen::all));
-    });
+  } else if (kind == 4) {  // a seam: the triangle once more, of vertices in the same places
+    add_mesh(edited, Triangles{{0, 1, 2}},
+             [&](std::size_t f) { return Positions(child.c.frames[f](one, Eigen::all)); });
     edited = with_triangles(edited, triangles_of(edited));
   } else {
     Numbers target = in_order(vertex_count(child.c));
@@ -60,7 +59,7 @@ void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
 void unite(Random& random, Candidate& child, const MoveContext& context) {
   constexpr Eigen::Index most_triangles = 60;
   if (!context.other || !is_plain(child.c) || !is_plain(context.other->c)) return;
-  const corpus::Case& other = context.other->c;
+  const Case& other = context.other->c;
   if (says_query(other) || child.c.triangles.rows() + other.triangles.rows() > most_triangles)
     return;
   auto& c = child.c;
@@ -70,7 +69,7 @@ void unite(Random& random, Candidate& child, const MoveContext& context) {
   const double size = std::ldexp(1.0, std::ilogb(own) - std::ilogb(its));
   const auto axis = random.below(3);
   add_mesh(c, other.triangles, [&](std::size_t f) {
-    detector::Positions positions = size * other.frames[std::min(f, other.frames.size() - 1)];
+    Positions positions = size * other.frames[std::min(f, other.frames.size() - 1)];
     positions.col(axis).array() += away * own;
     return positions;
   });
@@ -109,7 +108,7 @@ void bridge(Random& random, Candidate& child, const MoveContext&) {
   };
   const auto [u, v] = edge_of(a);
   const auto [x, y] = edge_of(b);
-  corpus::Case united = c;
+  Case united = c;
   united.triangles.conservativeResize(count + 2, 3);
   united.triangles.row(count) << v, u, y;
   united.triangles.row(count + 1) << v, y, x;
@@ -133,7 +132,7 @@ void nest(Random& random, Candidate& child, const MoveContext&) {
   constexpr Eigen::Index most_triangles = 24;
   const auto count = child.c.triangles.rows();
   if (!is_plain(child.c) || count > most_triangles) return;
-  corpus::Case c = child.c;
+  Case c = child.c;
   const int triangle = random.below(static_cast<int>(count)), corner = random.below(3);
   const auto vertex = c.triangles(triangle, corner);
   const auto also_held = random.one_in(2) ? c.triangles(triangle, (corner + 1) % 3) : vertex;

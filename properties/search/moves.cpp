@@ -14,7 +14,6 @@ namespace assay::properties {
 
 namespace {
 
-using detector::FeatureKind;
 using Vertices = std::array<std::int32_t, 4>;
 using Row = Eigen::RowVector3d;
 
@@ -22,7 +21,7 @@ constexpr double looked_at[] = {0, 0.5, 1};
 
 class NearestFeatures {
  public:
-  NearestFeatures(const corpus::Case& c, std::size_t step) : c_(c) { focus_.step = step; }
+  NearestFeatures(const Case& c, std::size_t step) : c_(c) { focus_.step = step; }
 
   void look_at(std::int32_t a, std::int32_t b) {
     const auto corner = [&](std::int32_t t, int k) { return c_.triangles(t, k % 3); };
@@ -42,8 +41,8 @@ class NearestFeatures {
  private:
   void take(const Vertices& vertices, int first_group) {
     auto ascending = vertices;
-    std::sort(ascending.begin(), ascending.end());
-    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) return;
+    std::ranges::sort(ascending);
+    if (std::ranges::adjacent_find(ascending) != ascending.end()) return;
     Focus candidate = focus_;
     candidate.vertices = vertices;
     candidate.first_group = first_group;
@@ -57,14 +56,14 @@ class NearestFeatures {
     }
   }
 
-  const corpus::Case& c_;
+  const Case& c_;
   Focus focus_;
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
-// Puts the vertices of a feature into the order of FourPoints. If an edge pierces a face, its first
-// end stands for the edge.
-void set_feature(Focus& focus, const detector::Feature& feature) {
+// The places in FourPoints of the vertices of a feature: an edge that pierces a face gives its
+// first end.
+void set_feature(Focus& focus, const Feature& feature) {
   const auto& v = feature.vertices;
   const bool is_piercing = feature.kind == FeatureKind::piercing;
   focus.vertices =
@@ -74,8 +73,8 @@ void set_feature(Focus& focus, const detector::Feature& feature) {
 
 constexpr double times_of_signs[] = {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1};
 
-Row row_of(const detector::Point& p) { return {p[0], p[1], p[2]}; }
-Row row_at(const detector::MovingPoint& p, double t) {
+Row row_of(const Point& p) { return {p[0], p[1], p[2]}; }
+Row row_at(const MovingPoint& p, double t) {
   return row_of(p.t0) + t * (row_of(p.t1) - row_of(p.t0));
 }
 
@@ -86,7 +85,7 @@ struct Shares {
   double positive = 0, negative = 0;
 };
 
-Shares shares_of(const detector::SteppedMesh& motion, const detector::ViewPrimitive& view,
+Shares shares_of(const SteppedMesh& motion, const ViewPrimitive& view,
                  const std::array<std::int32_t, 3>& corners) {
   std::array<int, 3> positive{}, negative{};
   for (const double t : times_of_signs) {
@@ -112,7 +111,7 @@ Shares shares_of(const detector::SteppedMesh& motion, const detector::ViewPrimit
 
 }  // namespace
 
-std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+std::optional<Focus> focus_of(const Case& c, std::span<const StepJudgement> truth,
                               const Contract& contract, Random& random) {
   for (std::size_t s = 0; s < truth.size(); ++s) {
     const auto first = truth_of(c, truth[s], contract).first;
@@ -127,7 +126,7 @@ std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::Ste
     set_feature(focus, first->feature);
     return focus;
   }
-  const auto steps = corpus::steps_of(c);
+  const auto steps = steps_of(c);
   const auto triangles = static_cast<int>(c.triangles.rows());
   if (steps.empty() || triangles < 2) return std::nullopt;
   const auto step = static_cast<std::size_t>(random.below(static_cast<int>(steps.size())));
@@ -145,21 +144,21 @@ std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::Ste
   return nearest.focus();
 }
 
-detector::FourPoints query_at(const corpus::Case& c, const Focus& focus) {
-  const auto step = corpus::steps_of(c)[focus.step];
-  const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
-  detector::FourPoints query;
+FourPoints query_at(const Case& c, const Focus& focus) {
+  const auto step = steps_of(c)[focus.step];
+  const SteppedMesh motion{start_of(c, step), end_of(c, step)};
+  FourPoints query;
   query.first_group = focus.first_group;
   for (std::size_t i = 0; i < 4; ++i) query.points[i] = motion.path(focus.vertices[i]);
   return query;
 }
 
-void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& query) {
-  const auto step = corpus::steps_of(c)[focus.step];
+void set_query(Case& c, const Focus& focus, const FourPoints& query) {
+  const auto step = steps_of(c)[focus.step];
   for (std::size_t i = 0; i < 4; ++i) set_path(c, step, focus.vertices[i], query.points[i]);
 }
 
-detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus) {
+TrianglePair pair_in_focus(const Case& c, const Focus& focus) {
   if (focus.contact) return focus.contact->pair;
   const auto holder = [&](std::int32_t vertex) {
     std::int32_t t = 0;
@@ -169,20 +168,20 @@ detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus) 
   return {holder(focus.vertices.front()), holder(focus.vertices.back())};
 }
 
-bool is_within_a_component(const corpus::Case& c, const Focus& focus) {
+bool is_within_a_component(const Case& c, const Focus& focus) {
   if (focus.pairs.empty()) return false;
   const auto component =
       detector::make_topology(c.triangles, c.frames.front().rows()).component_of_triangle;
-  return std::all_of(focus.pairs.begin(), focus.pairs.end(), [&](const auto& pair) {
+  return std::ranges::all_of(focus.pairs, [&](const auto& pair) {
     return component[detector::at(pair.a)] == component[detector::at(pair.b)];
   });
 }
 
-double seen_alike(const corpus::Case& c, const Focus& focus) {
-  const auto view = corpus::view_of_step(c, focus.step);
+double seen_alike(const Case& c, const Focus& focus) {
+  const auto view = view_of_step(c, focus.step);
   if (!view || focus.pairs.empty()) return 0;
-  const auto step = corpus::steps_of(c)[focus.step];
-  const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+  const auto step = steps_of(c)[focus.step];
+  const SteppedMesh motion{start_of(c, step), end_of(c, step)};
   double positive = 1, negative = 1;
   for (const auto& pair : focus.pairs) {
     for (const auto t : {pair.a, pair.b}) {

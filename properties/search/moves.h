@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/step_types.h"
 #include "properties/claims/claims.h"
 #include "properties/judging/exam.h"
 
@@ -22,29 +20,29 @@ class Random;
 
 struct Focus {
   std::size_t step = 0;                    // of corpus::steps_of
-  std::array<std::int32_t, 4> vertices{};  // in the order of detector::FourPoints
+  std::array<std::int32_t, 4> vertices{};  // in the order of FourPoints
   int first_group = 1;
-  double time = 0;  // when they meet, or the time of the nearest of a few samples
-  std::optional<detector::PairContact> contact;
-  std::vector<detector::TrianglePair> pairs;  // all pairs that meet first
+  double time = 0;  // when they meet, or, of a few times, are nearest, in doubles
+  std::optional<PairContact> contact;
+  std::vector<TrianglePair> pairs;  // all pairs that meet first
 };
 
 // Returns the focus of a case; nothing for a mesh without two such features. If there is no
 // contact, a few pairs of triangles of the mesh are drawn, and their nearest features are taken.
 // REQUIRES the oracle's judgement of each step under the contract.
-std::optional<Focus> focus_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+std::optional<Focus> focus_of(const Case& c, std::span<const StepJudgement> truth,
                               const Contract& contract, Random& random);
 
-detector::FourPoints query_at(const corpus::Case& c, const Focus& focus);
+FourPoints query_at(const Case& c, const Focus& focus);
 
 // Puts the paths of the four points into the two frames of the step.
-void set_query(corpus::Case& c, const Focus& focus, const detector::FourPoints& query);
+void set_query(Case& c, const Focus& focus, const FourPoints& query);
 
 // Returns the pair in contact; without a contact, two triangles that hold one of the features each.
-detector::TrianglePair pair_in_focus(const corpus::Case& c, const Focus& focus);
+TrianglePair pair_in_focus(const Case& c, const Focus& focus);
 
 // Returns whether the first contact is within one component, not between two.
-bool is_within_a_component(const corpus::Case& c, const Focus& focus);
+bool is_within_a_component(const Case& c, const Focus& focus);
 
 // Returns how far a culling by views may leave out the first contacts.
 //
@@ -58,12 +56,12 @@ bool is_within_a_component(const corpus::Case& c, const Focus& focus);
 // doubles, for the least alike pair of the first contacts. It is 1 if all pairs have one sign, and
 // 0 without a contact or a view primitive. It is meaningless if two components meet, because such
 // pairs are never left out (L10). About 2 us for a pair.
-double seen_alike(const corpus::Case& c, const Focus& focus);
+double seen_alike(const Case& c, const Focus& focus);
 
 // A case in the making. A move that changes which triangles or vertices are in focus drops the
 // focus, and moves that need a focus then do nothing.
 struct Candidate {
-  corpus::Case c;
+  Case c;
   std::optional<Focus> focus;
 };
 
@@ -111,6 +109,6 @@ void nest(Random& random, Candidate& child, const MoveContext& context);
 
 // Returns the query with another path of its first point, so that the two features meet at some
 // time, at a corner, on an edge or inside; time and place are drawn from simple numbers.
-detector::FourPoints brought_together(Random& random, detector::FourPoints query);
+FourPoints brought_together(Random& random, FourPoints query);
 
 }  // namespace assay::properties

@@ -96,7 +96,7 @@ double error_bits(const CaseResults& results) {
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const StepDiff& diff = steps[s];
       if (diff.answered_collision) bits = std::max(bits, alarm);
-      if (diff.answer == detector::Answer::undecided) bits = std::max(bits, no_answer);
+      if (diff.answer == Answer::undecided) bits = std::max(bits, no_answer);
       if (diff.first) {
         const double off = std::abs(diff.first->detector.lo - diff.first->oracle.lo);
         if (off > 0) bits = std::max(bits, (bits_of_a_double + std::log2(off)) / 2);
@@ -114,7 +114,7 @@ std::string ways_of(const CaseResults& results) {
   std::string ways;
   if (results.runs.empty()) return ways;
   for (const auto& step : results.runs[0].steps) {
-    ways += step.answer == detector::Answer::collision ? 'c' : 'f';
+    ways += step.answer == Answer::collision ? 'c' : 'f';
     if (step.view_positive > 0) ways += 'P';
     if (step.view_negative > 0) ways += 'N';
     if (step.view_zero > 0) ways += 'Z';
@@ -124,7 +124,7 @@ std::string ways_of(const CaseResults& results) {
   return ways;
 }
 
-bool is_same(const corpus::Case& a, const corpus::Case& b) {
+bool is_same(const Case& a, const Case& b) {
   return a.triangles.rows() == b.triangles.rows() &&
          a.frames.front().rows() == b.frames.front().rows() && a.triangles == b.triangles &&
          a.frames == b.frames && a.script == b.script && a.view.has_value() == b.view.has_value() &&
@@ -140,7 +140,7 @@ struct Entry {
 };
 
 std::string word_of_hardest(const Gap& gap) {
-  const auto least = std::min_element(gap.share.begin(), gap.share.end());
+  const auto least = std::ranges::min_element(gap.share);
   return name_of(static_cast<Hardness>(least - gap.share.begin()));
 }
 
@@ -152,12 +152,9 @@ std::optional<Entry> entry_of(const CaseResults& one, const SearchSpace& space, 
   const Gap gap = gap_of(query_at(c, *focus), focus->time, separation);
   Entry entry{{c, focus}, "no contact", "", nearness(gap) + error_bits(one)};
   if (focus->contact) {
-    const auto step = corpus::steps_of(c)[focus->step];
-    const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
-    const auto& contact = *focus->contact;
-    entry.cause =
-        text_of(says_query(c) ? cause_of_query(c.triangles, motion, contact, separation > 0)
-                              : cause_of(c.triangles, motion, contact, separation > 0));
+    const auto step = steps_of(c)[focus->step];
+    const SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    entry.cause = cause_of(c.triangles, motion, *focus->contact, separation > 0, says_query(c));
   }
   if (space.gives_views && focus->contact && !says_query(c)) {
     entry.is_within_a_component = is_within_a_component(c, *focus);
@@ -204,10 +201,17 @@ class Archive {
   std::set<std::string> causes_;
 };
 
-class LaneSearch {
- public:
-  LaneSearch(const SearchLane& lane, const SearchSpace& space)
-      : lane_(lane), space_(space), swarm_(lane.id, space, 0) {}
+struct LaneSearch {
+  const SearchLane& lane_;
+  const SearchSpace& space_;
+  Swarm swarm_{lane_.id, space_, 0};
+  Archive archive_ = {};
+  std::set<std::pair<std::size_t, std::string>> signatures_ = {};
+  std::uint64_t draws_ = 0;
+  std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
+  bool renew_ = false;
+  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
+  LaneResult result_ = {};
 
   LaneResult run(const ExamineCases& examine, const std::function<bool()>& stop) {
     while (result_.cases < lane_.cases) {
@@ -217,7 +221,7 @@ class LaneSearch {
         swarm_ = Swarm(lane_.id, space_, draws_);
         of_swarm_ = 0;
       }
-      std::vector<corpus::Case> batch;
+      std::vector<Case> batch;
       const auto count = std::min(together, lane_.cases - result_.cases);
       while (batch.size() < count) {
         auto one = next_case();
@@ -239,12 +243,12 @@ class LaneSearch {
  private:
   // A case that the contract takes; nothing if many attempts in a row led to none. Each attempt
   // draws by its own number.
-  std::optional<corpus::Case> next_case() {
+  std::optional<Case> next_case() {
     constexpr int most_attempts = 200;
     for (int attempts = 0; attempts < most_attempts; ++attempts) {
       const auto id = fmt::format("{}:{}", lane_.id, ++draws_);
       Random random(id);
-      corpus::Case raw = draw(random, id);
+      Case raw = draw(random, id);
       raw.id = id;
       if (raw.frames.size() < 2 || !is_finite(raw)) continue;  // moves may overflow
       if (raw.triangles.rows() > swarm_.most_triangles || raw.frames.size() > swarm_.most_frames)
@@ -254,13 +258,13 @@ class LaneSearch {
     return std::nullopt;
   }
 
-  corpus::Case draw(Random& random, const std::string& id) const {
+  Case draw(Random& random, const std::string& id) const {
     const Candidate* parent =
         random.one_in(swarm_.fresh_one_in) ? nullptr : archive_.draw(random, swarm_.parents);
     return parent ? mutate(random, *parent) : fresh(random, id);
   }
 
-  corpus::Case fresh(Random& random, const std::string& id) const {
+  Case fresh(Random& random, const std::string& id) const {
     const bool is_on_a_ray = is_of_culling(swarm_.theme) && random.one_in(2);
     const bool is_nested = is_on_a_ray && random.one_in(2);
     Candidate child;
@@ -283,7 +287,7 @@ class LaneSearch {
     return child.c;
   }
 
-  corpus::Case mutate(Random& random, const Candidate& parent) const {
+  Case mutate(Random& random, const Candidate& parent) const {
     Candidate child = parent;
     child.c.expected = {};
     const MoveContext context{space_.contract, archive_.draw(random)};
@@ -297,7 +301,7 @@ class LaneSearch {
   }
 
   void take(const CaseResults& results) {
-    const corpus::Case& c = results.c;
+    const Case& c = results.c;
     ++result_.cases;
     bool is_defect = false;
     for (std::size_t i = 0; i < results.verdicts.size(); ++i) {
@@ -312,31 +316,20 @@ class LaneSearch {
     const auto is_open = [](const Verdict& trial) {
       return trial.outcome == Outcome::undecided || trial.outcome == Outcome::error;
     };
-    if (std::any_of(results.verdicts.begin(), results.verdicts.end(), is_open)) {
+    if (std::ranges::any_of(results.verdicts, is_open)) {
       ++result_.open;
       return;
     }
     Random random(c.id + ":focus");
     if (auto one = entry_of(results, space_, random)) archive_.offer(std::move(*one));
   }
-
-  const SearchLane& lane_;
-  const SearchSpace& space_;
-  Swarm swarm_;
-  Archive archive_;
-  std::set<std::pair<std::size_t, std::string>> signatures_;
-  std::uint64_t draws_ = 0;
-  std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
-  bool renew_ = false;
-  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
-  LaneResult result_;
 };
 
 }  // namespace
 
 LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop) {
-  return LaneSearch(lane, space).run(examine, stop);
+  return LaneSearch{lane, space}.run(examine, stop);
 }
 
 }  // namespace assay::properties

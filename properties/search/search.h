@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,22 +19,22 @@
 
 namespace assay::properties {
 
-// Examines some cases, each as fitted to the contract.
-using ExamineCases = std::function<std::vector<CaseResults>(std::vector<corpus::Case>)>;
+// Examines some cases, each as the contract has it.
+using ExamineCases = std::function<std::vector<CaseResults>(std::vector<Case>)>;
 
 // A source of fresh cases. `draw` should make a case of at most most_triangles; a larger one is not
 // taken.
 struct CaseSource {
   std::string name;
   int weight = 1;  // the relative frequency with which it is drawn from
-  std::function<corpus::Case(Random&, const std::string& id, Eigen::Index most_triangles)> draw;
+  std::function<Case(Random&, const std::string& id, Eigen::Index most_triangles)> draw;
 };
 
 struct SearchSpace {
   const Contract& contract;
   std::vector<CaseSource> sources;
   // Brings a case into a range of the contract; applied to fresh cases.
-  std::function<corpus::Case(corpus::Case)> bring;
+  std::function<Case(Case)> bring;
   // Whether the detector is given the view primitives of cases; if not, none is moved.
   bool gives_views = true;
 };
@@ -51,7 +50,7 @@ struct SearchLane {
 };
 
 struct SearchDefect {
-  corpus::Case c;  // its id is the lane's id and the number of the case
+  Case c;  // its id is the lane's id and the number of the case
   std::size_t configuration = 0;
   Failure failure;
   CaseRun run;              // that failed
@@ -112,7 +111,7 @@ struct SourceChoice {
   std::filesystem::path curated{};  // folder of the curated cases; empty: none
   // Returns whether to leave a curated case out, such as one that was made for the planted fault
   // and finds it without any search.
-  std::function<bool(const corpus::Case&)> leaves_out{};
+  std::function<bool(const Case&)> leaves_out{};
 };
 
 // Returns the sources, for several threads. A curated case is read when it is first drawn.
@@ -120,9 +119,9 @@ std::vector<CaseSource> case_sources(const SourceChoice& choice);
 
 // Returns the four points of a query as a closed mesh. Its only features without a shared vertex
 // are a corner and the face opposite, or two opposite edges.
-corpus::Case tetrahedron(const detector::FourPoints& query, std::string id);
+Case tetrahedron(const FourPoints& query, std::string id);
 
 // Returns the two features of a query as a mesh of two triangles with other corners far from them.
-corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id);
+Case two_triangles(const FourPoints& query, Random& random, std::string id);
 
 }  // namespace assay::properties

@@ -35,9 +35,9 @@ int weight_of_family(std::string_view family) {
 
 // Draws until a case is small enough, which most are.
 template <class Make>
-corpus::Case small_case(const Make& make, Eigen::Index most_triangles) {
+Case small_case(const Make& make, Eigen::Index most_triangles) {
   constexpr int most_tries = 40;
-  corpus::Case c = make(0);
+  Case c = make(0);
   for (int i = 1; i < most_tries && c.triangles.rows() > most_triangles; ++i) c = make(i);
   return c;
 }
@@ -62,7 +62,7 @@ CaseSource meshes_of(const Family& queries) {
 CaseSource source_of(const corpus::HardFamily& family) {
   return {fmt::format("hard {}", family.name), weight_of_a_kind / 50,
           [&family](Random& random, const std::string& id, Eigen::Index most_triangles) {
-            corpus::Case c = small_case(
+            Case c = small_case(
                 [&](int) {
                   const int strength = random.between(0, family.last_strength());
                   return corpus::hard_case(family, strength, random.below(1 << 20));
@@ -83,8 +83,8 @@ class CuratedCases {
   }
   bool empty() const { return files_.empty(); }
 
-  corpus::Case draw(Random& random, const std::string& id, Eigen::Index most_triangles) {
-    corpus::Case c = small_case(
+  Case draw(Random& random, const std::string& id, Eigen::Index most_triangles) {
+    Case c = small_case(
         [&](int) {
           return at(static_cast<std::size_t>(random.below(static_cast<int>(files_.size()))));
         },
@@ -94,13 +94,13 @@ class CuratedCases {
   }
 
  private:
-  // A case without frames is not taken.
-  corpus::Case at(std::size_t i) {
+  // A case without frames is none that is taken.
+  Case at(std::size_t i) {
     const std::lock_guard lock(mutex_);
     const auto [place, is_new] = cases_.try_emplace(i);
     if (is_new) {
       auto c = corpus::read_case(files_[i]);
-      const bool is_refused = c && c.value().expected.answer == detector::Answer::error;
+      const bool is_refused = c && c.value().expected.answer == Answer::error;
       if (c && !is_refused && !says_query(c.value()) && !(leaves_out_ && leaves_out_(c.value()))) {
         place->second = std::move(c.value());
         place->second.options.clear();
@@ -112,10 +112,10 @@ class CuratedCases {
     return place->second;
   }
 
-  std::function<bool(const corpus::Case&)> leaves_out_;
+  std::function<bool(const Case&)> leaves_out_;
   std::vector<std::filesystem::path> files_;
   std::mutex mutex_;
-  std::map<std::size_t, corpus::Case> cases_;
+  std::map<std::size_t, Case> cases_;
 };
 
 }  // namespace
@@ -141,8 +141,8 @@ std::vector<CaseSource> case_sources(const SourceChoice& choice) {
   return sources;
 }
 
-corpus::Case tetrahedron(const detector::FourPoints& query, std::string id) {
-  corpus::Case c = case_of_query(query, std::move(id));
+Case tetrahedron(const FourPoints& query, std::string id) {
+  Case c = case_of_query(query, std::move(id));
   c.options.clear();
   c.triangles.resize(4, 3);
   c.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
@@ -151,11 +151,11 @@ corpus::Case tetrahedron(const detector::FourPoints& query, std::string id) {
   return c;
 }
 
-corpus::Case two_triangles(const detector::FourPoints& query, Random& random, std::string id) {
+Case two_triangles(const FourPoints& query, Random& random, std::string id) {
   const bool is_vertex_face = query.first_group == 1;
   const auto first_group = static_cast<std::size_t>(query.first_group);
   const std::size_t vertices = 6;
-  corpus::Case c;
+  Case c;
   c.id = std::move(id);
   c.triangles.resize(2, 3);
   if (is_vertex_face) {
@@ -163,7 +163,7 @@ corpus::Case two_triangles(const detector::FourPoints& query, Random& random, st
   } else {
     c.triangles << 0, 1, 4, 2, 3, 5;
   }
-  detector::Point first{}, second{};  // the means of the two features at the start
+  Point first{}, second{};  // the means of the two features at the start
   double size = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -176,12 +176,12 @@ corpus::Case two_triangles(const detector::FourPoints& query, Random& random, st
   }
   if (!(size > 0)) size = 1;
   const double unit = std::ldexp(1.0, std::clamp(std::ilogb(size), -1000, 1000));
-  c.frames.assign(2, detector::Positions(vertices, 3));
-  const auto set_point = [&](int v, const detector::MovingPoint& p) { set_path(c, {}, v, p); };
+  c.frames.assign(2, Positions(vertices, 3));
+  const auto set_point = [&](int v, const MovingPoint& p) { set_path(c, {}, v, p); };
   for (int v = 0; v < 4; ++v) set_point(v, query.points[static_cast<std::size_t>(v)]);
   // A corner beside a point of its own feature, on the side away from the other feature.
   const auto corner = [&](std::size_t beside, double away) {
-    detector::MovingPoint p = query.points[beside];
+    MovingPoint p = query.points[beside];
     for (std::size_t k = 0; k < 3; ++k) {
       const double outward = away * (first[k] - second[k]) + unit * random.between(-2, 2);
       p.t0[k] += outward;

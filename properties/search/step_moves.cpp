@@ -14,11 +14,9 @@
 namespace assay::properties {
 namespace {
 
-using detector::FourPoints;
-
-// Inserts a frame before the one of this number, whose view primitive it shares.
-void insert_frame(corpus::Case& c, std::int32_t place, detector::Positions x) {
-  const auto script = corpus::steps_of(c);
+// Puts a frame before that of this number, and the view primitive of that frame with it.
+void insert_frame(Case& c, std::int32_t place, Positions x) {
+  const auto script = steps_of(c);
   c.frames.insert(c.frames.begin() + place, std::move(x));
   if (c.view) {
     for (auto* ends : {&c.view->q0, &c.view->q1}) {
@@ -33,11 +31,11 @@ void insert_frame(corpus::Case& c, std::int32_t place, detector::Positions x) {
 }
 
 // The step of this number in two parts, or its second part alone.
-void split_step(corpus::Case& c, std::size_t place, double share, bool has_first_part) {
-  const auto step = corpus::steps_of(c)[place];
+void split_step(Case& c, std::size_t place, double share, bool has_first_part) {
+  const auto step = steps_of(c)[place];
   const auto& x0 = c.frames[detector::at(step.from)];
-  const detector::Positions middle = x0 + share * (c.frames[detector::at(step.to)] - x0);
-  std::vector<detector::Point> views;  // in the middle: of q0, and of q1
+  const Positions middle = x0 + share * (c.frames[detector::at(step.to)] - x0);
+  std::vector<Point> views;  // in the middle: of q0, and of q1
   if (c.view) {
     for (const auto* ends : {&c.view->q0, &c.view->q1}) {
       if (ends->empty()) continue;
@@ -63,7 +61,7 @@ constexpr std::size_t most_frames = 6, most_steps = 8;
 void past(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.counted || c.ghosts) return;
-  auto script = corpus::steps_of(c);
+  auto script = steps_of(c);
   if (c.frames.size() >= most_frames || script.size() >= most_steps) return;
   const auto place = child.focus
                          ? child.focus->step
@@ -111,7 +109,7 @@ void past(Random& random, Candidate& child, const MoveContext&) {
       return;
     }
     case 6: {  // a step from elsewhere, which leads here or rests there
-      detector::Positions there = c.frames[detector::at(step.from)];
+      Positions there = c.frames[detector::at(step.from)];
       const double amount = std::ldexp(greatest_of(c), -random.between(0, 4));
       const bool rigid = random.one_in(3);
       for (Eigen::Index v = 0; v < there.rows(); ++v) {
@@ -145,7 +143,7 @@ void more_steps(Random& random, Candidate& child, const MoveContext&) {
     const auto to = static_cast<std::int32_t>(random.below(last + 1));
     c.frames.push_back(c.frames[detector::at(to)]);
   } else {
-    const detector::Positions way =
+    const Positions way =
         c.frames[detector::at(last)] - c.frames[detector::at(last > 0 ? last - 1 : 0)];
     c.frames.push_back(c.frames.back() + (random.one_in(2) ? 1.0 : -0.5) * way);
   }
@@ -162,19 +160,19 @@ void onto_ghost(Random& random, Candidate& child, const MoveContext&) {
   const auto loops = oracle::boundary_loops(c.triangles);
   if (loops.empty()) return;
   const auto& loop = one_of(random, loops);
-  const auto script = corpus::steps_of(c);
+  const auto script = steps_of(c);
   const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   const auto& from = c.frames[detector::at(step.from)];
   const auto& to = c.frames[detector::at(step.to)];
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(loop.size())));
   const auto u = loop[k], v = loop[(k + 1) % loop.size()];
   const auto rule = one_of(random, detector::apex_rules);
-  const detector::MovingPoint apex = {detector::place_apex(rule, loop, from),
-                                      detector::place_apex(rule, loop, to)};
+  const MovingPoint apex = {detector::place_apex(rule, loop, from),
+                            detector::place_apex(rule, loop, to)};
   const auto t = random.below(static_cast<int>(c.triangles.rows())), corner = random.below(3);
   const auto w = c.triangles(t, corner), x = c.triangles(t, (corner + 1) % 3);
   if (w == u || w == v) return;
-  const detector::SteppedMesh motion{from, to};
+  const SteppedMesh motion{from, to};
   FourPoints points;
   points.points = {motion.path(w), motion.path(v), motion.path(u), apex};
   points.first_group = 1;

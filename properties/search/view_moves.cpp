@@ -15,8 +15,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::FourPoints;
 using Row = Eigen::RowVector3d;
 
 Row any_row(Random& random) {
@@ -25,7 +23,7 @@ Row any_row(Random& random) {
 }
 
 // Gives the case a view primitive that moves on in each frame.
-void see_from(corpus::Case& c, const Row& q0, const Row& q1, const Row& way, bool is_line) {
+void see_from(Case& c, const Row& q0, const Row& q1, const Row& way, bool is_line) {
   c.view.emplace();
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
     const Row a = q0 + static_cast<double>(f) * way, b = q1 + static_cast<double>(f) * way;
@@ -60,7 +58,7 @@ void look_aside(Random& random, Candidate& child, const MoveContext& context) {
   if (c.ghosts || c.triangles.rows() == 0) return;
   if (!c.view) view(random, child, context);
   if (!c.view) return;
-  const auto script = corpus::steps_of(c);
+  const auto script = steps_of(c);
   const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   const auto from = detector::at(step.from), to = detector::at(step.to);
   auto triangle = random.below(static_cast<int>(c.triangles.rows()));
@@ -68,7 +66,7 @@ void look_aside(Random& random, Candidate& child, const MoveContext& context) {
     const auto& pair = child.focus->contact->pair;
     triangle = random.one_in(2) ? pair.a : pair.b;
   }
-  const detector::SteppedMesh motion{c.frames[from], c.frames[to]};
+  const SteppedMesh motion{c.frames[from], c.frames[to]};
   const bool from_its_end = !c.view->q1.empty() && random.one_in(2);
   auto& q = from_its_end ? c.view->q1 : c.view->q0;
   FourPoints points;
@@ -110,9 +108,8 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
     const double length = way.norm();
     if (!(length > 0) || tries == most_tries) return std::nullopt;
     way /= length;
-    const auto worst =
-        std::min_element(sides.begin(), sides.end(),
-                         [&](const Side& a, const Side& b) { return cosine(a) < cosine(b); });
+    const auto worst = std::ranges::min_element(
+        sides, [&](const Side& a, const Side& b) { return cosine(a) < cosine(b); });
     if (cosine(*worst) > least_cosine) break;
     way += worst->normal;
   }
@@ -132,7 +129,7 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
 void face_away(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || c.triangles.rows() == 0) return;
-  const auto step = corpus::steps_of(c)[child.focus->step];
+  const auto step = steps_of(c)[child.focus->step];
   const auto [a, b] = pair_in_focus(c, *child.focus);
   std::vector<std::int32_t> triangles = {a, b};
   const int kind = random.below(4);
@@ -142,8 +139,8 @@ void face_away(Random& random, Candidate& child, const MoveContext&) {
     triangles.resize(static_cast<std::size_t>(c.triangles.rows()));
     std::iota(triangles.begin(), triangles.end(), 0);
   }
-  const double side = random.one_in(4) ? -1 : 1;  // the triangles face the view, or away from it
-  const auto sides_of = [&](const detector::Positions& x, std::vector<Side>& sides) {
+  const double side = random.one_in(4) ? -1 : 1;  // they face it, or away from it
+  const auto sides_of = [&](const Positions& x, std::vector<Side>& sides) {
     for (const auto t : triangles) {
       const Row p = x.row(c.triangles(t, 0)), q = x.row(c.triangles(t, 1)),
                 r = x.row(c.triangles(t, 2));
@@ -193,7 +190,7 @@ struct Ray {
   double farthest = 0;  // how often `way` fits before the view-point
 };
 
-std::optional<Ray> any_ray(Random& random, const corpus::Case& c, const detector::Positions& x,
+std::optional<Ray> any_ray(Random& random, const Case& c, const Positions& x,
                            const std::vector<std::int32_t>& component) {
   const auto count = static_cast<int>(c.triangles.rows());
   const int own = random.below(count), other = random.below(count), corner = random.below(3);
@@ -231,7 +228,7 @@ std::optional<Ray> any_ray(Random& random, const corpus::Case& c, const detector
 // doubles see it: the sign of the triangle is then one of rounding errors.
 void put_into_a_plane(Random& random, Candidate& child) {
   auto& c = child.c;
-  const auto step = corpus::steps_of(c)[child.focus->step];
+  const auto step = steps_of(c)[child.focus->step];
   const auto& x0 = c.frames[detector::at(step.from)];
   const auto& x1 = c.frames[detector::at(step.to)];
   const auto& pair = one_of(random, child.focus->pairs);
@@ -259,7 +256,7 @@ void put_into_a_plane(Random& random, Candidate& child) {
 void gaze(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || child.focus->pairs.empty()) return;
-  const auto step = corpus::steps_of(c)[child.focus->step];
+  const auto step = steps_of(c)[child.focus->step];
   const auto& x = c.frames[detector::at(step.from)];
   const Row place = x.row(child.focus->vertices[0]);
   const double size = (x.rowwise() - place).cwiseAbs().maxCoeff();
@@ -274,7 +271,7 @@ void gaze(Random& random, Candidate& child, const MoveContext&) {
   for (int i = 0; i < tries; ++i) {
     const double reach = std::ldexp(size, random.between(-4, 2));
     const bool goes_on = best && !best->q1.empty() == is_line && random.one_in(2);
-    const auto& old = goes_on ? best->q0.front() : detector::Point{};
+    const auto& old = goes_on ? best->q0.front() : Point{};
     const Row q = (goes_on ? Row(old[0], old[1], old[2]) : place) + draw(reach);
     const Row end = q + draw(std::ldexp(size, random.between(-3, 2)));
     const Row way = moves ? draw(reach) : Row(Row::Zero());
@@ -306,7 +303,7 @@ std::span<const Move> view_moves() { return of_views; }
 void pass_by_ray(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || c.counted || c.triangles.rows() < 2) return;
-  const auto script = corpus::steps_of(c);
+  const auto script = steps_of(c);
   const auto step = child.focus ? script[child.focus->step] : one_of(random, script);
   if (step.from == step.to) return;
   const auto& x = c.frames[detector::at(step.from)];

@@ -14,35 +14,32 @@ namespace assay::properties {
 
 using detector::Detector;
 
-CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, Detector detector)
-    : case_(&c), script_(corpus::steps_of(c)), detector_(std::move(detector)) {
+CasePlayer::CasePlayer(const Case& c, const Options& options, Detector detector)
+    : case_(&c), script_(steps_of(c)), detector_(std::move(detector)) {
   for (std::size_t s = 0; s < script_.size(); ++s) {
-    views_.push_back(given_view(corpus::view_of_step(c, s), options.culling));
+    views_.push_back(given_view(view_of_step(c, s), options.culling));
   }
 }
 
-detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
-                                                const detector::Options& options,
+detector::Expected<CasePlayer> CasePlayer::make(const Case& c, const Options& options,
                                                 std::optional<detector::Stages> stages,
-                                                const detector::StopFunction& stop) {
-  detector::Options of_case = options;
-  of_case.counted = corpus::counted_of(c);
+                                                const StopFunction& stop) {
+  Options of_case = options;
+  of_case.counted = counted_of(c);
   auto creation = detector::assemble(c.triangles, c.frames.front(), of_case,
                                      stages ? *std::move(stages) : standard_stages(options), stop);
   if (!creation) return std::move(creation.error());
   return CasePlayer(c, options, std::move(creation.value()));
 }
 
-detector::StepResult CasePlayer::play(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::play(std::size_t s, const StopFunction& stop) {
   if (!script_[s].commit) return look(s, stop);
   return detector_.step(x_t0(s), x_t1(s), views_[s], stop);
 }
 
-detector::StepResult CasePlayer::look(std::size_t s, const detector::StopFunction& stop) {
+StepResult CasePlayer::look(std::size_t s, const StopFunction& stop) {
   return detector_.evaluate(x_t0(s), x_t1(s), views_[s], stop);
 }
-
-using detector::StepResult;
 
 void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));
@@ -78,15 +75,14 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return player.play(s);
 } catch (const std::bad_alloc&) {
   StepResult undecided;
-  undecided.answer = detector::Answer::undecided;
+  undecided.answer = Answer::undecided;
   return undecided;
 }
 
 // How far the caller may go in the step; nothing without an answer. The state stays as it is.
 std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
   auto limit = player.detector().limit(player.x_t0(s), player.x_t1(s));
-  if (limit.answer != detector::Answer::free && limit.answer != detector::Answer::collision)
-    return std::nullopt;
+  if (limit.answer != Answer::free && limit.answer != Answer::collision) return std::nullopt;
   return LimitAnswer{limit.share, std::move(limit.positions)};
 } catch (const std::bad_alloc&) {
   return std::nullopt;
@@ -95,15 +91,13 @@ std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
 // The counters are plain numbers without gaps between them, so they can be compared byte by byte.
 static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
 
-bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
+bool same_primitive(const ViewPrimitive& a, const ViewPrimitive& b) {
   return a.q0.t0 == b.q0.t0 && a.q0.t1 == b.q0.t1 && a.q1.t0 == b.q1.t0 && a.q1.t1 == b.q1.t1;
 }
 
-bool same_path(const detector::MovingPoint& a, const detector::MovingPoint& b) {
-  return a.t0 == b.t0 && a.t1 == b.t1;
-}
+bool same_path(const MovingPoint& a, const MovingPoint& b) { return a.t0 == b.t0 && a.t1 == b.t1; }
 
-bool same_contact(const detector::PairContact& a, const detector::PairContact& b) {
+bool same_contact(const PairContact& a, const PairContact& b) {
   return a.pair == b.pair && a.time == b.time && a.feature.kind == b.feature.kind &&
          a.feature.vertices == b.feature.vertices;
 }
@@ -115,7 +109,7 @@ bool same_limit(const std::optional<LimitAnswer>& a, const std::optional<LimitAn
 
 bool same_result(const StepResult& a, const StepResult& b) {
   const auto equal = [](const auto& x, const auto& y, auto same) {
-    return std::equal(x.begin(), x.end(), y.begin(), y.end(), same);
+    return std::ranges::equal(x, y, same);
   };
   return a.answer == b.answer && a.first == b.first && a.signs == b.signs &&
          a.view_positive == b.view_positive && a.view_negative == b.view_negative &&
@@ -127,7 +121,7 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 }  // namespace
 
-CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
+CaseRun run_case(const Case& c, const Configuration& configuration) try {
   CaseRun run;
   RunClock clock(configuration.is_timed);
   auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
@@ -141,7 +135,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
     const auto& result = run.steps.back();
     if (result.problem) note_error(run, s, result.problem->message);
     // Only lack of memory ends a step here without an answer.
-    if (result.answer == detector::Answer::undecided) note_error(run, s, "out of memory");
+    if (result.answer == Answer::undecided) note_error(run, s, "out of memory");
   }
   run.times = clock.take();
   return run;
@@ -149,7 +143,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
   return out_of_memory();
 }
 
-std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration& configuration,
+std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed) {
   constexpr int most_stops = 8;
   auto player = CasePlayer::make(c, configuration.options, stages_of(configuration));
@@ -161,7 +155,7 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration
       int questions = 0;
       const auto stop = [&] { return ++questions == stop_at; };
       const auto answer = player.value().look(s, stop);
-      if (answer.answer != detector::Answer::undecided) break;
+      if (answer.answer != Answer::undecided) break;
       after_stops.push_back(player.value().look(s));
     }
     const auto meanwhile = [&] {
@@ -173,7 +167,7 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const Configuration
       return !same_answers(without_marking_counts({disturbed}),
                            without_marking_counts({undisturbed[s]}));
     };
-    const auto other = std::find_if(after_stops.begin(), after_stops.end(), differs);
+    const auto other = std::ranges::find_if(after_stops, differs);
     if (other != after_stops.end() && !differs(results.back())) results.back() = *other;
   }
   return results;
@@ -189,10 +183,8 @@ CaseRun without_marking_counts(std::vector<StepResult> results) {
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.over_capacity == b.over_capacity &&
-         a.candidates == b.candidates &&
-         std::equal(a.limits.begin(), a.limits.end(), b.limits.begin(), b.limits.end(),
-                    same_limit) &&
-         std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
+         a.candidates == b.candidates && std::ranges::equal(a.limits, b.limits, same_limit) &&
+         std::ranges::equal(a.steps, b.steps, same_result);
 }
 
 namespace {
@@ -218,24 +210,11 @@ std::uint64_t peak_bytes_here() {
 
 }  // namespace
 
-RunClock::RunClock(bool is_on) : is_on_(is_on) { begin(); }
-
 double RunClock::lap() {
+  if (!is_on_) return 0;
   const double before = last_;
   last_ = processor_seconds_here();
   return last_ - before;
-}
-
-void RunClock::begin() {
-  if (is_on_) lap();
-}
-
-void RunClock::created() {
-  if (is_on_) times_.create = lap();
-}
-
-void RunClock::end_step() {
-  if (is_on_) times_.steps.push_back(lap());
 }
 
 std::optional<RunTimes> RunClock::take() {

@@ -7,11 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
-#include "detector/options.h"
 #include "detector/step/stages.h"
-#include "detector/step_result.h"
 #include "properties/words.h"
 
 namespace assay::properties {
@@ -19,7 +16,7 @@ namespace assay::properties {
 // The built-in detector with these options. For a plug-in only the name and is_timed are used.
 struct Configuration {
   std::string name;
-  detector::Options options;
+  Options options;
   std::string fault = {};  // the fault to plant in the detector (faults/fault.h), or empty
   bool is_timed = false;   // whether CaseRun::times is asked for
   // Whether the detector is also asked, before each step, how far the step may go
@@ -58,12 +55,12 @@ constexpr auto names_of(RunEnd) {
 }
 
 // The candidate pairs of one step; nothing if the detector failed to give them.
-using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
+using CandidatePairs = std::optional<std::vector<TrianglePair>>;
 
 // How far a limiter lets the caller go in one step (L17).
 struct LimitAnswer {
-  double share = -1;              // of the step; -1: not stated
-  detector::Positions positions;  // the positions at which the caller stops
+  double share = -1;    // of the step; -1: not stated
+  Positions positions;  // the positions at which the caller stops
 };
 
 struct CaseRun {
@@ -72,7 +69,7 @@ struct CaseRun {
   std::string explanation;
   // One result for each step of the case if the run completed, else none. A time that a plug-in
   // does not state, of a pair or the first one, is [0, 1].
-  std::vector<detector::StepResult> steps;
+  std::vector<StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
   // Only from a limiter, if limits are asked for: its answer in each step, nothing if it failed.
@@ -106,7 +103,7 @@ struct CaseRun {
 // Runs the case in this process, so that a crash of the detector ends the caller. Steps that commit
 // advance the state. The detector is given the case's view primitive if its culling uses views (for
 // view-point the primitive's q0 alone). A step that runs out of memory is undecided.
-CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
+CaseRun run_case(const Case& c, const Configuration& configuration);
 
 // Runs the case in the same way, but disturbed. Each step is first evaluated with a stop: at the
 // first time that the detector asks, then at the second and so on; after each stopped evaluation
@@ -114,12 +111,11 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 // on the same step in between. A right detector gives the same results as undisturbed, because
 // undecided evaluations change nothing and two detectors share nothing. Returns one result for each
 // step: one that differs from `undisturbed`, if any does. REQUIRES a mesh that is not refused.
-std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
-                                                const Configuration& configuration,
-                                                std::span<const detector::StepResult> undisturbed);
+std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
+                                      std::span<const StepResult> undisturbed);
 // Returns the results as a run that can be compared with another: without the counts of marking,
-// which depend on the marking in earlier steps, committed or not.
-CaseRun without_marking_counts(std::vector<detector::StepResult> results);
+// which depend on the marking before, whether its step was committed or not.
+CaseRun without_marking_counts(std::vector<StepResult> results);
 
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
@@ -141,10 +137,11 @@ bool same_answers(const CaseRun& a, const CaseRun& b);
 class RunClock {
  public:
   // Begins to time the making of the detector.
-  explicit RunClock(bool is_on);
-  void created();
-  void begin();     // a step begins
-  void end_step();  // the step that began last has its answer
+  explicit RunClock(bool is_on) : is_on_(is_on) { begin(); }
+  void created() { times_.create = lap(); }
+  void begin() { lap(); }  // a step begins
+  // The step that began last has its answer.
+  void end_step() { times_.steps.push_back(lap()); }
   std::optional<RunTimes> take();
 
  private:
@@ -160,11 +157,10 @@ class RunClock {
 // Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
 // the detector; none if the case states none, or if the culling uses no views. It is inline because
 // tests/mutation links the detector alone.
-inline std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> view,
-                                                       detector::Culling culling) {
+inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
   // A segment serves as a point by its first end.
-  if (culling == detector::Culling::view_point) view->q1 = view->q0;
+  if (culling == Culling::view_point) view->q1 = view->q0;
   return {*view};
 }
 
@@ -173,36 +169,35 @@ class CasePlayer {
   // Makes a new detector from the first frame, with these stages or the standard ones. The relation
   // is that of the case, not that of the options. The case must outlive the player. Errors and cost
   // are those of Detector::create.
-  static detector::Expected<CasePlayer> make(const corpus::Case& c,
-                                             const detector::Options& options,
+  static detector::Expected<CasePlayer> make(const Case& c, const Options& options,
                                              std::optional<detector::Stages> stages = {},
-                                             const detector::StopFunction& stop = {});
+                                             const StopFunction& stop = {});
 
   // Returns the number of steps of the case. All functions below REQUIRE s < steps().
   std::size_t steps() const { return script_.size(); }
-  const corpus::CaseStep& step(std::size_t s) const { return script_[s]; }
-  const detector::Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
-  const detector::Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
+  const CaseStep& step(std::size_t s) const { return script_[s]; }
+  const Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
+  const Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
 
   // Plays step s as the script says: the state advances if the script commits the step and it has
   // an answer. Steps may be played in any order; a step that does not continue the detector's
   // state is a new start for it.
-  detector::StepResult play(std::size_t s, const detector::StopFunction& stop = {});
+  StepResult play(std::size_t s, const StopFunction& stop = {});
   // Returns the result that play() would, but the state stays as it is; detector().commit() can
   // still advance it.
-  detector::StepResult look(std::size_t s, const detector::StopFunction& stop = {});
+  StepResult look(std::size_t s, const StopFunction& stop = {});
 
   detector::Detector& detector() { return detector_; }
   const detector::Detector& detector() const { return detector_; }
 
  private:
-  CasePlayer(const corpus::Case& c, const detector::Options& options, detector::Detector detector);
+  CasePlayer(const Case& c, const Options& options, detector::Detector detector);
 
-  const corpus::Case* case_;
-  std::vector<corpus::CaseStep> script_;
+  const Case* case_;
+  std::vector<CaseStep> script_;
   // The view primitives given, by step. They are computed beforehand, so that the time of a step is
   // that of the detector alone.
-  std::vector<std::vector<detector::ViewPrimitive>> views_;
+  std::vector<std::vector<ViewPrimitive>> views_;
   detector::Detector detector_;
 };
 

@@ -7,7 +7,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -66,8 +65,7 @@ ChildEnd end_of_child(pid_t id) {
 
 bool was_killed_from_outside(const ChildEnd& end) {
   constexpr std::array from_outside = {SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
-  return !end.by_host &&
-         std::find(from_outside.begin(), from_outside.end(), end.signal) != from_outside.end();
+  return !end.by_host && std::ranges::find(from_outside, end.signal) != from_outside.end();
 }
 
 Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
@@ -182,21 +180,15 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   const auto fail = [](const char* what) {
     throw std::system_error(errno, std::generic_category(), what);
   };
-  // The copy writes to a file in memory: a pipe would wake this process for every line.
-  const int file = ::memfd_create("said", MFD_CLOEXEC);
+  // The copy speaks into a file in memory: a pipe would wake this process for every line.
+  const Descriptor file(::memfd_create("said", MFD_CLOEXEC));
   if (file < 0) fail("no file in memory");
   const pid_t copy = ::fork();
   if (copy == 0) run_in_the_copy(file, work);
-  if (copy < 0) {
-    const int why = errno;
-    ::close(file);
-    errno = why;
-    fail("no process");
-  }
+  if (copy < 0) fail("no process");
   CopyRun run;
   run.end = end_of_child(copy);
   run.output = said_in(file);
-  ::close(file);
   if (run.output.ends_with(ran_out_of_memory)) throw std::bad_alloc();
   if (const auto at = run.output.find(threw); at != std::string::npos)
     throw std::runtime_error(run.output.substr(at + 1));
@@ -248,11 +240,10 @@ struct Row {
 };
 
 std::optional<Row> read_row(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file < 0) return std::nullopt;  // the process has ended by now
   std::array<char, 1024> text;
   const ssize_t size = ::read(file, text.data(), text.size() - 1);
-  ::close(file);
   if (size <= 0) return std::nullopt;
   text[static_cast<std::size_t>(size)] = 0;
   // The name stands in brackets and may hold any character, so the last bracket is searched.
@@ -290,8 +281,7 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
   std::vector<Row> tree;
   const auto belongs = [&](const Row& row) {
     return row.id == root || row.group == root ||
-           std::any_of(tree.begin(), tree.end(),
-                       [&](const Row& member) { return member.id == row.parent; });
+           std::ranges::any_of(tree, [&](const Row& member) { return member.id == row.parent; });
   };
   // A child may stand before its parent, because numbers are used again.
   for (bool has_more = true; has_more;) {
@@ -311,7 +301,7 @@ bool waits(const Row& row) { return std::strchr("SDTIZX", row.state) != nullptr;
 bool all_wait(const Row& process) {
   if (process.threads <= 1) return waits(process);
   const auto threads = rows_in("/proc/" + std::to_string(process.id) + "/task");
-  return std::all_of(threads.begin(), threads.end(), waits);
+  return std::ranges::all_of(threads, waits);
 }
 
 }  // namespace
@@ -326,7 +316,7 @@ ProcessTree look_at(pid_t root, pid_t apart) {
   ProcessTree next;
   next.descendant_seconds =
       static_cast<double>(ticks) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  next.is_asleep = !tree.empty() && std::all_of(tree.begin(), tree.end(), all_wait);
+  next.is_asleep = !tree.empty() && std::ranges::all_of(tree, all_wait);
   return next;
 }
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <string_view>
 #include <system_error>
 
@@ -21,25 +20,22 @@ namespace {
 
 constexpr std::string_view name_begins = "assay-held-";
 
-// Opens and locks a folder of this user. -1 if it is none, or if a process holds it.
-int hold(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+// Opens and locks a folder of this user. Negative if it is none, or if a process holds it.
+Descriptor hold(const std::filesystem::path& folder) {
+  Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   struct stat info;
   if (descriptor >= 0 && ::fstat(descriptor, &info) == 0 && info.st_uid == ::geteuid() &&
       ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
     return descriptor;
-  if (descriptor >= 0) ::close(descriptor);
-  return -1;
+  return Descriptor();
 }
 
 void clear_those_of_the_dead(const std::filesystem::path& parent) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(parent, error)) {
     if (!entry.path().filename().string().starts_with(name_begins)) continue;
-    const int lock = hold(entry.path());
-    if (lock < 0) continue;
-    std::filesystem::remove_all(entry.path(), error);
-    ::close(lock);
+    const Descriptor lock = hold(entry.path());
+    if (lock >= 0) std::filesystem::remove_all(entry.path(), error);
   }
 }
 
@@ -54,8 +50,8 @@ Expected<ScratchFolder> ScratchFolder::make() {
   for (int i = 0; !error && i < attempts; ++i) {
     std::string name = (parent / fmt::format("{}XXXXXX", name_begins)).string();
     if (!::mkdtemp(name.data())) error = {errno, std::generic_category()};
-    if (const int lock = error ? -1 : hold(name); lock >= 0) {
-      ScratchFolder folder_made(name, lock);
+    if (Descriptor lock = error ? Descriptor() : hold(name); lock >= 0) {
+      ScratchFolder folder_made(name, std::move(lock));
       if (std::filesystem::exists(name)) return folder_made;
     }
   }
@@ -65,8 +61,7 @@ Expected<ScratchFolder> ScratchFolder::make() {
 
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
-  if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  if (lock_ >= 0) ::close(lock_);
+  if (lock_ >= 0) std::filesystem::remove_all(path_, ignored);
 }
 
 std::string printable_lines(const std::string& text) {
@@ -82,17 +77,11 @@ std::string printable_lines(const std::string& text) {
 }
 
 std::optional<PrintedFile> PrintedFile::make() {
-  const int low = ::memfd_create("printed", MFD_CLOEXEC);
-  if (low < 0) return std::nullopt;
-  const int file = ::fcntl(low, F_DUPFD_CLOEXEC, least_passed_descriptor);
-  ::close(low);
+  const Descriptor low(::memfd_create("printed", MFD_CLOEXEC));
+  Descriptor file(::fcntl(low, F_DUPFD_CLOEXEC, least_passed_descriptor));
   if (file < 0) return std::nullopt;
   ::fcntl(file, F_SETFL, O_APPEND);
-  return PrintedFile(file);
-}
-
-PrintedFile::~PrintedFile() {
-  if (file_ >= 0) ::close(file_);
+  return PrintedFile(std::move(file));
 }
 
 void PrintedFile::move_to_kept() {
@@ -134,9 +123,9 @@ constexpr const char* refused_calls[] = {
     "socket", "io_uring_setup", "memfd_create", "memfd_secret", "shmget", "msgget", "mq_open",
 };
 
-// An open file in memory that holds the filter; -1 if the system gives none.
-int open_filter() {
-  const int file = ::memfd_create("filter", MFD_CLOEXEC);
+// An open file in memory that holds the filter; negative if the system gives none.
+Descriptor open_filter() {
+  const Descriptor file(::memfd_create("filter", MFD_CLOEXEC));
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);
   bool is_whole = file >= 0 && filter != nullptr;
   for (const char* name : refused_calls) {
@@ -147,9 +136,7 @@ int open_filter() {
   }
   is_whole = is_whole && ::seccomp_export_bpf(filter, file) == 0 && ::lseek(file, 0, SEEK_SET) == 0;
   if (filter) ::seccomp_release(filter);
-  const int high = is_whole ? ::fcntl(file, F_DUPFD_CLOEXEC, least_passed_descriptor) : -1;
-  if (file >= 0) ::close(file);
-  return high;
+  return Descriptor(is_whole ? ::fcntl(file, F_DUPFD_CLOEXEC, least_passed_descriptor) : -1);
 }
 
 std::string try_bubblewrap() {
@@ -187,14 +174,12 @@ Expected<ChildProcess> start_behind_bubblewrap(const std::filesystem::path& prog
        "--die-with-parent"});
   // Root keeps no right but the one that lets a limit on processes hold for it (main.cpp).
   if (::getuid() == 0) add({"--cap-drop", "ALL", "--cap-add", "CAP_SETUID"});
-  const int filter = open_filter();
+  const Descriptor filter = open_filter();
   if (filter < 0) return Problem{"no filter of system calls for bwrap"};
   descriptors.push_back({filter, filter_descriptor});
   add({"--seccomp", std::to_string(filter_descriptor), "--", program});
   words.insert(words.end(), arguments.begin(), arguments.end());
-  auto child = ChildProcess::start("bwrap", words, descriptors);
-  ::close(filter);
-  return child;
+  return ChildProcess::start("bwrap", words, descriptors);
 }
 
 ChildEnd end_behind_bubblewrap(const ChildEnd& of_bwrap) {

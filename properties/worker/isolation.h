@@ -44,21 +44,16 @@ class ScratchFolder {
  public:
   // Makes a folder. Fails if the system gives none.
   static Expected<ScratchFolder> make();
-  ScratchFolder(ScratchFolder&& other) noexcept
-      : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
-  ScratchFolder& operator=(ScratchFolder&& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(lock_, other.lock_);
-    return *this;
-  }
+  ScratchFolder(ScratchFolder&&) = default;
   ~ScratchFolder();
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  ScratchFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
+  ScratchFolder(std::filesystem::path path, Descriptor lock)
+      : path_(std::move(path)), lock_(std::move(lock)) {}
   std::filesystem::path path_;
-  int lock_ = -1;  // the folder, opened
+  Descriptor lock_;  // the folder, opened
 };
 
 // Keeps the output of a plug-in, one case at a time, for people to read. Nothing is judged by it.
@@ -75,13 +70,6 @@ class PrintedFile {
  public:
   // Returns nothing if the system gives no such file.
   static std::optional<PrintedFile> make();
-  PrintedFile(PrintedFile&& other) noexcept
-      : file_(std::exchange(other.file_, -1)),
-        text_(std::move(other.text_)),
-        is_cut_(other.is_cut_) {}
-  PrintedFile& operator=(PrintedFile&&) = delete;
-  ~PrintedFile();
-
   int descriptor() const { return file_; }  // at least least_passed_descriptor
   // Shortens a long file to its last part; to be called now and then in a case.
   void keep_short();
@@ -90,10 +78,10 @@ class PrintedFile {
   std::string take();
 
  private:
-  explicit PrintedFile(int file) : file_(file) {}
+  explicit PrintedFile(Descriptor file) : file_(std::move(file)) {}
   void move_to_kept();
 
-  int file_;
+  Descriptor file_;
   std::string text_;
   bool is_cut_ = false;
 };

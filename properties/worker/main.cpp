@@ -19,7 +19,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "properties/words.h"
 #include "properties/worker/messages.h"
@@ -80,10 +79,8 @@ bool limit_plugin(std::uint64_t bytes) {
 // process to end.
 void end_first_without_memory() {
   constexpr std::string_view first_of_all = "1000";
-  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-  if (file < 0) return;
+  const Descriptor file(::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC));
   [[maybe_unused]] const auto count = ::write(file, first_of_all.data(), first_of_all.size());
-  ::close(file);
 }
 
 // Settles how this process lives and dies. It dies with its host (behind bwrap, which ends it,

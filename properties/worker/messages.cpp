@@ -12,46 +12,40 @@
 
 namespace assay::properties {
 
-using detector::PairContact;
-
-std::uint64_t longest_reply(const corpus::Case& c) {
+std::uint64_t longest_reply(const Case& c) {
   // Those fields of a result that are not lists, and the numbers that begin lists.
   constexpr std::uint64_t bytes_of_a_result = 4096;
   const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
   const std::uint64_t pairs = triangles * (triangles - 1) / 2;
-  const std::uint64_t steps = corpus::steps_of(c).size();
+  const std::uint64_t steps = steps_of(c).size();
   return longest_reply_text + bytes_of_a_result +
          steps * (bytes_of_a_result + longest_reply_text +
                   static_cast<std::uint64_t>(c.frames.front().size()) * sizeof(double) +
-                  pairs * (sizeof(PairContact) + sizeof(detector::TrianglePair)));
+                  pairs * (sizeof(PairContact) + sizeof(TrianglePair)));
 }
 
-bool fits(const CaseRun& run, const corpus::Case& c) {
-  const auto is_pair = [&](const detector::TrianglePair& pair) {
+bool fits(const CaseRun& run, const Case& c) {
+  const auto is_pair = [&](const TrianglePair& pair) {
     return 0 <= pair.a && pair.a < pair.b && pair.b < c.triangles.rows();
   };
-  const std::size_t steps = run.end == RunEnd::completed ? corpus::steps_of(c).size() : 0;
+  const std::size_t steps = run.end == RunEnd::completed ? steps_of(c).size() : 0;
   const auto fit = [&](std::size_t size) { return size == 0 || size == steps; };
   return run.steps.size() == steps && fit(run.candidates.size()) && fit(run.limits.size()) &&
          run.errors.size() <= steps && fit(run.over_capacity.size()) &&
          (!run.times || fit(run.times->steps.size())) &&
-         std::all_of(run.steps.begin(), run.steps.end(),
-                     [&](const detector::StepResult& step) {
-                       return std::all_of(
-                           step.pairs.begin(), step.pairs.end(),
-                           [&](const PairContact& contact) { return is_pair(contact.pair); });
-                     }) &&
-         std::all_of(run.candidates.begin(), run.candidates.end(),
-                     [&](const CandidatePairs& pairs) {
-                       return !pairs || std::all_of(pairs->begin(), pairs->end(), is_pair);
-                     }) &&
-         std::all_of(run.limits.begin(), run.limits.end(), [&](const auto& limit) {
+         std::ranges::all_of(
+             run.steps,
+             [&](const StepResult& step) {
+               return std::ranges::all_of(
+                   step.pairs, [&](const PairContact& contact) { return is_pair(contact.pair); });
+             }) &&
+         std::ranges::all_of(run.candidates,
+                             [&](const CandidatePairs& pairs) {
+                               return !pairs || std::ranges::all_of(*pairs, is_pair);
+                             }) &&
+         std::ranges::all_of(run.limits, [&](const auto& limit) {
            return !limit || limit->positions.rows() == c.frames.front().rows();
          });
-}
-
-Channel::~Channel() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::optional<std::pair<Channel, Channel>> Channel::connected() {

@@ -22,16 +22,13 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/problem.h"
-#include "detector/mesh/step_types.h"
-#include "detector/step_result.h"
 #include "properties/claims/claims.h"
 #include "properties/fields.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
@@ -44,10 +41,9 @@ inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 template <class T>
 inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    is_one_of<T, detector::Point, detector::MovingPoint, detector::TimeEnclosure,
-              detector::TrianglePair, detector::PairContact, detector::ViewPrimitive,
-              detector::StepCounts, detector::StepTimes, corpus::CaseStep,
-              std::array<std::int32_t, 2>, detector::VertexAndFace, detector::TwoEdges>;
+    is_one_of<T, Point, MovingPoint, TimeEnclosure, TrianglePair, PairContact, ViewPrimitive,
+              detector::StepCounts, detector::StepTimes, CaseStep, std::array<std::int32_t, 2>,
+              detector::VertexAndFace, detector::TwoEdges>;
 
 // Writes or reads the fields of a message. Names are for other archives; both ends of a message are
 // built from the same list. A message that is too short, or states more items than it holds, is not
@@ -165,15 +161,14 @@ class Wire : public NamedFields<Wire<reads>> {
 // The relation of the options is not sent: the relation of the case counts, and is sent with the
 // case.
 template <class Archive>
-void fields(Archive& archive, detector::Options& options) {
+void fields(Archive& archive, Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
   archive("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
           threads, "separation", separation, "keeps_near", keeps_near);
 }
 ASSAY_FIELDS(detector::Problem, error, message)
-ASSAY_FIELDS(detector::StepResult, answer, problem, first, pairs, view_positive, view_negative,
-             view_zero, against_all, violated, dirty, views, doubts, signs, primitives, apexes,
-             counts, times)
+ASSAY_FIELDS(StepResult, answer, problem, first, pairs, view_positive, view_negative, view_zero,
+             against_all, violated, dirty, views, doubts, signs, primitives, apexes, counts, times)
 ASSAY_FIELDS(RunTimes, create, steps, peak_bytes)
 ASSAY_FIELDS(LimitAnswer, share, positions)
 
@@ -188,8 +183,9 @@ void fields(Archive& archive, CaseRun& run) {
 }
 
 ASSAY_FIELDS(Configuration, name, options, fault, is_timed, asks_limits)
-ASSAY_FIELDS(corpus::CaseView, q0, q1)
-ASSAY_FIELDS(detector::CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
+ASSAY_FIELDS(CaseView, q0, q1)
+ASSAY_FIELDS(corpus::CaseGhosts, apexes, triangles)
+ASSAY_FIELDS(CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
 // Only facts that a detector may know are sent, never the expected facts.
@@ -198,7 +194,7 @@ void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);
 }
 template <class Archive>
-void fields(Archive& archive, corpus::Case& c) {
+void fields(Archive& archive, Case& c) {
   std::string query = query_word(c);
   archive("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
           c.view, "counted", c.counted, "query", query);
@@ -228,7 +224,7 @@ ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 // in order, then for each of the next case.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
-  std::vector<corpus::Case> cases;
+  std::vector<Case> cases;
   std::vector<Configuration> configurations;
 };
 ASSAY_FIELDS(RunRequest, number, cases, configurations)
@@ -260,9 +256,9 @@ bool decode(const std::string& bytes, T& message) {
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :
-       {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
-        sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case), sizeof(detector::CountedPairs)})
+       {sizeof(Options), sizeof(StepResult), sizeof(PairContact), sizeof(detector::StepCounts),
+        sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract), sizeof(Case),
+        sizeof(CountedPairs)})
     hash = hash * 1099511628211u + size;
   return hash;
 }
@@ -276,12 +272,12 @@ inline constexpr std::size_t longest_reply_text = 4096;
 
 // Returns the most bytes that a reply to this case may have: those of a reply with every pair of
 // triangles in contact in each step, and with positions.
-std::uint64_t longest_reply(const corpus::Case& c);
+std::uint64_t longest_reply(const Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
 // Returns whether all results of a run fit the case: its steps, triangles and vertices.
-bool fits(const CaseRun& run, const corpus::Case& c);
+bool fits(const CaseRun& run, const Case& c);
 
 // A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
 // SIGPIPE.
@@ -297,13 +293,6 @@ using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 class Channel {
  public:
   explicit Channel(int descriptor) : descriptor_(descriptor) {}
-  Channel(Channel&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)),
-        sender_(other.sender_),
-        received_(std::move(other.received_)) {}
-  Channel& operator=(Channel&&) = delete;
-  ~Channel();  // closes
-
   // Returns two connected channels, both closed on exec; nothing if the system has no more. The
   // first one knows its senders.
   static std::optional<std::pair<Channel, Channel>> connected();
@@ -324,7 +313,7 @@ class Channel {
 
   ssize_t read_some(char* bytes, std::size_t size);
 
-  int descriptor_;
+  Descriptor descriptor_;
   pid_t sender_ = 0;
   std::string received_;  // bytes received beyond the last message
 };

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <thread>
 
 #include "properties/worker/child_process.h"
@@ -126,11 +127,10 @@ struct WorkerProcess::Parts {
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
     // A new one, so that no process finds what another one has left.
-    auto folder = ScratchFolder::make();
-    if (!folder) return folder.error();
-    scratch = std::move(folder.value());
+    BOOST_OUTCOME_TRY(folder, ScratchFolder::make());
+    scratch.emplace(std::move(folder));
     if (names_python(who())) {
-      if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
+      BOOST_OUTCOME_TRYV(python_plugin(who(), program));
     }
     for (const auto& word :
          {files->file().string(), scratch->path().string(), std::to_string(limits.threads), who(),
@@ -203,7 +203,7 @@ struct WorkerProcess::Parts {
   Problem broken_hello() const { return {fmt::format("{}: {}", who(), breach("no description"))}; }
 
   // Sends what is left to do and appends the answers, until a run ends the worker.
-  void run_rest(std::span<const corpus::Case> cases, const std::vector<Configuration>& rest,
+  void run_rest(std::span<const Case> cases, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // These are the fields of a RunRequest, without a copy of the cases.
     const std::uint64_t number = ++requests;
@@ -313,7 +313,7 @@ Expected<PluginDescription> WorkerProcess::describe() {
   return parts_->description;
 }
 
-std::vector<CaseRun> WorkerProcess::run(std::span<const corpus::Case> cases,
+std::vector<CaseRun> WorkerProcess::run(std::span<const Case> cases,
                                         std::span<const Configuration> configurations) {
   constexpr std::size_t most_at_once = 256;
   std::vector<CaseRun> runs;

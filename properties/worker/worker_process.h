@@ -69,12 +69,12 @@ class WorkerProcess {
   // A run whose worker is killed from outside (child_process.h) is repeated in a new worker. After
   // the third such death in a row it counts as crashed: one death may be bad luck, three are blamed
   // on the plug-in. Loading a plug-in may fail in the same way.
-  std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations) {
+  std::vector<CaseRun> run(const Case& c, std::span<const Configuration> configurations) {
     return run({&c, 1}, configurations);
   }
   // The same for many small cases, which go to the worker together. Returns the runs of the first
   // case, then those of the next. Output and processor time are not told apart.
-  std::vector<CaseRun> run(std::span<const corpus::Case> cases,
+  std::vector<CaseRun> run(std::span<const Case> cases,
                            std::span<const Configuration> configurations);
 
   // Returns how often a worker was started, for statistics and tests.

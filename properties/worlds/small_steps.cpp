@@ -66,7 +66,7 @@ const std::vector<MeshFamily>& families() {
 
 // One of four motions: nothing moves, one vertex moves, all vertices translate, or every vertex
 // goes its own way.
-void move(Random& random, int reach, const detector::Positions& x_t0, detector::Positions& x_t1) {
+void move(Random& random, int reach, const Positions& x_t0, Positions& x_t1) {
   x_t1 = x_t0;
   const auto n = static_cast<int>(x_t0.rows());
   const int kind = random.below(8);
@@ -94,23 +94,16 @@ SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
   const MeshFamily& family = one_of(random, families());
   SmallStep step;
   step.family = family.name;
-  step.triangles.resize(static_cast<Eigen::Index>(family.faces.size()), 3);
+  step.triangles = as_rows<Triangles>(family.faces);
   const bool inward = random.below(8) == 0;
-  for (std::size_t t = 0; t < family.faces.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      step.triangles(static_cast<Eigen::Index>(t), k) =
-          family.faces[t][static_cast<std::size_t>(inward ? 2 - k : k)];
-    }
-  }
+  if (inward) step.triangles = step.triangles.rowwise().reverse().eval();
   // A flat menu makes coplanar motion frequent, and a small reach makes coincident points
   // frequent.
   const int reach = random.between(1, 5);
   const bool flat = random.below(6) == 0;
-  step.x_t0.resize(family.vertices, 3);
-  for (int v = 0; v < family.vertices; ++v) {
-    const auto p = integer_point(random, reach);
-    for (int k = 0; k < 3; ++k) step.x_t0(v, k) = p[static_cast<std::size_t>(k)];
-  }
+  Points places;
+  for (int v = 0; v < family.vertices; ++v) places.push_back(integer_point(random, reach));
+  step.x_t0 = as_rows<Positions>(places);
   move(random, reach, step.x_t0, step.x_t1);
   if (flat) {
     step.x_t0.col(2).setZero();

@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <string>
 
-#include "detector/mesh/step_types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
 struct SmallStep {
   std::string family;  // family of the mesh
-  detector::Triangles triangles;
-  detector::Positions x_t0, x_t1;
-  detector::ViewPrimitive point, line;  // small integers too; the line's ends may move apart
+  Triangles triangles;
+  Positions x_t0, x_t1;
+  ViewPrimitive point, line;  // small integers too; the line's ends may move apart
 };
 
 // Makes case `index` of `seed`. A hash of both is the only source of randomness, so that any case

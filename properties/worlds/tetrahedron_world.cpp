@@ -82,7 +82,7 @@ TetrahedronMotions::Paths TetrahedronMotions::image(const Paths& paths,
                                                     const Symmetry& symmetry) const {
   Paths to;
   for (std::size_t i = 0; i < 4; ++i) to[i] = symmetry.path[at(paths[i])];
-  std::sort(to.begin(), to.end());
+  std::ranges::sort(to);
   return to;
 }
 
@@ -98,7 +98,7 @@ void TetrahedronMotions::for_each(
     for (std::size_t i = 0; i < moving; ++i) {
       paths[4 - moving + i] = moving_paths_[at(movers[i])];
     }
-    std::sort(paths.begin(), paths.end());
+    std::ranges::sort(paths);
     if (!visit_class(paths, visit)) return;
     // The first of the moving paths belongs to the block, so only the others are counted up.
     more = moving > 1 && next_ascending(std::span(movers).subspan(1, moving - 1),
@@ -117,7 +117,7 @@ bool TetrahedronMotions::visit_class(
   TetrahedronMotion motion;
   motion.stands_for = orders(paths) * (symmetries_.size() / own.size());
   const auto point = [&](int number, int side, int unit) {
-    detector::Point p = {0, 0, 0};
+    Point p = {0, 0, 0};
     for (int k = 0; k < grid_.dimensions; ++k) {
       p[at(k)] = unit * (number / power(side, k) % side);
     }
@@ -130,7 +130,7 @@ bool TetrahedronMotions::visit_class(
   for (int q = 0; q < views_; ++q) {
     std::vector<int> images;
     for (const auto* s : own) images.push_back(s->view[at(q)]);
-    std::sort(images.begin(), images.end());
+    std::ranges::sort(images);
     if (images.front() < q) continue;
     const auto last = std::unique(images.begin(), images.end());
     motion.views.push_back(
@@ -223,29 +223,23 @@ namespace {
 
 using detector::Detector;
 using detector::Pairs;
-using detector::Positions;
 using detector::Start;
-using detector::ViewPrimitive;
-using detector::ViewSign;
 
 class Check {
  public:
   Check(const TetrahedronMotion& motion, TetrahedronWorldResult& counts)
-      : motion_(motion), counts_(counts), x_t0_(4, 3), x_t1_(4, 3) {
-    for (Eigen::Index v = 0; v < 4; ++v) {
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        const auto& vertex = motion.vertices[static_cast<std::size_t>(v)];
-        x_t0_(v, k) = vertex.t0[static_cast<std::size_t>(k)];
-        x_t1_(v, k) = vertex.t1[static_cast<std::size_t>(k)];
-      }
-    }
+      : motion_(motion), counts_(counts) {
+    std::vector<Point> from, to;
+    for (const auto& [t0, t1] : motion.vertices) from.push_back(t0), to.push_back(t1);
+    x_t0_ = as_rows<Positions>(from);
+    x_t1_ = as_rows<Positions>(to);
     faces_[0].resize(4, 3);
     faces_[0] << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
     faces_[1] = faces_[0].rowwise().reverse();
     // The oracle judges one orientation only, because contacts do not depend on the orientation of
     // the faces.
     judgement_ = oracle::judge_step({x_t0_, x_t1_}, faces_[0], {1, {}});
-    collides_ = judgement_.answer == detector::Answer::collision;
+    collides_ = judgement_.answer == Answer::collision;
     // A single tetrahedron without a contact is embedded, so its layers are all (1,0) or all
     // (0,-1).
     clean_start_ = !collides_ || judgement_.first.hi > 0;
@@ -254,9 +248,9 @@ class Check {
   std::optional<TetrahedronFailure> run() {
     for (std::size_t orientation = 0; orientation < 2; ++orientation) {
       const auto make = [&](Start start, Pairs pairs) {
-        return std::move(Detector::create(faces_[orientation], x_t0_,
-                                          {detector::Culling::view_point, start, pairs})
-                             .value());
+        return std::move(
+            Detector::create(faces_[orientation], x_t0_, {Culling::view_point, start, pairs})
+                .value());
       };
       Detector verified = make(Start::verified, Pairs::all);
       Detector trusting = make(Start::clean, Pairs::first);
@@ -288,7 +282,7 @@ class Check {
   const char* check_laws(std::size_t orientation, const ViewPrimitive& q) {
     const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1}, 1);
     const auto all = [&](ViewSign sign) {
-      return std::all_of(signs.begin(), signs.end(), [=](ViewSign s) { return s == sign; });
+      return std::ranges::all_of(signs, [=](ViewSign s) { return s == sign; });
     };
     counts_.collisions += collides_ ? 1 : 0;
     const bool positive = all(ViewSign::positive);
@@ -314,22 +308,22 @@ class Check {
     return nullptr;
   }
 
-  TetrahedronFailure failure(std::size_t orientation, const detector::Point& q,
+  TetrahedronFailure failure(std::size_t orientation, const Point& q,
                              const char* explanation) const {
     TetrahedronFailure result{{}, explanation};
     result.c.about = std::string("does not hold: ") + explanation;
     result.c.source = "small world of tetrahedra";
     result.c.triangles = faces_[orientation];
     result.c.frames = {x_t0_, x_t1_};
-    result.c.view = corpus::CaseView{{q, q}, {}};
+    result.c.view = CaseView{{q, q}, {}};
     return result;
   }
 
   const TetrahedronMotion& motion_;
   TetrahedronWorldResult& counts_;
   Positions x_t0_, x_t1_;
-  std::array<detector::Triangles, 2> faces_;
-  oracle::StepJudgement judgement_;
+  std::array<Triangles, 2> faces_;
+  StepJudgement judgement_;
   bool collides_ = false, clean_start_ = false;
 };
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -44,11 +44,11 @@ struct TetrahedronGrid {
 // One motion of a class, with one view-point of each set of view-points that the motion's own
 // symmetries map onto each other.
 struct TetrahedronMotion {
-  std::array<detector::MovingPoint, 4> vertices;
+  std::array<MovingPoint, 4> vertices;
   // The number of motions of the grid, with their vertices in order, in this class.
   std::uint64_t stands_for = 0;
   struct View {
-    detector::Point q;
+    Point q;
     std::uint64_t stands_for = 0;  // view-points that its symmetries map to q
   };
   std::vector<View> views;
@@ -119,7 +119,7 @@ struct TetrahedronWorldResult {
   std::uint64_t all_positive = 0;  // for L5: all positive and winding number 1
   double seconds = 0;
   // The first case, in the order of the enumeration, that does not hold, and why it does not.
-  std::optional<corpus::Case> counterexample;
+  std::optional<Case> counterexample;
   std::string explanation;
 };
 
@@ -129,7 +129,7 @@ TetrahedronWorldResult prove(const TetrahedronWorld& world, const TetrahedronWor
 // Checks one class of a tetrahedron's motions: compares detector and laws with the oracle.
 
 struct TetrahedronFailure {
-  corpus::Case c;
+  Case c;
   std::string explanation;
 };
 

@@ -107,9 +107,9 @@ struct AgainRequest {
 // Fails if the trials cannot be made again: if the generator differs from theirs, if the worker
 // differs from the one that held the built-in detector, if there is no library, or if its bytes
 // differ from the certified ones.
-Expected<properties::TrialsAgain> run_certified_again(
-    const std::filesystem::path& folder, const AgainRequest& request,
-    const std::function<void(const properties::TrialProgress&)>& progress);
+Expected<properties::TrialsAgain> run_certified_again(const std::filesystem::path& folder,
+                                                      const AgainRequest& request,
+                                                      const properties::OnTrial& progress);
 
 // Renders the results of a run or a certificate for CI systems, as Markdown and as JUnit XML.
 

@@ -208,9 +208,9 @@ Verification verify_certificate(const std::filesystem::path& certificate) {
   return result;
 }
 
-Expected<properties::TrialsAgain> run_certified_again(
-    const std::filesystem::path& folder, const AgainRequest& terms,
-    const std::function<void(const properties::TrialProgress&)>& progress) {
+Expected<properties::TrialsAgain> run_certified_again(const std::filesystem::path& folder,
+                                                      const AgainRequest& terms,
+                                                      const properties::OnTrial& progress) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   const auto& run = findings.run;
   std::shared_ptr<const properties::JudgedLibrary> files;

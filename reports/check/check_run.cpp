@@ -276,10 +276,10 @@ class CheckRun {
     oracle.judgement = std::move(timed_diff.answer);
     oracle.milliseconds = timed_diff.milliseconds;
     oracle.truth = truth_of(oracle.judgement, answers_.under_test().contract, steps_.triangles());
-    const detector::TrianglesView triangles(steps_.triangles());
     const auto& detector = answers_.under_test();
-    oracle.diff = judge_step(answers_.run(), answers_.place_of(s), {motion, triangles, options},
-                             oracle.judgement, detector.claims, detector.contract);
+    oracle.diff = judge_step(answers_.run(), answers_.place_of(s),
+                             {motion, steps_.triangles(), options, oracle.judgement,
+                              detector.claims, detector.contract});
     const auto& diff = oracle.diff;
     progress.finish();
     if (diff.unanswered_contact && !outcome_.unanswered_step) {

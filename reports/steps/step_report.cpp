@@ -148,8 +148,8 @@ using oracle::Contradiction;
 using oracle::ContradictionKind;
 
 const char* name_of(ContradictionKind kind) {
-  return properties::word_of(
-      {"query", "missing-pair", "static-pair", "static-late", "static-apart"}, kind);
+  return std::array{"query", "missing-pair", "static-pair", "static-late",
+                    "static-apart"}[static_cast<std::size_t>(kind)];
 }
 
 bool is_static(const Contradiction& c) {

@@ -11,7 +11,6 @@
 #include <optional>
 #include <set>
 
-#include "corpus/cases/case_file.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/mesh/topology.h"
 #include "properties/campaign/gates/gates.h"
@@ -52,12 +51,12 @@ void add_cause(Words& words, const std::string& cause) {
 // The traits of a mesh, and of two of its triangles.
 class MeshTraits {
  public:
-  explicit MeshTraits(const corpus::Case& c)
+  explicit MeshTraits(const Case& c)
       : is_query_(query_of(c).has_value()),
         mesh_(detector::make_topology(c.triangles, c.frames.front().rows())) {}
 
   // A query has no mesh.
-  void add_to(Words& words, const detector::TrianglePair& pair) const {
+  void add_to(Words& words, const TrianglePair& pair) const {
     if (is_query_) return;
     const auto of = [&](std::int32_t t) { return mesh_.component_of_triangle[detector::at(t)]; };
     words.insert(of(pair.a) == of(pair.b) ? "within one component" : "between two components");
@@ -77,8 +76,8 @@ class MeshTraits {
 };
 
 // Which of the two triangles move, and how small the smaller one is at the start.
-void add_motion(Words& words, const detector::TrianglesView& triangles,
-                const detector::SteppedMesh& motion, const detector::TrianglePair& pair) {
+void add_motion(Words& words, const TrianglesView& triangles, const SteppedMesh& motion,
+                const TrianglePair& pair) {
   int moving = 0;
   double area = std::numeric_limits<double>::infinity();
   for (const auto t : {pair.a, pair.b}) {
@@ -99,21 +98,20 @@ void add_motion(Words& words, const detector::TrianglesView& triangles,
 }
 
 // The traits of the contacts of a case, of one pair alone if it is given.
-std::vector<Words> contacts_of(const corpus::Case& c, const Contract& contract,
-                               const detector::TrianglePair* alone = nullptr) {
+std::vector<Words> contacts_of(const Case& c, const Contract& contract,
+                               const TrianglePair* alone = nullptr) {
   std::vector<Words> contacts;
   const MeshTraits mesh(c);
   const bool is_query = query_of(c).has_value(), of_distance = contract.separation > 0;
   const auto judgements = judge_case(c, contract);
   for (std::size_t s = 0; s < judgements.size(); ++s) {
-    const auto step = corpus::steps_of(c)[s];
-    const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
+    const auto step = steps_of(c)[s];
+    const SteppedMesh motion{start_of(c, step), end_of(c, step)};
     for (const auto& contact : truth_of(c, judgements[s], contract).pairs) {
       if (alone && contact.pair != *alone) continue;
       auto& words = contacts.emplace_back();
       words.insert(name_of(contact.feature.kind));
-      add_cause(words, text_of(is_query ? cause_of_query(c.triangles, motion, contact, of_distance)
-                                        : cause_of(c.triangles, motion, contact, of_distance)));
+      add_cause(words, cause_of(c.triangles, motion, contact, of_distance, is_query));
       mesh.add_to(words, contact.pair);
       if (!is_query) add_motion(words, c.triangles, motion, contact.pair);
     }
@@ -156,11 +154,10 @@ std::string deed_of(const FailureRecord& failure) {
   return name_of(is_early ? Deed::reports : row_of(*claim).deed);
 }
 
-// The two triangles that the explanation names; nothing if the mesh does not have them.
-std::optional<detector::TrianglePair> pair_told(const std::string& explanation,
-                                                const corpus::Case& c) {
+// The two triangles that the explanation names; nothing if they are none of the mesh.
+std::optional<TrianglePair> pair_told(const std::string& explanation, const Case& c) {
   constexpr const char* word = "triangles ";
-  detector::TrianglePair pair{0, 0};
+  TrianglePair pair{0, 0};
   for (auto at = explanation.find(word); at != std::string::npos;
        at = explanation.find(word, at + 1)) {
     if (std::sscanf(explanation.c_str() + at, "triangles %d and %d", &pair.a, &pair.b) != 2)
@@ -206,10 +203,10 @@ using LossKinds = std::vector<LossKind>;
 
 // Sorts the kinds that lose a contact by the traits that set their contacts apart from contacts
 // that were found.
-class Sorter {
- public:
-  Sorter(LossKinds kinds, std::vector<std::string> names, std::vector<std::vector<Traits>> contacts)
-      : kinds_(std::move(kinds)), names_(std::move(names)), contacts_(std::move(contacts)) {}
+struct Sorter {
+  LossKinds kinds_;
+  const std::vector<std::string> names_;
+  const std::vector<std::vector<Traits>> contacts_;
 
   std::vector<FailureGroup> run() {
     std::vector<FailureGroup> groups;
@@ -315,10 +312,6 @@ class Sorter {
   static constexpr double least_surprise_of_some = 13.82;  // 1e-6; some hundreds are
   static constexpr std::size_t least_cases = 3;
   static constexpr double least_surprise_of_a_case = 2.08;  // an eighth of the cases that hold
-
-  LossKinds kinds_;
-  const std::vector<std::string> names_;
-  const std::vector<std::vector<Traits>> contacts_;
 };
 
 std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
@@ -352,7 +345,7 @@ std::vector<FailureGroup> groups_of_lost(const RunFindings& findings,
   }
   std::vector<std::string> names(numbers.size());
   for (const auto& [word, number] : numbers) names[number] = word;
-  return Sorter(std::move(loss_kinds), std::move(names), std::move(contact_traits)).run();
+  return Sorter{std::move(loss_kinds), std::move(names), std::move(contact_traits)}.run();
 }
 
 }  // namespace

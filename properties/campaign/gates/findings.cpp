@@ -34,9 +34,9 @@ class Reader {
   RunFindings read() {
     for (const auto& file : value_or_throw(stored_runs(findings_.folder))) add(file);
     if (findings_.evidence.issued) findings_.library = findings_.evidence.issued->detector;
-    std::sort(findings_.failures.begin(), findings_.failures.end(), is_before);
-    std::sort(findings_.parts.begin(), findings_.parts.end(),
-              [](const auto& a, const auto& b) { return a.seed < b.seed; });
+    std::ranges::sort(findings_.failures, is_before);
+    std::ranges::sort(findings_.parts,
+                      [](const auto& a, const auto& b) { return a.seed < b.seed; });
     std::string rows;
     for (const auto& part : findings_.parts) rows += part.rows;
     findings_.rows = findings_.parts.size() == 1 ? rows : corpus::sha256_of(rows);
@@ -81,9 +81,8 @@ class Reader {
     };
     store.for_each(trial_kind, [&](const Row& row) {
       const TrialRecord r = trial_of(row);
-      const auto family =
-          std::find_if(run.plan.strata.begin(), run.plan.strata.end(),
-                       [&](const StratumPlan& stratum) { return stratum.family == r.family; });
+      const auto family = std::ranges::find_if(
+          run.plan.strata, [&](const StratumPlan& stratum) { return stratum.family == r.family; });
       const auto place = r.index / run.shares;
       const bool is_planned = family != run.plan.strata.end() &&
                               place < share_of(family->cases, run.shares) &&
@@ -139,10 +138,9 @@ namespace {
 
 template <class IsCounted>
 std::uint64_t count_planted(const std::vector<FaultProof>& faults, const IsCounted& is_counted) {
-  return static_cast<std::uint64_t>(
-      std::count_if(faults.begin(), faults.end(), [&](const FaultProof& proof) {
-        return proof.status == FaultStatus::planted && is_counted(proof);
-      }));
+  return static_cast<std::uint64_t>(std::ranges::count_if(faults, [&](const FaultProof& proof) {
+    return proof.status == FaultStatus::planted && is_counted(proof);
+  }));
 }
 
 }  // namespace
@@ -156,8 +154,8 @@ std::uint64_t RunFindings::shares_of(std::uint64_t n) const {
 bool RunFindings::is_whole() const {
   std::map<std::uint64_t, std::set<std::uint64_t>> places;  // by the number of shares
   for (const auto& part : parts) places[part.shares].insert(part.seed % part.shares);
-  return std::any_of(places.begin(), places.end(),
-                     [](const auto& entry) { return entry.second.size() == entry.first; });
+  return std::ranges::any_of(places,
+                             [](const auto& entry) { return entry.second.size() == entry.first; });
 }
 
 std::uint64_t RunFindings::quota(const StratumPlan& stratum) const {
@@ -188,7 +186,7 @@ std::vector<const FailureRecord*> RunFindings::kinds() const {
     if (list.empty() || list.back()->signature() != failure.signature())
       list.push_back(example_of(failure.signature()));
   }
-  std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) {
+  std::ranges::stable_sort(list, [](const auto* a, const auto* b) {
     return oddity_of(a->signature()) < oddity_of(b->signature());
   });
   return list;
@@ -227,8 +225,7 @@ bool RunFindings::has_more_to_do() const {
   const auto& faults = evidence.faults;
   return tally.trials() < quota() ||
          evidence.sum_of(Source::search).planned < shares_of(run.plan.search) ||
-         std::any_of(faults.begin(), faults.end(),
-                     [&](const auto& proof) { return proof.time_over; });
+         std::ranges::any_of(faults, [&](const auto& proof) { return proof.time_over; });
 }
 
 std::uint64_t RunFindings::faults() const {
@@ -289,7 +286,7 @@ bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t
 
 bool configurations_agree(const RunFindings& findings, const StratumPlan& stratum) {
   const auto& all = findings.tally_of(stratum).by_configuration;
-  return std::all_of(all.begin(), all.end(), [&](const auto& outcomes) {
+  return std::ranges::all_of(all, [&](const auto& outcomes) {
     return outcomes == all.front() || outcomes == StratumTally::Outcomes{};
   });
 }

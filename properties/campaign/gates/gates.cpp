@@ -283,7 +283,7 @@ GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
       for (const auto& row : f.evidence.speed) {
         if (row.name == figure) medians.push_back(row.median);
       }
-      std::sort(medians.begin(), medians.end());
+      std::ranges::sort(medians);
       if (medians.empty()) {
         gate.against.push_back(fmt::format("{} was not measured", figure));
       } else if (medians[medians.size() / 2] > limit) {
@@ -299,8 +299,7 @@ constexpr std::array<GateFindings (*)(const RunFindings&, const VerbRequest&), g
     checks = {check_harness, check_corpus, check_claims, check_complete, check_bounds, check_speed};
 
 bool is_asked(const GateRule& rule, const VerbRequest& request) {
-  return request.certificate ||
-         std::find(request.gates.begin(), request.gates.end(), rule.name) != request.gates.end();
+  return request.certificate || std::ranges::find(request.gates, rule.name) != request.gates.end();
 }
 
 GateResult result_of(Gate gate, const RunFindings& findings, const VerbRequest& request) {

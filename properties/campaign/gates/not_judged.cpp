@@ -100,8 +100,8 @@ struct Largest {
 // Whether some configuration that is asked in strata of this family makes the claim.
 bool is_claimed_in(const RunFindings& findings, std::string_view family, Claim claim) {
   const auto configurations = configurations_in(findings.run.detector, family);
-  return std::any_of(configurations.begin(), configurations.end(),
-                     [&](const auto& one) { return claims_named(one.claims).has(claim); });
+  return std::ranges::any_of(configurations,
+                             [&](const auto& one) { return claims_named(one.claims).has(claim); });
 }
 
 Largest largest_of(const RunFindings& findings, Claim claim) {
@@ -133,8 +133,8 @@ Claims claims_of_any_configuration(const BoundDetector& detector) {
 // Whether one of these claims speaks of contacts and is not void under the contract.
 bool wants_contacts(const Claims& claims, const Contract& contract) {
   const auto claim_names = list_of(judged_claims(claims, contract));
-  return std::any_of(claim_names.begin(), claim_names.end(),
-                     [](Claim claim) { return speaks_of_contacts(row_of(claim)); });
+  return std::ranges::any_of(claim_names,
+                             [](Claim claim) { return speaks_of_contacts(row_of(claim)); });
 }
 
 }  // namespace

@@ -61,8 +61,4 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
 enum class Runs : std::uint8_t { the_same, judged_together };
 std::string difference_of(const std::string& a, const std::string& b, Runs runs = Runs::the_same);
 
-// Returns the SHA-256 over the first cases of every family, which changes if the generator makes
-// other cases. About 10 ms.
-std::string generator_digest();
-
 }  // namespace assay::properties

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 #include <sys/file.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -19,27 +17,24 @@ namespace assay::properties {
 Database::Database(const std::filesystem::path& file, Mode mode) {
   const int flags =
       mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(file.c_str(), &db_, flags, nullptr);
-  if (code != SQLITE_OK) {
-    const std::string reason =
-        fmt::format("{}: {}", file.string(), db_ ? sqlite3_errmsg(db_) : "no memory");
-    sqlite3_close(db_);
-    throw StoreProblem(reason);
-  }
+  sqlite3* db = nullptr;
+  const int code = sqlite3_open_v2(file.c_str(), &db, flags, nullptr);
+  db_.reset(db, sqlite3_close);
+  if (code != SQLITE_OK)
+    throw StoreProblem(fmt::format("{}: {}", file.string(), db ? sqlite3_errmsg(db) : "no memory"));
   constexpr int patience_ms = 5000;
-  sqlite3_busy_timeout(db_, patience_ms);
+  sqlite3_busy_timeout(db, patience_ms);
 }
 
-Database::~Database() { sqlite3_close(db_); }
-
 std::string Database::file() const {
-  const char* name = sqlite3_db_filename(db_, "main");
+  const char* name = sqlite3_db_filename(handle(), "main");
   return name ? name : "store";
 }
 
 void Database::run(const std::string& sql) const {
-  const int code = sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK) throw StoreProblem(fmt::format("{}: {}", file(), sqlite3_errmsg(db_)));
+  const int code = sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK)
+    throw StoreProblem(fmt::format("{}: {}", file(), sqlite3_errmsg(handle())));
 }
 
 void Database::check_whole() const {
@@ -87,22 +82,11 @@ void Statement::check(int code) const {
   throw StoreProblem(fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));
 }
 
-FileLock::FileLock(const std::filesystem::path& path, On on, const std::string& if_busy) {
-  const int flags = on == On::file ? O_RDWR | O_CREAT : O_RDONLY | O_DIRECTORY;
-  lock_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-  if (lock_ < 0) throw StoreProblem(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-  if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-  ::close(lock_);
-  throw StoreProblem(if_busy);
-}
-
-FileLock::FileLock(FileLock&& other) noexcept : lock_(std::exchange(other.lock_, -1)) {}
-FileLock& FileLock::operator=(FileLock&& other) noexcept {
-  std::swap(lock_, other.lock_);
-  return *this;
-}
-FileLock::~FileLock() {
-  if (lock_ >= 0) ::close(lock_);
+Descriptor lock_file(const std::filesystem::path& file, const std::string& if_busy) {
+  Descriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (lock < 0) throw StoreProblem(fmt::format("{}: {}", file.string(), std::strerror(errno)));
+  if (::flock(lock, LOCK_EX | LOCK_NB) != 0) throw StoreProblem(if_busy);
+  return lock;
 }
 
 namespace {

@@ -1,11 +1,11 @@
 // The few parts of SQLite that a store needs: a database, and one statement at a time; a lock that
-// gives one process a file or a folder to itself; the rows of a store; and its problems.
+// gives one process a file to itself; the rows of a store; and its problems.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "properties/problem.h"
+#include "properties/worker/child_process.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -63,19 +64,16 @@ class Database {
   enum class Mode : std::uint8_t { read, write };
   // Mode write makes the file if there is none.
   Database(const std::filesystem::path& file, Mode mode);
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
-  ~Database();
 
   // Runs one statement or several, without results.
   void run(const std::string& sql) const;
   // Throws if a page is damaged.
   void check_whole() const;
   std::string file() const;
-  sqlite3* handle() const { return db_; }
+  sqlite3* handle() const { return db_.get(); }
 
  private:
-  sqlite3* db_ = nullptr;
+  std::shared_ptr<sqlite3> db_;
 };
 
 // A prepared statement, finalized with the object.
@@ -100,23 +98,10 @@ class Statement {
   int values_ = 0;
 };
 
-// A lock that is held until this object or its process ends, however it ends.
-class FileLock {
- public:
-  enum class On {
-    file,    // the file is made if it is not there, and stays
-    folder,  // the lock leaves nothing behind
-  };
-  // Throws StoreProblem if the path cannot be opened, and, with the text `if_busy`, if it is
-  // locked.
-  FileLock(const std::filesystem::path& path, On on, const std::string& if_busy);
-  FileLock(FileLock&& other) noexcept;
-  FileLock& operator=(FileLock&& other) noexcept;
-  ~FileLock();
-
- private:
-  int lock_ = -1;
-};
+// Locks a file until the descriptor is closed or this process ends, however it ends. The file is
+// made if it is not there, and stays. Throws StoreProblem if it cannot be opened, and, with the
+// text `if_busy`, if it is locked.
+Descriptor lock_file(const std::filesystem::path& file, const std::string& if_busy);
 
 // A row of a ledger. A campaign stores everything in rows: a trial, a failure, a note, a planted
 // fault that was found. Every row carries a hash.

@@ -45,7 +45,7 @@ bool is_of_kind_that_may_differ(const Row& row, const std::variant<T...>*) {
 bool FaultProof::is_found() const { return curated || found_at_random(); }
 
 bool FaultProof::found_at_random() const {
-  return std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+  return std::ranges::any_of(needed, [](const auto& n) { return n.has_value(); });
 }
 
 bool FaultProof::is_whole(const CampaignPlan& plan) const {
@@ -56,8 +56,7 @@ bool FaultProof::is_whole(const CampaignPlan& plan) const {
 std::optional<std::uint64_t> FaultProof::median() const {
   if (needed.empty()) return std::nullopt;
   auto ascending = needed;
-  std::sort(ascending.begin(), ascending.end(),
-            [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
+  std::ranges::sort(ascending, [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
   return ascending[(ascending.size() - 1) / 2];
 }
 
@@ -72,8 +71,7 @@ void FaultProof::add(const FaultProof& other) {
 }
 
 std::uint64_t FaultProof::progress() const {
-  const auto place =
-      std::count_if(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+  const auto place = std::ranges::count_if(needed, [](const auto& n) { return n.has_value(); });
   return time_over ? static_cast<std::uint64_t>(place) : needed.size() + 1;
 }
 
@@ -111,8 +109,7 @@ template <class T>
 void append_new(std::vector<T>& list, const std::vector<T>& more) {
   for (const auto& x : more) {
     const Row row = to_row(x);
-    if (std::none_of(list.begin(), list.end(), [&](const T& y) { return to_row(y) == row; }))
-      list.push_back(x);
+    if (std::ranges::none_of(list, [&](const T& y) { return to_row(y) == row; })) list.push_back(x);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "corpus/cases/case_file.h"
 #include "properties/campaign/ledger/row_fields.h"
 
 namespace assay::properties {

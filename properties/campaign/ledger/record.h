@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "properties/campaign/ledger/database.h"
 #include "properties/fields.h"

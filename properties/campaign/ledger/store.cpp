@@ -47,72 +47,57 @@ std::optional<std::string> unchecked_binding(const Database& db) {
 // The end of a key is a number. If two keys differ in it alone, the shorter key comes first.
 constexpr const char* order_of_keys = "ORDER BY rtrim(key, '0123456789'), length(key), key";
 
+std::optional<Row> find(const Database& db, std::string_view kind, std::string_view key) {
+  std::optional<Row> first;
+  for_each_row(db, "WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { first = row; });
+  return first;
+}
+
+void remove(const Database& db, const Row& row) {
+  Statement(db, "DELETE FROM ledger WHERE kind=? AND key=?").bind(row.kind).bind(row.key).next();
+}
+
 }  // namespace
-
-struct Store::Parts {
-  std::optional<FileLock> lock;  // declared first, so that it outlives the database
-  Database db;
-
-  Parts(const std::filesystem::path& file, Database::Mode mode)
-      : lock(mode == Database::Mode::write
-                 ? std::optional(FileLock(file.string() + ".lock", FileLock::On::file,
-                                          file.string() + ": another run is writing it"))
-                 : std::nullopt),
-        db(file, mode) {}
-
-  std::optional<Row> find(std::string_view kind, std::string_view key) const {
-    std::optional<Row> first;
-    for_each_row(db, "WHERE kind=? AND key=?", {kind, key}, [&](const Row& row) { first = row; });
-    return first;
-  }
-
-  void remove(const Row& row) {
-    Statement(db, "DELETE FROM ledger WHERE kind=? AND key=?").bind(row.kind).bind(row.key).next();
-  }
-};
-
-Store::Store(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-Store::Store(Store&&) noexcept = default;
-Store& Store::operator=(Store&&) noexcept = default;
-Store::~Store() = default;
 
 Expected<Store> Store::read(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     return Problem{fmt::format("{}: no such file", file.string())};
   return catch_store_problem([&] {
-    auto parts = std::make_unique<Parts>(file, Database::Mode::read);
+    Store store(Descriptor(), Database(file, Database::Mode::read));
     // The transaction shows one state of the file until the store is closed.
-    parts->db.run("BEGIN");
-    const auto binding = unchecked_binding(parts->db);
+    store.db_.run("BEGIN");
+    const auto binding = unchecked_binding(store.db_);
     if (!binding) {
       throw StoreProblem(fmt::format("{}: not the store of a run", file.string()));
     }
     if (const auto older = other_schema(*binding)) throw refused_schema(file, *older);
-    parts->db.check_whole();
-    check_tables(parts->db, false);
-    return Store(std::move(parts));
+    store.db_.check_whole();
+    check_tables(store.db_, false);
+    return store;
   });
 }
 
 Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
   return catch_store_problem([&] {
-    auto parts = std::make_unique<Parts>(file, Database::Mode::write);
-    // With these settings a killed process loses nothing for which add() has returned. Only a power
+    Descriptor lock =
+        lock_file(file.string() + ".lock", file.string() + ": another run is writing it");
+    Store store(std::move(lock), Database(file, Database::Mode::write));
+    // With these settings a killed process loses nothing that add() returned from. Only a power
     // cut may lose the end.
-    parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
-    parts->db.check_whole();
-    const auto text = unchecked_binding(parts->db);
+    store.db_.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    store.db_.check_whole();
+    const auto text = unchecked_binding(store.db_);
     if (text && *text != binding) {
       if (const auto older = other_schema(*text)) throw refused_schema(file, *older);
       throw StoreProblem(fmt::format("{}: holds another run: {}; go on in a new folder: --out NEW",
                                      file.string(), difference_of(*text, binding)));
     }
-    check_tables(parts->db, true);
-    parts->db.run(table_declaration());
-    for_each_row(parts->db, "", {}, [](const Row&) {});
-    if (!text) put_row(parts->db, {std::string(binding_kind), "", 0, binding});
-    return Store(std::move(parts));
+    check_tables(store.db_, true);
+    store.db_.run(table_declaration());
+    for_each_row(store.db_, "", {}, [](const Row&) {});
+    if (!text) put_row(store.db_, {std::string(binding_kind), "", 0, binding});
+    return store;
   });
 }
 
@@ -135,19 +120,19 @@ Expected<void> copy_store(const std::filesystem::path& from, const std::filesyst
 }
 
 std::string Store::binding() const {
-  const auto row = parts_->find(binding_kind, "");
+  const auto row = find(db_, binding_kind, "");
   return row ? row->fields : "";
 }
 
 void Store::set(const Row& row) {
-  const auto before = parts_->find(row.kind, row.key);
-  if (!before || before->progress <= row.progress) put_row(parts_->db, row);
+  const auto before = find(db_, row.kind, row.key);
+  if (!before || before->progress <= row.progress) put_row(db_, row);
 }
 
 void Store::drop(std::string_view kind) {
   std::vector<Row> rows;
   for_each(kind, [&](const Row& row) { rows.push_back(row); });
-  for (const auto& row : rows) parts_->remove(row);
+  for (const auto& row : rows) remove(db_, row);
 }
 
 void Store::add(const TrialRecord& record, const std::vector<FailureRecord>& failures) {
@@ -156,13 +141,13 @@ void Store::add(const TrialRecord& record, const std::vector<FailureRecord>& fai
     rows.push_back(met_row(failure));
     if (!failure.mesh.empty()) rows.push_back(to_row(failure));
   }
-  parts_->db.run("BEGIN IMMEDIATE");
+  db_.run("BEGIN IMMEDIATE");
   try {
-    for (const auto& row : rows) put_row(parts_->db, row);
-    parts_->db.run("COMMIT");
+    for (const auto& row : rows) put_row(db_, row);
+    db_.run("COMMIT");
   } catch (const StoreProblem&) {
     try {
-      parts_->db.run("ROLLBACK");
+      db_.run("ROLLBACK");
     } catch (const StoreProblem&) {
       // SQLite has already rolled back by itself.
     }
@@ -173,22 +158,22 @@ void Store::add(const TrialRecord& record, const std::vector<FailureRecord>& fai
 void Store::keep_corpus_failures(const std::set<std::string>& signatures) {
   for (const auto& failure : failures()) {
     if (failure.is_of_corpus() && !signatures.contains(failure.signature()))
-      parts_->remove(to_row(failure));
+      remove(db_, to_row(failure));
   }
 }
 
 void Store::set_smallest(const FailureRecord& failure) {
   const Row row = to_row(failure);
-  if (parts_->find(row.kind, row.key)) put_row(parts_->db, row);
+  if (find(db_, row.kind, row.key)) put_row(db_, row);
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  put_row(parts_->db,
+  put_row(db_,
           {std::string(note_kind), key, 0, corpus::json_text(nlohmann::json{{"value", value}})});
 }
 
 void Store::for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const {
-  for_each_row(parts_->db, fmt::format("WHERE kind=? {}", order_of_keys), {kind}, visit);
+  for_each_row(db_, fmt::format("WHERE kind=? {}", order_of_keys), {kind}, visit);
 }
 
 void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
@@ -196,21 +181,21 @@ void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit)
 }
 
 bool Store::has_trial(const std::string& id) const {
-  return Statement(parts_->db, "SELECT 1 FROM ledger WHERE kind=? AND key=?")
+  return Statement(db_, "SELECT 1 FROM ledger WHERE kind=? AND key=?")
       .bind(trial_kind)
       .bind(id)
       .next();
 }
 
 std::uint64_t Store::trial_count() const {
-  Statement query(parts_->db, "SELECT count(*) FROM ledger WHERE kind=?");
+  Statement query(db_, "SELECT count(*) FROM ledger WHERE kind=?");
   return query.bind(trial_kind).next() ? query.number(0) : 0;
 }
 
 std::vector<FailureRecord> Store::failures() const {
   std::vector<FailureRecord> list;
   for_each(failure_kind, [&](const Row& row) { list.push_back(failure_of(row)); });
-  std::sort(list.begin(), list.end(), [](const FailureRecord& a, const FailureRecord& b) {
+  std::ranges::sort(list, [](const FailureRecord& a, const FailureRecord& b) {
     const auto key = [](const FailureRecord& f) {
       return std::tuple(f.signature(), f.id(), f.shown_configuration());
     };
@@ -226,20 +211,20 @@ Counts Store::signatures() const {
 }
 
 std::optional<std::string> Store::note(const std::string& key) const {
-  const auto row = parts_->find(note_kind, key);
+  const auto row = find(db_, note_kind, key);
   return row ? std::optional(text_in(*row, "value")) : std::nullopt;
 }
 
 std::vector<Row> Store::evidence() const {
   std::vector<Row> list;
-  for_each_row(parts_->db, "WHERE kind NOT IN (?,?,?,?,?)",
+  for_each_row(db_, "WHERE kind NOT IN (?,?,?,?,?)",
                {binding_kind, note_kind, trial_kind, failure_kind, met_kind},
                [&](const Row& row) { list.push_back(row); });
   return list;
 }
 
 Expected<void> Store::seal() {
-  return catch_store_problem([&] { parts_->db.run("PRAGMA journal_mode=DELETE"); });
+  return catch_store_problem([&] { db_.run("PRAGMA journal_mode=DELETE"); });
 }
 
 std::filesystem::path copied_store_file(const std::filesystem::path& out, std::uint64_t seed) {
@@ -256,7 +241,7 @@ Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::
   }
   if (error) return Problem{fmt::format("{}: {}", folder.string(), error.message())};
   if (stores.empty()) return Problem{fmt::format("{}: no run is stored here", folder.string())};
-  std::sort(stores.begin(), stores.end());
+  std::ranges::sort(stores);
   return stores;
 }
 

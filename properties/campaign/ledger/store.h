@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -38,9 +37,6 @@ class Store {
   // state of the file, even while another process adds to it. Fails if there is no such file,
   // if it is no store of this schema or damaged, and, when its rows are read, if one was changed.
   static Expected<Store> read(const std::filesystem::path& file);
-  Store(Store&&) noexcept;
-  Store& operator=(Store&&) noexcept;
-  ~Store();
 
   Expected<FailureList> kept_failures() const;
   Expected<void> keep(const Row& row) {
@@ -82,9 +78,9 @@ class Store {
   std::vector<Row> evidence() const;  // all other rows, by kind and key
 
  private:
-  struct Parts;
-  explicit Store(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  Store(Descriptor lock, Database db) : lock_(std::move(lock)), db_(std::move(db)) {}
+  Descriptor lock_;  // declared first, so that it outlives the database
+  Database db_;
 };
 
 // Copies a store into another file, whose bytes depend on the rows alone. The other file is either

@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "properties/generators/families.h"
-#include "properties/judging/case_options.h"
 #include "properties/laws/metamorphic/change_laws.h"
 
 namespace assay::properties {
@@ -15,7 +14,7 @@ namespace {
 int log2_of(std::uint64_t n) { return n == 0 ? -1 : std::bit_width(n) - 1; }
 
 // Whether a law is to be met under this culling by itself. Laws are met by view sets alone.
-bool is_met_under(detector::Culling culling, PremiseScope met_under) {
+bool is_met_under(Culling culling, PremiseScope met_under) {
   switch (met_under) {
     case PremiseScope::any_culling:
       return false;
@@ -128,7 +127,7 @@ std::vector<std::pair<const Law*, LawCount>> laws_in(const TrialCounts& counts, 
 std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const LawCount& count,
                                                                        const Law& law) {
   std::vector<std::pair<std::string, std::uint64_t>> list;
-  for (const auto culling : all_values<detector::Culling>) {
+  for (const auto culling : all_values<Culling>) {
     if (!is_met_under(culling, law.met_under)) continue;
     const auto place = count.by_culling.find(name_of(culling));
     list.emplace_back(name_of(culling), place == count.by_culling.end() ? 0 : place->second);
@@ -165,8 +164,8 @@ std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t w
 
 std::uint64_t broken_laws(const TrialCounts& counts) {
   const auto laws = laws_in(counts);
-  return static_cast<std::uint64_t>(std::count_if(
-      laws.begin(), laws.end(), [](const auto& law) { return law.second.broken > 0; }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(laws, [](const auto& law) { return law.second.broken > 0; }));
 }
 
 }  // namespace assay::properties

@@ -37,22 +37,22 @@ std::optional<Failure> failure_of_fault(const Fault& fault, CaseResults& results
 
 namespace {
 
-class Hunt {
- public:
-  Hunt(const FaultHunt& hunt, RunDeadline deadline, const OnHunt& progress)
-      : hunt_(hunt), deadline_(deadline), progress_(progress) {
+struct Hunt {
+  const FaultHunt& hunt_;
+  const RunDeadline deadline_;
+  const OnHunt& progress_;
+  bool is_cut_ = false;                  // the deadline came before all cases were judged
+  std::vector<FaultProof> proofs_ = {};  // in the order of faults()
+
+  std::vector<FaultProof> run() {
     for (const auto& fault : faults()) {
-      FaultProof proof;
+      auto& proof = proofs_.emplace_back();
       proof.fault = fault.name;
       proof.law = fault.law;
       proof.status = fault.status;
-      proof.cases = hunt.cases;
+      proof.cases = hunt_.cases;
       proof.known_vertices = static_cast<std::uint64_t>(fault.smallest_vertices);
-      proofs_.push_back(std::move(proof));
     }
-  }
-
-  std::vector<FaultProof> run() {
     if (!hunt_.curated.empty()) try_curated();
     for (int s = 1; s <= hunt_.seeds && !is_cut_; ++s) run_seed(s);
     for (auto& proof : proofs_) proof.time_over = is_cut_;
@@ -136,19 +136,13 @@ class Hunt {
       if (!places[f] && first[f] < end) places[f] = first[f];
     }
   }
-
-  const FaultHunt& hunt_;
-  const RunDeadline deadline_;
-  const OnHunt& progress_;
-  bool is_cut_ = false;             // the deadline came before all cases were judged
-  std::vector<FaultProof> proofs_;  // in the order of faults()
 };
 
 }  // namespace
 
 std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
                                     const OnHunt& progress) {
-  return Hunt(hunt, deadline, progress).run();
+  return Hunt{hunt, deadline, progress}.run();
 }
 
 Canary meet_canary(const CampaignRequest& request) {

@@ -28,9 +28,12 @@ constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
 
 // The phases of run_campaign(), which states their order.
 struct CampaignRun {
-  CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-              CampaignObserver& observer)
-      : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
+  const CampaignRequest& request_;
+  const std::filesystem::path& corpus_;
+  Store& store_;
+  CampaignObserver& observer_;
+  const OnText progress_ = [this](const std::string& text) { observer_.on_progress(text, 0, 0); };
+  const RunDeadline begin_ = Clock::now();
 
   // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
@@ -79,8 +82,8 @@ struct CampaignRun {
     if (!before.power.empty()) {
       drop_proofs();
     } else if (!before.faults.empty() &&
-               std::none_of(before.faults.begin(), before.faults.end(),
-                            [](const FaultProof& proof) { return proof.time_over; })) {
+               std::ranges::none_of(before.faults,
+                                    [](const FaultProof& proof) { return proof.time_over; })) {
       return;
     }
     const FaultHunt hunt{plan.name,        request_.seed,
@@ -105,15 +108,6 @@ struct CampaignRun {
                        result.counterexample ? std::optional(result.explanation) : std::nullopt}));
     }
   }
-
-  const CampaignRequest& request_;
-  const std::filesystem::path& corpus_;
-  Store& store_;
-  CampaignObserver& observer_;
-  const std::function<void(const std::string&)> progress_ = [this](const std::string& text) {
-    observer_.on_progress(text, 0, 0);
-  };
-  const RunDeadline begin_ = Clock::now();
 };
 
 }  // namespace
@@ -121,7 +115,7 @@ struct CampaignRun {
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {
   return catch_store_problem([&] {
-    CampaignRun run(request, corpus, store, observer);
+    CampaignRun run{request, corpus, store, observer};
     if (request.plugin) note_library(store, *request.plugin);
     note_begin(store);
     if (request.plugin) run.note_isolation();
@@ -183,9 +177,9 @@ void add_smallest(const std::vector<FailureRecord>& failures, Store& store) {
 
 }  // namespace
 
-Expected<FailureList> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
-    const std::function<void(const std::string&)>& progress) {
+Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
+                                             const std::vector<FailureRecord>& failures,
+                                             Store& store, const OnText& progress) {
   return catch_store_problem([&] {
     add_smallest(failures, store);
     shrink_failures(request, store, shrinking_of_one,
@@ -249,8 +243,7 @@ std::string difference_of_trials(const TrialRecord& first, const TrialRecord& no
 // Runs the trials of one store once more. Names the first trial with another result; empty if there
 // is none.
 std::string difference_of_store(const CampaignRequest& request,
-                                const std::vector<TrialRecord>& records,
-                                const std::function<void(const TrialProgress&)>& progress) {
+                                const std::vector<TrialRecord>& records, const OnTrial& progress) {
   std::set<std::string> ids;
   for (const auto& record : records) ids.insert(record.id);
   const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
@@ -274,8 +267,7 @@ std::string difference_of_store(const CampaignRequest& request,
 }  // namespace
 
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
-                                double share, std::uint64_t seed,
-                                const std::function<void(const TrialProgress&)>& progress) {
+                                double share, std::uint64_t seed, const OnTrial& progress) {
   return catch_store_problem([&] {
     const auto files = value_or_throw(stored_runs(folder));
     TrialsAgain again;

@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "corpus/scenes/scenes.h"
-#include "detector/options.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/ledger/store.h"
 #include "properties/campaign/request.h"
@@ -39,6 +37,8 @@ struct FaultHunt {
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
 };
 
+// Is told the progress of a phase, in words.
+using OnText = std::function<void(const std::string&)>;
 // Is told the progress of a hunt, in words, and how many cases are done and left.
 using OnHunt = std::function<void(const std::string&, std::uint64_t count, std::uint64_t rest)>;
 
@@ -97,8 +97,8 @@ bool is_repeated(const CampaignPlan& plan, bool built_in);
 // identity, through which all frames go. So nobody knows these meshes before the seed is known. The
 // map keeps contacts and their times, unless rounding decides them.
 inline constexpr int forms_of_a_scene = 3;
-corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed, int form);
+Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
+                    int form);
 
 // Returns a small mesh in many steps, so that one handle commits more often than in any other case.
 // A scene of some tens of triangles, in which the mesh meets itself, is played forwards and
@@ -108,7 +108,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
 // repeated_scene.
 inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
 inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
-corpus::Case long_sequence(std::uint64_t seed);
+Case long_sequence(std::uint64_t seed);
 
 // Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
 // sequences to the plug-in. A plug-in that claims to be deterministic runs each of them with each
@@ -131,7 +131,7 @@ corpus::Case long_sequence(std::uint64_t seed);
 //
 // Throws StoreProblem; so it is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                         const std::function<void(const std::string&)>& progress);
+                         const OnText& progress);
 
 // Walks a mesh under a limiter (walks.cpp): each step starts where the limiter let the last step
 // stop, as in a simulator. So the mesh comes nearer and nearer to itself, which cases that are
@@ -164,25 +164,21 @@ constexpr auto names_of(WalkKind) {
 inline constexpr int steps_of_a_walk = 1000;
 
 // Returns where the limiter lets the mesh stop in a step; nothing if it does not say.
-using AskedLimit = std::function<std::optional<detector::Positions>(const corpus::Case& one_step)>;
+using AskedLimit = std::function<std::optional<Positions>(const Case& one_step)>;
 
 // Returns the walk as a case, with a step from each place to its goal, so that it can be played
 // again without the limiter. Goals are rounded as the contract says, and a step that the contract
 // does not take is left out of the walk. If the limiter does not say where to stop, or stops at a
 // place that numbers cannot express, that step is the last. The seed draws shapes, pushes and
 // lifts. At the start the bodies are farther apart than the separation of the contract.
-corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
-                  const AskedLimit& ask);
+Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
+          const AskedLimit& ask);
 
 // Runs a campaign from its canary to its worlds. Each phase stores its findings and tells an
 // observer. They are read back (findings.h) and judged (gates.h).
 
 // The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
 // in a thread with a worker process of its own (search.cpp).
-
-// Returns a function that examines the cases of a lane. The exam must outlive the function. Throws
-// StoreProblem if there is no worker.
-ExamineCases examine_in_lane(const Exam& exam);
 
 // Searches in the lanes of this run that are not stored yet, and stores the result of each: its
 // defects with their meshes, then the lane itself. So a killed run, started again, repeats the
@@ -191,7 +187,7 @@ ExamineCases examine_in_lane(const Exam& exam);
 // curated cases. `progress` is called from one thread at a time. Throws StoreProblem; so it is for
 // campaign/ alone.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline, const std::function<void(const std::string&)>& progress);
+                  RunDeadline deadline, const OnText& progress);
 
 // Shrinks the cases on which a detector fails.
 
@@ -201,7 +197,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
                         WorkerProcess& worker, int jobs = 1);
 
 // Shrinks one case, by judge_of_detector.
-Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
+Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
 
@@ -212,14 +208,7 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 // smallest mesh so far. Each better mesh is stored as soon as it is found. `limits` hold for each
 // failure, the deadline for all. Throws StoreProblem, which only campaign/ catches.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-                     RunDeadline deadline, const std::function<void(const std::string&)>& progress);
-
-// Makes the detector's own choice of a view primitive part of the case.
-
-// Returns the case with the primitive of its first component stated. Nothing if the culling has no
-// views, if the case states a primitive already, or if the mesh is refused.
-std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
-                                               const detector::Options& options);
+                     RunDeadline deadline, const OnText& progress);
 
 // Returns the finding that the reducer preserves while it shrinks a failure.
 Finding finding_of(const Failure& failure);
@@ -266,9 +255,9 @@ double shrinking_seconds(const CampaignPlan& plan);
 // order of the corpus. What an earlier call stored stays. `progress` is called with the signature
 // that is being shrunk.
 // Returns the stored failures of the corpus.
-Expected<FailureList> shrink_corpus_failures(
-    const CampaignRequest& request, const std::vector<FailureRecord>& failures, Store& store,
-    const std::function<void(const std::string&)>& progress);
+Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
+                                             const std::vector<FailureRecord>& failures,
+                                             Store& store, const OnText& progress);
 
 // Stores the rows of the corpus, and removes the failures of an earlier call that the corpus does
 // not show any more. In a run (`now`) the smallest mesh of each signature is stored at once, and
@@ -297,7 +286,6 @@ struct TrialsAgain {
 // share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
 // Costs O(trials stored) to draw them, then the time that they took in the first run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
-                                double share, std::uint64_t seed,
-                                const std::function<void(const TrialProgress&)>& progress);
+                                double share, std::uint64_t seed, const OnTrial& progress);
 
 }  // namespace assay::properties

@@ -2,11 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <utility>
 
-#include "oracle/mesh/pair_relation.h"
 #include "properties/campaign/ledger/database.h"
 #include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/phases/phases.h"
@@ -58,8 +59,8 @@ std::string name_of_form(const corpus::SceneInfo& scene, int form) {
 
 }  // namespace
 
-corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed, int form) {
+Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
+                    int form) {
   constexpr int least_frames = 6, most_frames = 18, most_copies = 6;
   const std::string name = name_of_form(scene, form);
   Random random(random_key(seed, name));
@@ -72,7 +73,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   }
   options.frames = std::max(random.between(least_frames, most_frames), scene.least_frames);
   auto scene_case = corpus::make_scene(scene.name, options).value();
-  corpus::Case c;
+  Case c;
   c.id = name;
   c.triangles = std::move(scene_case.triangles);
   c.frames = std::move(scene_case.frames);
@@ -85,7 +86,7 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
   return c;
 }
 
-corpus::Case long_sequence(std::uint64_t seed) {
+Case long_sequence(std::uint64_t seed) {
   // Scenes that pierce themselves, and still do so under another map. Smaller spheres do not.
   constexpr std::string_view meeting[] = {"dented-sphere", "bend", "folding-sheet",
                                           "crumpling-sphere"};
@@ -95,7 +96,7 @@ corpus::Case long_sequence(std::uint64_t seed) {
   // With drawn_map, a row's own entry is at least 1 - 0.25 - 0.08, and the two others together at
   // most 2 (0.25 + 0.08): the map never turns the mesh inside out.
   constexpr double most_drift = 0.08;
-  corpus::Case c;
+  Case c;
   c.id = name_of_long_sequence;
   Random random(random_key(seed, c.id));
   const auto name = meeting[random.below(static_cast<int>(std::size(meeting)))];
@@ -133,36 +134,22 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// Tells whether the contract lets a contact be tested, judging by the features that meet first.
-class TestedContacts {
- public:
-  TestedContacts(const Contract& contract, const corpus::Case& c)
-      : contract_(contract), own_(tested_pairs(contract, c.frames.front())) {
-    if (own_.count_all()) return;
-    features_ = oracle::mesh_features(c.triangles);
-    relation_.emplace(own_, features_);
-  }
-  TestedContacts(const TestedContacts&) = delete;
-  TestedContacts& operator=(const TestedContacts&) = delete;
-
-  bool operator()(const detector::PairContact& contact) const {
-    const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
-    const bool is_of_kind = contract_.features == TestedFeatures::both ||
-                            is_edge_edge == (contract_.features == TestedFeatures::edge_edge);
-    return is_of_kind && (!relation_ || relation_->counts_faces(contact.pair.a, contact.pair.b));
-  }
-
- private:
-  const Contract& contract_;
-  const detector::CountedPairs own_;
-  oracle::MeshFeatures features_;
-  std::optional<oracle::PairRelation> relation_;
-};
+// Tells whether the contract lets a contact be tested, as far as the features that meet first show.
+using IsTested = std::function<bool(const PairContact&)>;
+IsTested tested_contacts(const Contract& contract, const Case& c) {
+  const auto own = std::make_shared<const CountedPairs>(tested_pairs(contract, c.frames.front()));
+  return [&contract, own,
+          counts = counted_under(contract, c.triangles, {own.get()})](const PairContact& contact) {
+    const bool is_edge_edge = contact.feature.kind == FeatureKind::edge_edge;
+    const bool is_of_kind = contract.features == TestedFeatures::both ||
+                            is_edge_edge == (contract.features == TestedFeatures::edge_edge);
+    return is_of_kind && counts(contact.pair.a, contact.pair.b);
+  };
+}
 
 // Returns the oracle's judgement of the step if the built-in detector's result is right.
-oracle::StepJudgement truth_by(const detector::StepResult& result,
-                               const TestedContacts& is_tested) {
-  oracle::StepJudgement judgement;
+StepJudgement truth_by(const StepResult& result, const IsTested& is_tested) {
+  StepJudgement judgement;
   judgement.answer = result.answer;
   judgement.complete = true;
   judgement.first = result.first;
@@ -173,35 +160,38 @@ oracle::StepJudgement truth_by(const detector::StepResult& result,
   return judgement;
 }
 
-// The steps in which the run breaks a claim if `answers`, the run of the built-in detector, are
-// right: those with the fewest contacts, most_differing at most.
-std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
+// The steps in which the run breaks a claim if the built-in detector, whose run is `answers`, is
+// right: those with the fewest contacts, and not more than most_differing.
+std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
-  const TestedContacts is_tested(contract, c);
-  const detector::TrianglesView triangles(c.triangles);
-  const auto script = corpus::steps_of(c);
+  const auto is_tested = tested_contacts(contract, c);
+  const auto script = steps_of(c);
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
     auto answer = step_alone(run, s);
     answer.limits.clear();  // which the oracle alone judges
-    const detector::SteppedMesh motion{start_of(c, script[s]), end_of(c, script[s])};
-    const auto diff = judge_step(answer, 0, {motion, triangles, {}},
-                                 truth_by(answers.steps[s], is_tested), detector.claims, contract);
+    const auto diff = judge_step(answer, 0,
+                                 {{start_of(c, script[s]), end_of(c, script[s])},
+                                  c.triangles,
+                                  {},
+                                  truth_by(answers.steps[s], is_tested),
+                                  detector.claims,
+                                  contract});
     if (diff.outcome == Outcome::defect) places.push_back(s);
   }
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) {
     return answers.steps[a].pairs.size() < answers.steps[b].pairs.size();
   });
   places.resize(std::min(places.size(), most_differing));
   return places;
 }
 
-// Returns steps of a case that the contract takes: the colliding step with the fewest contacts that
-// count, and the first step without any. `answers` is the run of the built-in detector.
-std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
+// Of a case that the contract takes: the colliding step with the fewest contacts that count, and
+// the first without any. `answers` is the run of the built-in detector.
+std::vector<std::size_t> plain_steps(const Case& c, const Contract& contract,
                                      const CaseRun& answers) {
-  const TestedContacts is_tested(contract, c);
+  const auto is_tested = tested_contacts(contract, c);
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
   for (std::size_t s = 0; s < answers.steps.size(); ++s) {
@@ -237,16 +227,17 @@ std::vector<std::size_t> first_places(std::size_t count) {
 // Which steps of a sequence the oracle judges.
 enum class JudgedSteps { none, some, all };
 
-class Repetitions {
- public:
-  Repetitions(const CampaignRequest& request, Store& store)
-      : request_(request),
-        store_(store),
-        threads_(threads_of_runs(request)),
-        built_in_(request.worker, std::nullopt, {}) {}
+struct Repetitions {
+  const CampaignRequest& request_;
+  Store& store_;
+  const std::vector<std::uint64_t> threads_ = threads_of_runs(request_);
+  WorkerProcess built_in_{request_.worker, std::nullopt, {}};
+  std::vector<WorkerProcess> workers_ = {};  // by the place of the run
+  const char* special_ = "";
+  int hung_ = 0;
 
-  // Returns where the limiter lets this step alone stop, in the process of the first run.
-  std::optional<detector::Positions> limit_of(const corpus::Case& step) {
+  // Where the limiter lets a step stop, by itself, in the process of the first run.
+  std::optional<Positions> limit_of(const Case& step) {
     const auto run = run_once(step, 0);
     if (run.limits.empty() || !run.limits[0]) return std::nullopt;
     return run.limits[0]->positions;
@@ -254,7 +245,7 @@ class Repetitions {
 
   // Judges an input. `special` names its special property, which becomes the cause of its failures;
   // empty: each failure has a cause of its own.
-  void judge_input(const corpus::Case& c, JudgedSteps steps, const char* special) {
+  void judge_input(const Case& c, JudgedSteps steps, const char* special) {
     special_ = special;
     JudgedSource row{.source = Source::repeated,
                      .input = c.id,
@@ -266,7 +257,7 @@ class Repetitions {
     } else if (hung_ >= most_hung_repetitions) {
       row.what = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
-      row.steps = corpus::steps_of(*contracted_case).size();
+      row.steps = steps_of(*contracted_case).size();
       run_all(*contracted_case, steps, row);
     }
     store_.set(to_row(row));
@@ -279,7 +270,7 @@ class Repetitions {
   // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
   // The last run is a second one in the process of the run before it. REQUIRES that the runs before
   // it took place.
-  CaseRun run_once(const corpus::Case& c, std::size_t place) {
+  CaseRun run_once(const Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
     if (process == workers_.size()) {
       auto limits = request_.worker_limits(static_cast<std::uint32_t>(process));
@@ -300,7 +291,7 @@ class Repetitions {
     return run.end == RunEnd::beyond_capacity;
   }
 
-  void run_all(const corpus::Case& c, JudgedSteps steps, JudgedSource& row) {
+  void run_all(const Case& c, JudgedSteps steps, JudgedSource& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
     for (std::size_t place = 0; place < threads_.size(); ++place) {
@@ -329,21 +320,21 @@ class Repetitions {
     }
   }
 
-  std::vector<std::size_t> chosen_steps(const corpus::Case& c, const CaseRun& run) {
+  std::vector<std::size_t> chosen_steps(const Case& c, const CaseRun& run) {
     Configuration chooser{"auto", {}};
     if (const double d = contract().separation; d > 0)
-      chooser = {"bvh", {.culling = detector::Culling::bvh, .separation = d}};
+      chooser = {"bvh", {.culling = Culling::bvh, .separation = d}};
     const auto answers = run_alone(built_in_, c, chooser);
     auto places = differing_steps(c, request_.detector, run, answers);
     const auto plain = plain_steps(c, contract(), answers);
     places.insert(places.end(), plain.begin(), plain.end());
-    std::sort(places.begin(), places.end());
+    std::ranges::sort(places);
     places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 
-  void judge_steps(const corpus::Case& c, const std::vector<std::size_t>& places,
-                   const CaseRun& run, JudgedSource& row) {
+  void judge_steps(const Case& c, const std::vector<std::size_t>& places, const CaseRun& run,
+                   JudgedSource& row) {
     const bool is_small = c.triangles.rows() <= largest_small_mesh;
     std::map<std::string, int> counts;
     for (const auto s : places) {
@@ -380,7 +371,7 @@ class Repetitions {
 
   // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
   // otherwise without them.
-  void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
+  void keep(const Case& c, std::size_t s, const CaseRun& run, Failure failure) {
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
     auto c_alone = with_steps(c, {s}, contract());
@@ -389,7 +380,7 @@ class Repetitions {
     add(fmt::format("{}, step {}", c.id, s + 1), c_alone, failure, run.output);
   }
 
-  void add(const std::string& id, const corpus::Case& failing, const Failure& failure,
+  void add(const std::string& id, const Case& failing, const Failure& failure,
            const std::string& output, bool flaky = false) {
     auto record = stored_failure(Source::repeated, failing, configuration(), request_.detector,
                                  failure, false, output);
@@ -399,7 +390,7 @@ class Repetitions {
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
-  void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run, const Verdict& verdict,
+  void tell(const Case& c, const CaseRun& first, const CaseRun& run, const Verdict& verdict,
             JudgedSource& row) {
     row.broken = verdict.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
@@ -411,21 +402,13 @@ class Repetitions {
   }
 
   // Stores what the end of a run shows, or its difference from another one.
-  void keep_end(const corpus::Case& c, const CaseRun& run, const Verdict& verdict,
+  void keep_end(const Case& c, const CaseRun& run, const Verdict& verdict,
                 const std::string& what) {
     auto failure = failure_of(verdict, c, {}, run, configuration(), request_.detector);
     failure.cause = special_;
     failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
     add(c.id, c, failure, run.output, true);
   }
-
-  const CampaignRequest& request_;
-  Store& store_;
-  std::vector<std::uint64_t> threads_;
-  WorkerProcess built_in_;
-  std::vector<WorkerProcess> workers_;  // by the place of the run
-  const char* special_ = "";
-  int hung_ = 0;
 };
 
 }  // namespace
@@ -442,11 +425,11 @@ bool is_repeated(const CampaignPlan& plan, bool built_in) {
 }
 
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                         const std::function<void(const std::string&)>& progress) {
+                         const OnText& progress) {
   const auto& detector = request.detector;
   if (!is_repeated(request.plan, detector.built_in)) return;
   const auto rows = facts_in(store).rows_of(Source::repeated);
-  Repetitions repetitions(request, store);
+  Repetitions repetitions{request, store};
   const auto judge_new = [&](const std::string& input, JudgedSteps steps, const auto& make,
                              const char* special = "large mesh") {
     const bool is_stored = std::ranges::find(rows, input, &JudgedSource::input) != rows.end();
@@ -465,7 +448,7 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
     for (const auto kind : all_values<WalkKind>) {
       const auto walked = [&] {
         return walk(kind, request.seed, steps_of_a_walk, detector.contract,
-                    [&](const corpus::Case& step) { return repetitions.limit_of(step); });
+                    [&](const Case& step) { return repetitions.limit_of(step); });
       };
       judge_new(name_of(kind), JudgedSteps::all, walked, "");
     }

@@ -22,27 +22,29 @@ SourceChoice sources_asked(const CampaignRequest& request, const std::filesystem
   return {!detector.of_queries, detector.of_queries || detector.query_claims != Claims(), corpus};
 }
 
-class ShareSearch {
- public:
-  ShareSearch(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-              RunDeadline deadline, const std::function<void(const std::string&)>& progress)
-      : request_(request),
-        store_(store),
-        deadline_(deadline),
-        progress_(progress),
-        space_{request.detector.contract, case_sources(sources_asked(request, corpus)),
-               [&request](corpus::Case c) {
-                 return brought_into_contract(std::move(c), request.detector.contract);
-               },
-               request.detector.built_in} {
-    const EvidenceFacts facts = facts_in(store);
-    for (const auto& lane : facts.rows_of(Source::search)) {
+struct ShareSearch {
+  const CampaignRequest& request_;
+  const std::filesystem::path& corpus_;
+  Store& store_;
+  const RunDeadline deadline_;
+  const OnText& progress_;
+  const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
+  const SearchSpace space_ = {
+      request_.detector.contract, case_sources(sources_asked(request_, corpus_)),
+      [this](Case c) { return brought_into_contract(std::move(c), request_.detector.contract); },
+      request_.detector.built_in};
+  std::set<std::string> stored_lanes_ = {};
+  std::mutex mutex_ = {};
+  std::uint64_t next_ = 0;
+  // Of this run; the lanes that an earlier call stored are among them.
+  std::uint64_t lanes_ = 0, judged_cases_ = 0, defects_ = 0;
+  std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
+
+  void run() try {
+    for (const auto& lane : facts_in(store_).rows_of(Source::search)) {
       stored_lanes_.insert(lane.input);
       count(lane);
     }
-  }
-
-  void run() try {
     in_threads(request_.jobs, [this] { work(); });
   } catch (const std::bad_alloc&) {
     throw StoreProblem("not enough memory for the search");
@@ -54,12 +56,16 @@ class ShareSearch {
   void work() try {
     WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
     const Exam exam{request_.detector, request_.detector.configurations, &worker};
-    const auto examine = examine_in_lane(exam);
+    const auto examine_in_lane = [&](std::vector<Case> cases) {
+      auto results = examine(exam, std::move(cases));
+      for (const auto& one : results) throw_if_not_run(one);
+      return results;
+    };
     while (const auto lane = next_lane()) {
       const SearchLane part{fmt::format("{}{}:{}:{}", row_of(Source::search).prefix,
                                         request_.plan.name, request_.seed, name_of_lane(*lane)),
                             cases_of_lane(cases_, *lane)};
-      const auto result = search(part, space_, examine, [this] { return is_over(); });
+      const auto result = search(part, space_, examine_in_lane, [this] { return is_over(); });
       keep(*lane, result, exam);
     }
   } catch (...) {
@@ -112,34 +118,13 @@ class ShareSearch {
       progress_(fmt::format("{}/{} lanes, {} cases, {} with a defect", lanes_, search_lanes(cases_),
                             judged_cases_, defects_));
   }
-
-  const CampaignRequest& request_;
-  const std::uint64_t cases_ = share_of(request_.plan.search, request_.shares);
-  Store& store_;
-  const RunDeadline deadline_;
-  const std::function<void(const std::string&)>& progress_;
-  const SearchSpace space_;
-  std::set<std::string> stored_lanes_;
-  std::mutex mutex_;
-  std::uint64_t next_ = 0;
-  // Counts of this run, including the lanes that an earlier call stored.
-  std::uint64_t lanes_ = 0, judged_cases_ = 0, defects_ = 0;
-  std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
 };
 
 }  // namespace
 
-ExamineCases examine_in_lane(const Exam& exam) {
-  return [&exam](std::vector<corpus::Case> cases) {
-    auto results = examine(exam, std::move(cases));
-    for (const auto& one : results) throw_if_not_run(one);
-    return results;
-  };
-}
-
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
-  ShareSearch(request, corpus, store, deadline, progress).run();
+                  RunDeadline deadline, const OnText& progress) {
+  ShareSearch{request, corpus, store, deadline, progress}.run();
 }
 
 }  // namespace assay::properties

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
 #include "detector/detector.h"
 #include "properties/campaign/ledger/database.h"
@@ -14,17 +13,49 @@ namespace assay::properties {
 
 namespace {
 
-// For a large case the oracle uses several threads, and shrinking gets more time.
-bool is_large(const corpus::Case& c) {
+// Its oracle is worth several threads, and its failure more time.
+bool is_large(const Case& c) {
   constexpr Eigen::Index from = 1000;
   return c.triangles.rows() > from;
+}
+
+// The case with the view that the detector chose; it runs here and may crash.
+std::optional<Case> chosen_view(const Case& c, const Options& options) {
+  // A component within which nothing counts needs no view, so all pairs count here.
+  auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
+  if (!creation) return std::nullopt;
+  Case out = c;
+  out.view.emplace();
+  bool is_line = options.culling == Culling::view_line;
+  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
+  // shows it.
+  for (const auto& frame : c.frames) {
+    const auto result = creation.value().evaluate(frame, frame);
+    if (result.primitives.empty()) return std::nullopt;
+    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
+    out.view->q0.push_back(result.primitives[0].q0.t0);
+    if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
+  }
+  return out;
+}
+
+// The case with the primitive of its first component stated, as the detector chooses it. Nothing if
+// the culling has no views, if the case states a primitive already, or if the mesh is refused.
+std::optional<Case> with_explicit_view(const Case& c, const Options& options) {
+  if (c.view || !uses_views(options.culling)) return std::nullopt;
+  const auto run = in_a_copy([&](const Say& say) {
+    if (const auto view = chosen_view(c, options)) say(case_text(*view));
+  });
+  auto parsed_case = corpus::parse_case(run.output, c.id);
+  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
+  return std::move(parsed_case.value());
 }
 
 }  // namespace
 
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs) {
-  return [&, jobs](const corpus::Case& c) -> std::optional<Finding> {
+  return [&, jobs](const Case& c) -> std::optional<Finding> {
     const auto input = contract_case(c, detector.contract);
     if (!input) return std::nullopt;
     // If the case does not start clean although its caller vouches for that, the failure is no
@@ -39,14 +70,12 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
   };
 }
 
-Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
+Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better, int jobs) {
   MakeViewExplicit make_explicit;
   if (detector.built_in) {
-    make_explicit = [&](const corpus::Case& c) {
-      return with_explicit_view(c, configuration.options);
-    };
+    make_explicit = [&](const Case& c) { return with_explicit_view(c, configuration.options); };
   }
   return reduce(failing, judge_of_detector(detector, configuration, worker, jobs), limits,
                 on_better, make_explicit);
@@ -64,7 +93,7 @@ std::string done_note(const FailureRecord& failure) {
 }
 
 // The configurations as they were given to this case: if it vouches for a clean start, so do they.
-std::vector<Configuration> configurations_of(const corpus::Case& failing,
+std::vector<Configuration> configurations_of(const Case& failing,
                                              const DetectorUnderTest& detector) {
   const auto start = failing.options.find("start");
   const bool vouched =
@@ -81,7 +110,7 @@ std::string explanation_of(const Finding& finding, std::size_t fails_from = 0) {
 }
 
 // How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
-double seconds_for(const FailureRecord& failure, const corpus::Case& failing, double usual) {
+double seconds_for(const FailureRecord& failure, const Case& failing, double usual) {
   if (failure.source == Source::repeated) return std::min(usual, most_seconds_of_a_large_mesh);
   constexpr double most_times = 10;
   return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
@@ -96,8 +125,7 @@ bool may_be_asked_alone(const FailureRecord& failure, const CampaignRequest& req
 }  // namespace
 
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
-                     RunDeadline deadline,
-                     const std::function<void(const std::string&)>& progress) {
+                     RunDeadline deadline, const OnText& progress) {
   auto failures = store.failures();
   // Failures that were shrunk in part come before the others of their signature.
   std::stable_partition(failures.begin(), failures.end(),
@@ -137,18 +165,18 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     const double most = seconds_for(failure, failing.value(), limits.seconds);
     const ReduceLimits bounded{std::min(most, rest.count()), limits.calls};
     const Law* law = failure.claim.empty() ? law_named(failure.law) : nullptr;
-    const auto store_as_smallest = [&](const corpus::Case& better, const std::string& explanation) {
+    const auto store_as_smallest = [&](const Case& better, const std::string& explanation) {
       // As the detector saw it: with coordinates that a contract of float32 has rounded.
-      corpus::Case small_case = contract_case(better, detector.contract).value_or(better);
+      Case small_case = contract_case(better, detector.contract).value_or(better);
       if (!explanation.empty()) {
         failure.smallest_explanation = explanation;
         small_case.about = about_text(failure.signature(), explanation);
       }
-      failure.smallest = corpus::case_text(small_case);
+      failure.smallest = case_text(small_case);
       store.set_smallest(failure);
     };
-    const OnBetter keep = [&](const corpus::Case& better) {
-      // A large mesh is explained only at the end, because asking again takes long.
+    const OnBetter keep = [&](const Case& better) {
+      // What a large mesh shows is told in the end, because asking again takes long.
       const auto finding = law || is_large(better)
                                ? std::nullopt
                                : judge_of_detector(detector, *configuration, worker)(better);
@@ -173,41 +201,6 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (reduction.fixed_point || had_its_time || shows_no_more)
       store.set_note(done_note(failure), "done");
   }
-}
-
-namespace {
-
-// The case with the view that the detector chose; it runs here and may crash.
-std::optional<corpus::Case> chosen_view(const corpus::Case& c, const detector::Options& options) {
-  // A component within which nothing counts needs no view, so all pairs count here.
-  auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
-  if (!creation) return std::nullopt;
-  corpus::Case out = c;
-  out.view.emplace();
-  bool is_line = options.culling == detector::Culling::view_line;
-  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
-  // shows it.
-  for (const auto& frame : c.frames) {
-    const auto result = creation.value().evaluate(frame, frame);
-    if (result.primitives.empty()) return std::nullopt;
-    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
-    out.view->q0.push_back(result.primitives[0].q0.t0);
-    if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
-  }
-  return out;
-}
-
-}  // namespace
-
-std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
-                                               const detector::Options& options) {
-  if (c.view || !uses_views(options.culling)) return std::nullopt;
-  const auto run = in_a_copy([&](const Say& say) {
-    if (const auto view = chosen_view(c, options)) say(corpus::case_text(*view));
-  });
-  auto parsed_case = corpus::parse_case(run.output, c.id);
-  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
-  return std::move(parsed_case.value());
 }
 
 Finding finding_of(const Failure& failure) {

@@ -9,8 +9,6 @@
 
 namespace assay::properties {
 namespace {
-
-using detector::Positions;
 using Row = Eigen::RowVector3d;
 
 constexpr int corners_of_a_plate = 4, corners_of_a_body = 4;
@@ -36,7 +34,7 @@ void add_body(Draft& draft, Random& random, const Point& middle) {
 
 // The moving part of a mesh: the rows from `first` on, in bodies of four corners.
 struct Scene {
-  corpus::Case c;
+  Case c;
   Eigen::Index first_moving = corners_of_a_plate;
 };
 
@@ -77,14 +75,13 @@ Scene scene_of(WalkKind kind, Random& random, double separation) {
   return scene;
 }
 
-// Chooses where the mesh would be at the end of each step of a walk.
-class Driver {
- public:
-  Driver(WalkKind kind, const Scene& scene, Random& random)
-      : kind_(kind),
-        first_moving_(scene.first_moving),
-        start_(scene.c.frames[0]),
-        random_(random) {}
+// Where the mesh would be at the end of a step.
+struct Driver {
+  const WalkKind kind_;
+  const Eigen::Index first_moving_;
+  const Positions& start_;
+  Random& random_;
+  Row push_{0, 0, 0};
 
   Positions goal(const Positions& x, int step) {
     constexpr int steps_of_a_push = 20, lifted_every = 60, steps_of_a_lift = 3;
@@ -124,26 +121,20 @@ class Driver {
     to.bottomRows<corners_of_a_body>() = lower;
     return to;
   }
-
-  WalkKind kind_;
-  Eigen::Index first_moving_;
-  Positions start_;
-  Random& random_;
-  Row push_{0, 0, 0};
 };
 
 }  // namespace
 
-corpus::Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
-                  const AskedLimit& ask) {
+Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
+          const AskedLimit& ask) {
   const std::string id = name_of(kind);
   Random random(fmt::format("{}:{}", seed, id));
   const Scene scene = scene_of(kind, random, contract.separation);
-  Driver driver(kind, scene, random);
-  corpus::Case c = scene.c;
+  Driver driver{kind, scene.first_moving, scene.c.frames[0], random};
+  Case c = scene.c;
   c.id = id;
   c.frames[0] = round_to(c.frames[0], contract.coordinates);
-  corpus::Case one = c;
+  Case one = c;
   one.frames.resize(2);
   for (int step = 0; step < steps; ++step) {
     one.frames[0] = c.frames.back();

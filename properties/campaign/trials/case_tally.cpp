@@ -20,10 +20,10 @@
 
 namespace assay::properties {
 
-Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth) {
+Extremes extremes_of(const Case& c, std::span<const StepJudgement> truth) {
   Extremes most;
   auto starts = new_starts(c);
-  starts.push_back(corpus::steps_of(c).size());
+  starts.push_back(steps_of(c).size());
   for (std::size_t i = 1; i < starts.size(); ++i)
     most.steps_in_a_row = std::max<std::uint64_t>(most.steps_in_a_row, starts[i] - starts[i - 1]);
   const auto vertices = c.frames.front().rows();
@@ -32,7 +32,7 @@ Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgemen
     most.valence = std::max<std::uint64_t>(most.valence, mesh.vertex_triangles.row(v).size());
   if (c.counted && !c.counted->pairs.count_all() && !c.counted->pairs.body.empty()) {
     const auto& body = c.counted->pairs.body;
-    most.bodies = 1 + static_cast<std::uint64_t>(*std::max_element(body.begin(), body.end()));
+    most.bodies = 1 + static_cast<std::uint64_t>(*std::ranges::max_element(body));
   }
   most.components = mesh.components.size();
   for (const auto& step : truth)
@@ -41,10 +41,10 @@ Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgemen
   return most;
 }
 
-std::vector<std::size_t> new_starts(const corpus::Case& c) {
+std::vector<std::size_t> new_starts(const Case& c) {
   std::vector<std::size_t> starts;
-  const corpus::CaseStep* committed = nullptr;
-  const auto script = corpus::steps_of(c);
+  const CaseStep* committed = nullptr;
+  const auto script = steps_of(c);
   for (std::size_t s = 0; s < script.size(); ++s) {
     const bool goes_on = committed && start_of(c, script[s]) == end_of(c, *committed);
     if (!goes_on) starts.push_back(s);
@@ -59,8 +59,7 @@ bool has_view_sets(const Configuration& configuration) {
   return detector::uses_views(configuration.options.culling);
 }
 
-void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> truth,
-                  TrialCounts& counts) {
+void count_blocks(const CaseRun& run, std::span<const StepJudgement> truth, TrialCounts& counts) {
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     if (result.doubts.empty()) continue;
@@ -79,9 +78,8 @@ void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> tru
 // The laws of one configuration of a case; the facts that they need are found once.
 class ConfigurationLaws {
  public:
-  ConfigurationLaws(const corpus::Case& c, const Configuration& configuration,
-                    std::span<const detector::StepResult> results,
-                    std::span<const oracle::StepJudgement> truth)
+  ConfigurationLaws(const Case& c, const Configuration& configuration,
+                    std::span<const StepResult> results, std::span<const StepJudgement> truth)
       : surface_(detector::make_surface(c.triangles, c.frames[0].rows())),
         facts_(c, configuration.options, results, truth, surface_) {}
   ConfigurationLaws(const ConfigurationLaws&) = delete;
@@ -104,9 +102,9 @@ struct LawCheck {
   std::size_t of_case, configuration;
 };
 
-FailureRecord broken_law(const corpus::Case& c, const Configuration& configuration, const Law& law,
+FailureRecord broken_law(const Case& c, const Configuration& configuration, const Law& law,
                          const std::string& explanation) {
-  corpus::Case failing = c;
+  Case failing = c;
   failing.about = fmt::format("breaks {}; {}", law.name, explanation);
   failing.source = fmt::format("campaign case {}, {}", c.id, configuration.name);
   failing.options = configuration_text(configuration);
@@ -116,7 +114,7 @@ FailureRecord broken_law(const corpus::Case& c, const Configuration& configurati
           .configuration = configuration.name,
           .law = std::string(law.name),
           .explanation = explanation,
-          .mesh = corpus::case_text(failing)};
+          .mesh = case_text(failing)};
 }
 
 void count_laws(std::span<const LawCheck> checks, std::span<const TallyInput> cases,
@@ -160,7 +158,7 @@ std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
           configurations[i].options.pairs != detector::Pairs::all ||
-          configurations[i].options.arithmetic != detector::Arithmetic::exact) {
+          configurations[i].options.arithmetic != Arithmetic::exact) {
         continue;
       }
       if (!counted_blocks) count_blocks(runs[i], results.truth, tallies[k].counts);
@@ -177,7 +175,7 @@ std::vector<CaseTally> tally_cases(std::span<const TallyInput> cases) {
 }
 
 Judge judge_of_law(const Law& law, const Configuration& configuration) {
-  return [&law, configuration](const corpus::Case& c) -> std::optional<Finding> {
+  return [&law, configuration](const Case& c) -> std::optional<Finding> {
     const auto check = [&](std::size_t) -> LawTally {
       const CaseRun run = run_case(c, configuration);
       if (run.end != RunEnd::completed) return {};
@@ -234,7 +232,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
   return tallies;
 }
 
-bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c) {
+bool has_forms(const DetectorUnderTest& detector, const Case& c) {
   return !detector.built_in && !detector.of_queries && !c.counted && !says_query(c);
 }
 
@@ -257,14 +255,14 @@ std::string count_differences(const Form& form, const CaseRun& run, const CaseRu
 
 }  // namespace
 
-FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& run,
+FormCheck check_in_form(const Law& law, const Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker) {
   FormCheck check;
   auto form = form_of(*law.change, c);
   const auto input = form ? contract_case(form->c, detector.contract) : std::nullopt;
-  if (!input || corpus::steps_of(*input).size() != corpus::steps_of(form->c).size()) return check;
-  // Answers can be compared if the contract has not rounded the form. Lengths that the contract
-  // states do not fit a form in another scale.
+  if (!input || steps_of(*input).size() != steps_of(form->c).size()) return check;
+  // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
+  // contract states a form in another scale knows nothing.
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;
@@ -278,7 +276,7 @@ FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& ru
   check.disturbances = in_form.disturbances;
   if (verdict.outcome != Outcome::holds && verdict.outcome != Outcome::defect) return check;
   const auto first_difference = count_differences(*form, run, in_form, check.count);
-  check.count.premise = corpus::steps_of(c).size();
+  check.count.premise = steps_of(c).size();
   if (!verdict.failure && check.count.differs > 0 && law.change->same_calls &&
       detector.claims_on(c, configuration).has(Claim::deterministic)) {
     auto& failure = verdict.failure.emplace();

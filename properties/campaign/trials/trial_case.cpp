@@ -17,13 +17,12 @@
 #include "properties/judging/exam.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/child_process.h"
-#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
 namespace {
 
-double shortest_edge_of(const corpus::Case& c) {
+double shortest_edge_of(const Case& c) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& edge : edges_of(c)) {
     for (const auto& frame : c.frames) {
@@ -34,8 +33,8 @@ double shortest_edge_of(const corpus::Case& c) {
   return shortest;
 }
 
-// Returns the power of two that brings the case into the range, or as near to it as possible.
-int exponent_into_range(const corpus::Case& c, const Contract& contract) {
+// By which power of two the case comes into the range, or as near to it as it does.
+int exponent_into_range(const Case& c, const Contract& contract) {
   const double largest = greatest_of(c);
   if (largest == 0) return 0;
   int most = std::ilogb(contract.largest) - std::ilogb(largest);
@@ -54,8 +53,8 @@ double scaled(double x, int exponent) {
 }
 
 // The length of most edges of a large mesh, and the longest side of a small one. A contract's
-// distances are compared with it, so that a large mesh does not lie within them as a whole.
-double unit_of(const corpus::Case& c) {
+// distances are told in it, so that a large mesh does not lie within them as a whole.
+double unit_of(const Case& c) {
   constexpr Eigen::Index largest_small_mesh = 400;
   if (c.triangles.rows() <= largest_small_mesh) return extent_of(c);
   auto edges = edges_of(c);
@@ -73,7 +72,7 @@ bool fits(double largest, const Contract& contract) {
 }
 
 // The power of two by which the case is scaled.
-int exponent_within(const corpus::Case& c, const Contract& contract) {
+int exponent_within(const Case& c, const Contract& contract) {
   const double largest = greatest_of(c), extent = unit_of(c);
   const int into_range = contract.has_range() ? exponent_into_range(c, contract) : 0;
   if (contract.separation > 0 && extent > 0) {
@@ -113,7 +112,7 @@ struct CaseContacts {
   bool contact = false, start_apart = false;
 };
 
-CaseContacts contacts_of(const corpus::Case& c, const Contract& contract) {
+CaseContacts contacts_of(const Case& c, const Contract& contract) {
   CaseContacts contacts;
   for (const auto& step : judge_case(c, contract)) {
     const auto truth = truth_of(c, step, contract);
@@ -125,7 +124,7 @@ CaseContacts contacts_of(const corpus::Case& c, const Contract& contract) {
 
 }  // namespace
 
-corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
+Case brought_into_contract(Case c, const Contract& contract) {
   const int exponent = exponent_within(c, contract);
   if (exponent == 0 && !contract.has_range()) return c;
   for (double* x : numbers_along(c)) *x = scaled(*x, exponent);
@@ -157,8 +156,7 @@ TrialCase case_within(const Contract& contract, const Family& family, const std:
     trial.input = contract_case(trial.source.c, contract);
     trial.redrawn = redrawn;
     if (trial.input) {
-      trial.steps_left_out =
-          corpus::steps_of(trial.source.c).size() - corpus::steps_of(*trial.input).size();
+      trial.steps_left_out = steps_of(trial.source.c).size() - steps_of(*trial.input).size();
       if (!wants_contact && (contract.separation == 0 || is_large)) return trial;
       const auto contacts = contacts_of(*trial.input, contract);
       if (!contacts.start_apart) {
@@ -175,29 +173,24 @@ TrialCase case_within(const Contract& contract, const Family& family, const std:
 
 namespace {
 
-bool is_clean(const detector::Positions& all, const detector::Triangles& triangles,
-              const detector::Triangles& ghosts) {
+bool is_clean(const Positions& all, const Triangles& triangles, const Triangles& ghosts) {
   const auto layers = oracle::layers_at(oracle::Instant(all), triangles, ghosts);
-  return std::all_of(layers.clean.begin(), layers.clean.end(),
-                     [](std::uint8_t is_clean) { return is_clean != 0; });
+  return std::ranges::all_of(layers.clean, [](std::uint8_t is_clean) { return is_clean != 0; });
 }
 
-// Whether every start of the case is clean with the ghosts of the built-in detector, which places
-// them by this arithmetic.
-bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithmetic) {
-  detector::Options options;
-  options.culling = detector::Culling::view_line;
+// The same with the ghosts of the built-in detector, which it places by this arithmetic.
+bool starts_clean_with_ghosts(const Case& c, Arithmetic arithmetic) {
+  Options options;
+  options.culling = Culling::view_line;
   options.arithmetic = arithmetic;
   auto creation = detector::Detector::create(c.triangles, c.frames.front(), options);
   if (!creation) return false;
   const auto& all = creation.value().surface().all().triangles;
   const auto own = static_cast<std::size_t>(c.triangles.rows());
-  detector::Triangles ghosts(static_cast<Eigen::Index>(all.size() - own), 3);
-  for (std::size_t g = own; g < all.size(); ++g)
-    ghosts.row(static_cast<Eigen::Index>(g - own)) << all[g][0], all[g][1], all[g][2];
+  const auto ghosts = as_rows<Triangles>(std::span(all).subspan(own));
   const auto starts = new_starts(c);
-  const auto script = corpus::steps_of(c);
-  return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+  const auto script = steps_of(c);
+  return std::ranges::all_of(starts, [&](std::size_t s) {
     const auto& start = start_of(c, script[s]);
     const auto result = creation.value().evaluate(start, start);
     return is_clean(detector::with_apexes(start, result.apexes, false), c.triangles, ghosts);
@@ -206,17 +199,16 @@ bool starts_clean_with_ghosts(const corpus::Case& c, detector::Arithmetic arithm
 
 }  // namespace
 
-bool starts_clean(const corpus::Case& c) {
-  const detector::Triangles no_ghosts(0, 3);
+bool starts_clean(const Case& c) {
+  const Triangles no_ghosts(0, 3);
   if (oracle::closes(c.triangles, no_ghosts)) {
     const auto starts = new_starts(c);
-    const auto script = corpus::steps_of(c);
-    return std::all_of(starts.begin(), starts.end(), [&](std::size_t s) {
+    const auto script = steps_of(c);
+    return std::ranges::all_of(starts, [&](std::size_t s) {
       return is_clean(start_of(c, script[s]), c.triangles, no_ghosts);
     });
   }
   const auto run = in_a_copy([&](const Say& say) {
-    using detector::Arithmetic;
     if (starts_clean_with_ghosts(c, Arithmetic::exact) &&
         starts_clean_with_ghosts(c, Arithmetic::bounded))
       say("clean");
@@ -224,7 +216,7 @@ bool starts_clean(const corpus::Case& c) {
   return run.output == "clean";
 }
 
-bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index) {
+bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint64_t index) {
   constexpr Eigen::Index most_triangles = 400;
   return detector.built_in && index % 2 == 1 && c.triangles.rows() <= most_triangles &&
          starts_clean(c);

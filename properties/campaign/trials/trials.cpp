@@ -19,21 +19,21 @@
 
 namespace assay::properties {
 
-corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
-                          const DetectorUnderTest& detector, const Failure& failure) {
-  corpus::Case out = c;
+Case failing_case(const Case& c, const Configuration& configuration,
+                  const DetectorUnderTest& detector, const Failure& failure) {
+  Case out = c;
   out.about = about_text(failure.signature(), failure.explanation);
   // A plug-in's one configuration has its name.
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
                (detector.built_in ? ", " + configuration.name : "");
-  std::replace(out.id.begin(), out.id.end(), ':', '-');
+  std::ranges::replace(out.id, ':', '-');
   if (detector.built_in) out.options = configuration_text(configuration);
   return out;
 }
 
-FailureRecord stored_failure(Source source, const corpus::Case& c,
-                             const Configuration& configuration, const DetectorUnderTest& detector,
-                             const Failure& failure, bool flaky, const std::string& output) {
+FailureRecord stored_failure(Source source, const Case& c, const Configuration& configuration,
+                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
+                             const std::string& output) {
   const auto joint = failure.feature.empty() || failure.cause.empty() ? "" : ", ";
   FailureRecord record{.source = source,
                        .case_id = c.id,
@@ -42,7 +42,7 @@ FailureRecord stored_failure(Source source, const corpus::Case& c,
                        .kind = failure.kind + (failure.stage.empty() ? "" : " at " + failure.stage),
                        .contact = failure.feature + joint + failure.cause,
                        .explanation = failure.explanation,
-                       .mesh = corpus::case_text(failing_case(c, configuration, detector, failure)),
+                       .mesh = case_text(failing_case(c, configuration, detector, failure)),
                        .flaky = flaky,
                        .printed = output};
   if (flaky) (record.contact.empty() ? record.kind : record.contact) += " (flaky)";
@@ -62,7 +62,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Hashes triangles and frames bit by bit. Two cases with the same hash count as one.
-std::uint64_t mesh_hash(const corpus::Case& c) {
+std::uint64_t mesh_hash(const Case& c) {
   const auto bytes = [](const auto& matrix) {
     return std::string_view(reinterpret_cast<const char*>(matrix.data()),
                             sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
@@ -105,20 +105,27 @@ std::vector<TrialKey> planned_trials(const CampaignRequest& request,
   return list;
 }
 
-class Trials {
- public:
-  Trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-         const std::function<void(const TrialProgress&)>& progress,
-         const std::set<std::string>* only)
-      : request_(request),
-        store_(store),
-        deadline_(deadline),
-        progress_(progress),
-        keys_(planned_trials(request, only)),
-        signatures_(store.signatures()) {
-    for (const auto& stratum : request.plan.strata)
-      detectors_.emplace(stratum.family, request.detector.in_stratum(stratum.family));
-  }
+// The detector as it is asked in each stratum, by family.
+std::map<std::string, DetectorUnderTest, std::less<>> detectors_in(const CampaignRequest& request) {
+  std::map<std::string, DetectorUnderTest, std::less<>> detectors;
+  for (const auto& [family, cases, bound] : request.plan.strata)
+    detectors.emplace(family, request.detector.in_stratum(family));
+  return detectors;
+}
+
+struct Trials {
+  const CampaignRequest& request_;
+  Store& store_;
+  const RunDeadline deadline_;
+  const OnTrial& progress_;
+  const std::vector<TrialKey> keys_;
+  const std::map<std::string, DetectorUnderTest, std::less<>> detectors_ = detectors_in(request_);
+  std::mutex mutex_ = {};
+  std::size_t next_ = 0;
+  TrialProgress state_ = {};
+  TrialsEnd end_ = {};
+  Counts signatures_ = store_.signatures();
+  const Clock::time_point begin_ = Clock::now();
 
   TrialsEnd end() {
     end_.complete = state_.done_trials == keys_.size();
@@ -128,7 +135,7 @@ class Trials {
 
   // What each thread does: it takes trials, and runs and judges them.
   void work() {
-    Workers workers(request_);
+    Workers workers{request_};
     std::vector<Trial> waiting, ended_trials;
     // If something goes wrong in one thread, all of them end.
     try {
@@ -207,10 +214,10 @@ class Trials {
   };
 
   // The processes of one thread: one for first runs, one for second ones; and the same for each
-  // size of large cases, which has its own limit of time. They are started when they are asked.
-  class Workers {
-   public:
-    explicit Workers(const CampaignRequest& request) : request_(request) {}
+  // size of large cases, whose limit of time is another. They are started when they are asked.
+  struct Workers {
+    const CampaignRequest& request_;
+    std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_ = {};
 
     WorkerProcess& first(const Family& family) { return of(family, request_.worker_limits()); }
     WorkerProcess& second(const Family& family) {
@@ -227,9 +234,6 @@ class Trials {
             processes_.emplace(key, WorkerProcess(request_.worker, request_.plugin, limits)).first;
       return place->second;
     }
-
-    const CampaignRequest& request_;
-    std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_;
   };
 
   static Exam exam_of(const Trial& trial) {
@@ -324,7 +328,7 @@ class Trials {
     constexpr std::uint64_t most_without_tree = 20'000;
     if (key.family->triangles > most_without_tree && detector.built_in)
       std::erase_if(trial.configurations, [](const Configuration& configuration) {
-        return configuration.options.culling == detector::Culling::none;
+        return configuration.options.culling == Culling::none;
       });
     auto& record = trial.record;
     if (detector.built_in) ++record.counts.tags[vouched ? "start:clean" : "start:verified"];
@@ -369,9 +373,7 @@ class Trials {
   static std::size_t place_of(const Configuration& configuration,
                               const DetectorUnderTest& detector) {
     const auto& all = detector.configurations;
-    const auto place = std::find_if(all.begin(), all.end(), [&](const Configuration& one) {
-      return one.name == configuration.name;
-    });
+    const auto place = std::ranges::find(all, configuration.name, &Configuration::name);
     return static_cast<std::size_t>(place - all.begin());
   }
 
@@ -386,7 +388,7 @@ class Trials {
     }
     if (!record.is_judged() || is_query_family(record.family)) return;
     record.counts.extremes = extremes_of(results.c, results.truth);
-    const auto* counted_pairs = corpus::counted_of(results.c);
+    const auto* counted_pairs = counted_of(results.c);
     record.counts.measures.relation_trials = counted_pairs && !counted_pairs->count_all() ? 1 : 0;
   }
 
@@ -428,27 +430,13 @@ class Trials {
     state_.disturbed += record.disturbed > 0 ? 1 : 0;
     if (progress_) progress_(state_);
   }
-
-  const CampaignRequest& request_;
-  Store& store_;
-  const RunDeadline deadline_;
-  const std::function<void(const TrialProgress&)>& progress_;
-  const std::vector<TrialKey> keys_;
-  std::map<std::string, DetectorUnderTest, std::less<>> detectors_;  // by family
-  std::mutex mutex_;
-  std::size_t next_ = 0;
-  TrialProgress state_;
-  TrialsEnd end_;
-  Counts signatures_;
-  const Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace
 
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress,
-                     const std::set<std::string>* only) {
-  Trials trials(request, store, deadline, progress, only);
+                     const OnTrial& progress, const std::set<std::string>* only) {
+  Trials trials{request, store, deadline, progress, planned_trials(request, only)};
   in_threads(request.jobs, [&] { trials.work(); });
   return trials.end();
 }

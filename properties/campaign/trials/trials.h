@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "oracle/mesh/step.h"
 #include "properties/campaign/ledger/record.h"
 #include "properties/campaign/ledger/store.h"
@@ -34,7 +33,7 @@ struct TrialCase {
   RandomCase source;
   // The case as given to the detector and the oracle; nothing if no attempt led to a case that the
   // contract takes.
-  std::optional<corpus::Case> input;
+  std::optional<Case> input;
   std::uint64_t redrawn = 0;         // how many cases before this one were rejected
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
@@ -57,18 +56,18 @@ TrialCase case_within(const Contract& contract, const Family& family, const std:
 // times as large as the separation; in a mesh of more than 400 triangles the median edge becomes
 // twice to 8 times as large instead. If the contract has a range, the case is scaled until its
 // largest coordinate fits, or until its shortest edge does.
-corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
+Case brought_into_contract(Case c, const Contract& contract);
 
 // Finds the cases for which Start::clean may be used, because they keep the caller's promise.
 
 // Returns whether the oracle calls every triangle clean (L9, detector/LAWS.md) in every step of the
 // case that is a new start. For an unclosed mesh that depends on the apexes of the built-in
 // detector, so the detector is asked for them, in a copy of this process, which may crash.
-bool starts_clean(const corpus::Case& c);
+bool starts_clean(const Case& c);
 
 // Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
-// detector whose case may use it. Large meshes never do.
-bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
+// detector that may. Large meshes never do.
+bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint64_t index);
 
 // Returns the configurations with start clean in place of start verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
@@ -80,10 +79,10 @@ std::vector<Configuration> with_clean_start(std::vector<Configuration> configura
 
 // Returns the extremes of a case for which `truth` has the oracle's judgement of each step. Costs
 // O(N + M), and compares each frame with one other. REQUIRES triangles that a detector accepts.
-Extremes extremes_of(const corpus::Case& c, std::span<const oracle::StepJudgement> truth);
+Extremes extremes_of(const Case& c, std::span<const StepJudgement> truth);
 
 // Returns the places in steps_of(c) of the steps that do not follow a committed step.
-std::vector<std::size_t> new_starts(const corpus::Case& c);
+std::vector<std::size_t> new_starts(const Case& c);
 
 struct CaseTally {
   TrialCounts counts;
@@ -137,11 +136,11 @@ struct FormCheck {
 // contract leaves some of its steps out, or if it runs out of time or memory. `run` is the run of
 // the case. Throws StoreProblem if there is no worker. REQUIRES a contracted case of meshes in
 // which all pairs count and whose run holds, and a law about a change of such cases.
-FormCheck check_in_form(const Law& law, const corpus::Case& c, const CaseRun& run,
+FormCheck check_in_form(const Law& law, const Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker);
 
 // Returns whether this case is one that is put to this detector in other forms.
-bool has_forms(const DetectorUnderTest& detector, const corpus::Case& c);
+bool has_forms(const DetectorUnderTest& detector, const Case& c);
 
 // Runs the trials of a campaign in threads, each with a worker process of its own.
 
@@ -151,6 +150,7 @@ struct TrialProgress {
   std::uint64_t done_trials = 0, quota = 0, stored_trials = 0;
   std::uint64_t defects = 0, undecided = 0, disturbed = 0;
 };
+using OnTrial = std::function<void(const TrialProgress&)>;
 
 struct TrialsEnd {
   bool complete = false;        // every planned trial of the run is in the store
@@ -172,16 +172,15 @@ struct TrialsEnd {
 // Throws StoreProblem if the store cannot even be read at the beginning; so it is for campaign/
 // alone.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress,
-                     const std::set<std::string>* only = nullptr);
+                     const OnTrial& progress, const std::set<std::string>* only = nullptr);
 
 // Returns the case of a failure as it is stored: with the options of its configuration.
-corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
-                          const DetectorUnderTest& detector, const Failure& failure);
+Case failing_case(const Case& c, const Configuration& configuration,
+                  const DetectorUnderTest& detector, const Failure& failure);
 // Returns the failure as stored, under the id of the case. `flaky`: a second run does not show it.
-FailureRecord stored_failure(Source source, const corpus::Case& c,
-                             const Configuration& configuration, const DetectorUnderTest& detector,
-                             const Failure& failure, bool flaky, const std::string& output);
+FailureRecord stored_failure(Source source, const Case& c, const Configuration& configuration,
+                             const DetectorUnderTest& detector, const Failure& failure, bool flaky,
+                             const std::string& output);
 
 // Both throw StoreProblem if there was no worker; so they are for campaign/ alone.
 void throw_if_not_run(const CaseResults& results);

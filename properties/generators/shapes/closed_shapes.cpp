@@ -59,7 +59,7 @@ Draft sharing_a_vertex(Random& random, int size) {
   scale_and_move(b, 1, at(a.rest(), high) - at(b.rest(), low));
   const std::int32_t first_vertex = high, second_vertex = a.vertices() + low;
   Draft d = joined(std::move(a), b);
-  for (auto& f : d.faces) std::replace(f.begin(), f.end(), second_vertex, first_vertex);
+  for (auto& f : d.faces) std::ranges::replace(f, second_vertex, first_vertex);
   drop_unused_vertices(d);
   d.tag("pieces:at-a-vertex");
   return d;

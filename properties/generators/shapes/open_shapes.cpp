@@ -15,8 +15,7 @@ using corpus::sin_turn;
 void cut_hole(Random& random, Draft& d) {
   const Face face = one_of(random, d.faces);
   const std::int32_t v = face[0];
-  const auto around =
-      std::count_if(d.faces.begin(), d.faces.end(), [v](const Face& f) { return has(f, v); });
+  const auto around = std::ranges::count_if(d.faces, [v](const Face& f) { return has(f, v); });
   const bool whole_star =
       random.below(2) == 0 && around * 2 <= static_cast<std::ptrdiff_t>(d.faces.size());
   if (whole_star) {
@@ -143,7 +142,7 @@ Draft loop_twice_through_a_vertex(Random& random, int size) {
   const Face first = one_of(random, d.faces);
   const std::int32_t v = first[0];
   for (const auto& f : d.faces) {
-    const auto shared = std::count_if(f.begin(), f.end(), [&](auto w) { return has(first, w); });
+    const auto shared = std::ranges::count_if(f, [&](auto w) { return has(first, w); });
     if (!has(f, v) || shared != 1) continue;
     const Face second = f;
     std::erase(d.faces, first);

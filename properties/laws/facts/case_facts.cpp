@@ -12,21 +12,15 @@
 
 namespace assay::properties {
 
-using detector::Positions;
-using detector::Triangles;
-
 namespace {
 
 Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_t> triangles) {
-  Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto& t = surface.triangles[at(triangles[i])];
-    rows.row(static_cast<Eigen::Index>(i)) << t[0], t[1], t[2];
-  }
-  return rows;
+  std::vector<std::array<std::int32_t, 3>> corners;
+  for (const auto t : triangles) corners.push_back(surface.triangles[at(t)]);
+  return as_rows<Triangles>(corners);
 }
 
-Positions apex_rows(const detector::StepResult& result, bool at_end) {
+Positions apex_rows(const StepResult& result, bool at_end) {
   return detector::with_apexes(Positions(0, 3), result.apexes, at_end);
 }
 
@@ -35,7 +29,7 @@ bool same_places(const Positions& a, const Positions& b) { return a.rows() == b.
 }  // namespace
 
 struct CaseFacts::StepFacts {
-  std::optional<std::vector<detector::ViewSign>> signs;
+  std::optional<std::vector<ViewSign>> signs;
   std::optional<std::vector<std::uint8_t>> touched, own_contacts;
   std::optional<oracle::Candidates> candidates;
   std::map<std::size_t, std::optional<int>> winding;
@@ -44,9 +38,8 @@ struct CaseFacts::StepFacts {
   std::optional<bool> trusted;
 };
 
-CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& options,
-                     std::span<const detector::StepResult> results,
-                     std::span<const oracle::StepJudgement> judgements,
+CaseFacts::CaseFacts(const Case& source, const Options& options,
+                     std::span<const StepResult> results, std::span<const StepJudgement> judgements,
                      const detector::Surface& surface, StagesOf stages_of)
     : source_(source),
       options_(options),
@@ -54,7 +47,7 @@ CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& option
       judgements_(judgements),
       surface_(surface),
       stages_of_(std::move(stages_of)),
-      script_(corpus::steps_of(source)) {
+      script_(steps_of(source)) {
   assert(results.size() == script_.size() && judgements.size() == script_.size());
   std::optional<std::size_t> committed;
   for (std::size_t s = 0; s < script_.size(); ++s) {
@@ -63,11 +56,7 @@ CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& option
     if (script_[s].commit && is_answered(results_[s])) committed = s;
   }
   const auto own = surface_.mesh.triangles.size();
-  std::vector<std::int32_t> ghosts;
-  for (std::size_t g = own; g < surface_.all().triangles.size(); ++g) {
-    ghosts.push_back(static_cast<std::int32_t>(g));
-  }
-  ghosts_ = rows_of(surface_.all(), ghosts);
+  ghosts_ = as_rows<Triangles>(std::span(surface_.all().triangles).subspan(own));
   facts_.resize(script_.size());
 }
 
@@ -98,8 +87,7 @@ bool CaseFacts::has_broken_edges() const {
     if (around.size() < 2) continue;
     const auto runs_upward = [&](std::int32_t t) {
       const auto& v = mesh.triangles[at(t)];
-      const auto i =
-          static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
+      const auto i = static_cast<std::size_t>(std::ranges::find(v, mesh.edges[e][0]) - v.begin());
       return v[(i + 1) % 3] == mesh.edges[e][1];
     };
     if (runs_upward(around[0]) == runs_upward(around[1])) return true;
@@ -124,15 +112,15 @@ bool CaseFacts::is_trusted(std::size_t s) {
   // A step without views does not tell its apexes, so nothing can be said of an unclosed mesh.
   if (!surface_.is_closed() && !has_views(s)) return *(trusted = false);
   const auto& clean = layers_at_start(s).clean;
-  trusted = std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+  trusted = std::ranges::all_of(clean, [](std::uint8_t c) { return c != 0; });
   return *trusted;
 }
 
-const std::vector<detector::ViewSign>& CaseFacts::signs(std::size_t s) {
+const std::vector<ViewSign>& CaseFacts::signs(std::size_t s) {
   auto& signs = facts_[s].signs;
   if (signs) return *signs;
   const auto& all = surface_.all();
-  std::vector<detector::ViewPrimitive> primitives(all.triangles.size());
+  std::vector<ViewPrimitive> primitives(all.triangles.size());
   std::vector<std::int32_t> every(all.triangles.size());
   for (std::size_t c = 0; c < all.components.size(); ++c) {
     for (const auto t : all.components[c].triangles) {
@@ -185,9 +173,8 @@ std::optional<int> CaseFacts::winding_at_start(std::size_t s, std::size_t compon
 bool CaseFacts::is_free_by_view(std::size_t s, std::size_t component) {
   const auto& triangles = surface_.all().components[component].triangles;
   const auto& of_step = signs(s);
-  return std::all_of(
-             triangles.begin(), triangles.end(),
-             [&](std::int32_t t) { return of_step[at(t)] == detector::ViewSign::positive; }) &&
+  return std::ranges::all_of(
+             triangles, [&](std::int32_t t) { return of_step[at(t)] == ViewSign::positive; }) &&
          winding_at_start(s, component) == 1;
 }
 
@@ -238,8 +225,8 @@ TraditionalScheme* CaseFacts::traditional_scheme() {
   if (!traditional_scheme_) {
     traditional_scheme_.emplace();
     if (stages_of_) {
-      detector::Options traditional = options_;
-      traditional.culling = detector::Culling::normal_cone;
+      Options traditional = options_;
+      traditional.culling = Culling::normal_cone;
       *traditional_scheme_ =
           TraditionalScheme::make(stages_of_(traditional), surface_.mesh, source_.frames.front());
     }
@@ -253,8 +240,7 @@ const CertifiedPatches& CaseFacts::certified_patches(std::size_t s) {
   return *patches;
 }
 
-PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated) {
-  using detector::ViewSign;
+PairBlock block_of(ViewSign a, ViewSign b, bool either_violated) {
   if (either_violated) return PairBlock::violated;
   if (a == ViewSign::zero && b == ViewSign::zero) return PairBlock::zero_zero;
   if (a == ViewSign::zero || b == ViewSign::zero) {
@@ -281,11 +267,10 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   const auto x = facts.all_t0(s);
   const auto& surface = facts.surface().all();
   const auto& triangles = surface.components[component].triangles;
-  return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
+  return std::ranges::all_of(triangles, [&](std::int32_t t) {
     const auto& v = surface.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{x, x}.path(v[i]); };
-    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
-           detector::ViewSign::positive;
+    const auto corner = [&](std::size_t i) { return SteppedMesh{x, x}.path(v[i]); };
+    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) == ViewSign::positive;
   });
 }
 
@@ -306,6 +291,23 @@ TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags&
     clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
   }
   return clean;
+}
+
+TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
+  const auto start = facts.options().start;
+  const bool looks_alone = facts.starts_by_view_alone();
+  TriangleFlags dirty;
+  if (!looks_alone && start != detector::Start::unknown) {
+    for (const auto clean : facts.layers_at_start(s).clean) dirty.push_back(clean == 0);
+    return dirty;
+  }
+  TriangleFlags free;
+  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c)
+    free.push_back(facts.is_free_by_view(s, c) ||
+                   (looks_alone && is_free_by_view_at_start(facts, s, c)));
+  for (std::size_t t = 0; t < facts.surface().mesh.triangles.size(); ++t)
+    dirty.push_back(!free[component_of(facts, t)]);
+  return dirty;
 }
 
 }  // namespace
@@ -334,7 +336,7 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
 }
 
 bool has_account(CaseFacts& facts, std::size_t s) {
-  if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
+  if (facts.options().arithmetic != Arithmetic::exact) return false;
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return false;
   const auto p = facts.known_from(s);
   return !p || has_account(facts, *p);
@@ -344,30 +346,13 @@ TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
   TriangleFlags flags = account_of_dirty(facts, s);
   const bool has_views = facts.has_views(s);
   const bool incomplete = facts.options().pairs != detector::Pairs::all &&
-                          facts.judgement(s).answer == detector::Answer::collision;
+                          facts.judgement(s).answer == Answer::collision;
   for (std::size_t t = 0; t < flags.size(); ++t) {
     const bool swept_clean =
         has_views ? !facts.touched(s)[t] : !facts.has_ghosts(component_of(facts, t));
     flags[t] |= incomplete | facts.own_contacts(s)[t] | !swept_clean;
   }
   return flags;
-}
-
-TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
-  const auto start = facts.options().start;
-  const bool looks_alone = facts.starts_by_view_alone();
-  TriangleFlags dirty;
-  if (!looks_alone && start != detector::Start::unknown) {
-    for (const auto clean : facts.layers_at_start(s).clean) dirty.push_back(clean == 0);
-    return dirty;
-  }
-  TriangleFlags free;
-  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c)
-    free.push_back(facts.is_free_by_view(s, c) ||
-                   (looks_alone && is_free_by_view_at_start(facts, s, c)));
-  for (std::size_t t = 0; t < facts.surface().mesh.triangles.size(); ++t)
-    dirty.push_back(!free[component_of(facts, t)]);
-  return dirty;
 }
 
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {

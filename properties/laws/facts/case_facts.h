@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
-#include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/step/stages.h"
 #include "detector/traditional/traditional.h"
@@ -26,6 +24,8 @@
 #include "properties/numbering.h"
 
 namespace assay::properties {
+
+using oracle::JudgeOptions, oracle::StepJudgement;
 
 // Exact values of the view function at one time, by the clamp form of L1 and by regions.
 //
@@ -45,8 +45,8 @@ enum class Region : std::uint8_t {
 class ExactView {
  public:
   // Takes a triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
-  ExactView(const std::array<detector::MovingPoint, 3>& triangle,
-            const detector::ViewPrimitive& primitive, int eighths);
+  ExactView(const std::array<MovingPoint, 3>& triangle, const ViewPrimitive& primitive,
+            int eighths);
 
   // Return a corner of the triangle, or the point with these weights (w0 + w1 + w2 = 2^4); both
   // times 2^4.
@@ -97,8 +97,7 @@ inline bool is_close(const ValueRange& range) {
 // Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
 // x are the vertices of the surface. About 0.5 us a triangle.
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                      const detector::SteppedMesh& motion,
-                      const detector::ViewPrimitive& primitive);
+                      const SteppedMesh& motion, const ViewPrimitive& primitive);
 
 // Finds the patches of a step that the traditional scheme certifies, by the scheme's own tests.
 //
@@ -120,7 +119,7 @@ struct CertifiedPatches {
   ValueRange facing;
 
   // Returns whether both triangles are in one patch, or in one union of two.
-  bool hold(const detector::TrianglePair& pair) const;
+  bool hold(const TrianglePair& pair) const;
 };
 
 // The traditional scheme on one mesh.
@@ -130,19 +129,19 @@ class TraditionalScheme {
   // from which the detector is made: they shape the tree. `mesh` must outlive the result.
   static std::unique_ptr<TraditionalScheme> make(const detector::Stages& stages,
                                                  const detector::Topology& mesh,
-                                                 const detector::PositionsView& x);
+                                                 const PositionsView& x);
 
   // Returns the patches that are certified in this step. Costs as much as a step of the scheme: 10
   // us for 20 triangles.
-  CertifiedPatches certify(const detector::SteppedMesh& motion) const;
+  CertifiedPatches certify(const SteppedMesh& motion) const;
 
   // Returns the pairs of triangles that the scheme's search of this step does not leave out.
-  std::set<detector::TrianglePair> candidates(const detector::SteppedMesh& motion);
+  std::set<TrianglePair> candidates(const SteppedMesh& motion);
 
  private:
   class PatchFinder;
   TraditionalScheme(std::shared_ptr<const detector::NormalConeSearch> search,
-                    const detector::Topology& mesh, const detector::PositionsView& x);
+                    const detector::Topology& mesh, const PositionsView& x);
 
   std::shared_ptr<const detector::NormalConeSearch> search_;
   const detector::Topology& mesh_;
@@ -151,36 +150,35 @@ class TraditionalScheme {
   detector::PatchContours contours_;
 };
 
-inline bool is_answered(const detector::StepResult& result) {
-  return result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
+inline bool is_answered(const StepResult& result) {
+  return result.answer == Answer::free || result.answer == Answer::collision;
 }
 
 // Returns the stages of a detector that a law makes to run a changed case. Empty if the results
 // come from a detector that cannot be made here (a plug-in); the premises of laws that need one are
 // then not met.
-using StagesOf = std::function<detector::Stages(const detector::Options&)>;
+using StagesOf = std::function<detector::Stages(const Options&)>;
 
 class CaseFacts {
  public:
   // REQUIRES valid input, one result and one judgement for each step of the case, and the surface
   // of the detector that gave the results. All of them outlive this object.
-  CaseFacts(const corpus::Case& source, const detector::Options& options,
-            std::span<const detector::StepResult> results,
-            std::span<const oracle::StepJudgement> judgements, const detector::Surface& surface,
+  CaseFacts(const Case& source, const Options& options, std::span<const StepResult> results,
+            std::span<const StepJudgement> judgements, const detector::Surface& surface,
             StagesOf stages_of = detector::standard_stages);
   ~CaseFacts();
 
   // Return the case and its steps.
-  const corpus::Case& source() const { return source_; }
-  const detector::Options& options() const { return options_; }
+  const Case& source() const { return source_; }
+  const Options& options() const { return options_; }
   const detector::Surface& surface() const { return surface_; }
   const StagesOf& stages_of() const { return stages_of_; }
   std::size_t steps() const { return script_.size(); }
-  const corpus::CaseStep& script(std::size_t s) const { return script_[s]; }
-  const detector::Positions& x_t0(std::size_t s) const { return start_of(source_, script_[s]); }
-  const detector::Positions& x_t1(std::size_t s) const { return end_of(source_, script_[s]); }
-  const detector::StepResult& result(std::size_t s) const { return results_[s]; }
-  const oracle::StepJudgement& judgement(std::size_t s) const { return judgements_[s]; }
+  const CaseStep& script(std::size_t s) const { return script_[s]; }
+  const Positions& x_t0(std::size_t s) const { return start_of(source_, script_[s]); }
+  const Positions& x_t1(std::size_t s) const { return end_of(source_, script_[s]); }
+  const StepResult& result(std::size_t s) const { return results_[s]; }
+  const StepJudgement& judgement(std::size_t s) const { return judgements_[s]; }
   std::int32_t component_of(std::int32_t triangle) const {
     return surface_.mesh.component_of_triangle[static_cast<std::size_t>(triangle)];
   }
@@ -205,9 +203,9 @@ class CaseFacts {
 
   // The functions below ask the oracle, and take the primitives and apexes from the detector's
   // result. S is a component with its ghosts, K the set of candidates. REQUIRES has_views(s).
-  const std::vector<detector::ViewSign>& signs(std::size_t s);  // mesh, then ghosts
-  const std::vector<std::uint8_t>& touched(std::size_t s);      // by the component's ghosts (L11)
-  const oracle::Candidates& candidates(std::size_t s);          // K
+  const std::vector<ViewSign>& signs(std::size_t s);        // mesh, then ghosts
+  const std::vector<std::uint8_t>& touched(std::size_t s);  // by the component's ghosts (L11)
+  const oracle::Candidates& candidates(std::size_t s);      // K
   std::optional<int> winding_at_start(std::size_t s, std::size_t component);  // of q0, in S
   // Returns whether L5 applies over the step: all triangles of the component and its ghosts are
   // positive throughout, and the winding number is 1 at t=0.
@@ -217,7 +215,7 @@ class CaseFacts {
   // By triangle; 1: in contact with another triangle of its component. REQUIRES is_judged(s).
   const std::vector<std::uint8_t>& own_contacts(std::size_t s);
 
-  bool same_component(const detector::TrianglePair& pair) const {
+  bool same_component(const TrianglePair& pair) const {
     return component_of(pair.a) == component_of(pair.b);
   }
   bool in_doubt(std::size_t s, std::int32_t triangle) const {
@@ -236,27 +234,27 @@ class CaseFacts {
   const CertifiedPatches& certified_patches(std::size_t s);
 
   // Return the positions at the step's start and end. Rows: vertices of the mesh, then apexes.
-  detector::Positions all_t0(std::size_t s) const;
-  detector::Positions all_t1(std::size_t s) const;
-  const detector::Triangles& ghosts() const { return ghosts_; }
+  Positions all_t0(std::size_t s) const;
+  Positions all_t1(std::size_t s) const;
+  const Triangles& ghosts() const { return ghosts_; }
 
  private:
   struct StepFacts;
-  const oracle::LayerState& layers_of(const detector::Positions& all);
+  const oracle::LayerState& layers_of(const Positions& all);
 
-  const corpus::Case& source_;
-  detector::Options options_;
-  std::span<const detector::StepResult> results_;
-  std::span<const oracle::StepJudgement> judgements_;
+  const Case& source_;
+  Options options_;
+  std::span<const StepResult> results_;
+  std::span<const StepJudgement> judgements_;
   const detector::Surface& surface_;
   StagesOf stages_of_;
-  std::vector<corpus::CaseStep> script_;
+  std::vector<CaseStep> script_;
   std::vector<std::optional<std::size_t>> known_from_;
-  detector::Triangles ghosts_;
+  Triangles ghosts_;
   std::vector<StepFacts> facts_;
   std::optional<std::unique_ptr<TraditionalScheme>> traditional_scheme_;
   // Found by positions, because the end of one step is the start of the next.
-  std::vector<std::pair<detector::Positions, std::unique_ptr<oracle::LayerState>>> layers_;
+  std::vector<std::pair<Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };
 
 // The combination of the view sets of a pair's two triangles (L3, detector/LAWS.md). A triangle in
@@ -280,7 +278,7 @@ constexpr auto names_of(PairBlock) {
                                           {positive_positive, "V+ V+"},
                                           {negative_negative, "V- V-"}});
 }
-PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated);
+PairBlock block_of(ViewSign a, ViewSign b, bool either_violated);
 
 // Facts about one instant for the laws of state: which triangles share a layer, and which of them
 // the detector may have released (taken as clean again).
@@ -306,16 +304,12 @@ bool has_account(CaseFacts& facts, std::size_t s);
 // winding number is 1. REQUIRES has_views(s).
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
-// Returns the triangles that the oracle calls dirty at a new start: those that are not clean by its
-// layers. Layers do not count with start unknown, nor with start verified under a culling that
-// chooses views (view-auto, auto): there a component is dirty unless it is free by view. REQUIRES
-// has_views(s).
-TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
-
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone. At a new start these are the triangles of dirty_at_a_new_start. Otherwise a triangle is
-// dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or in
-// contact with its own component), unless it is now untouched and in the common layer. That layer
+// alone. At a new start these are the triangles that are not clean by its layers; but layers do
+// not count with start unknown, nor with start verified under a culling that chooses views
+// (view-auto, auto): there every component is dirty that is not free by view. Otherwise a triangle
+// is dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or
+// in contact with its own component), and is not now untouched and in the common layer. That layer
 // is the one of the triangles that are not in doubt; in a component without such triangles, it is
 // the layer of most untouched triangles.
 //

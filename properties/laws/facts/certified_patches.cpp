@@ -10,14 +10,11 @@ using detector::BoundingVolumeTree;
 using detector::Contour;
 using detector::DirectionSet;
 using detector::NormalConeSearch;
-using detector::PositionsView;
-using detector::SteppedMesh;
 using detector::Topology;
-using detector::TrianglePair;
 
 namespace {
 
-using MovingTriangle = std::array<detector::MovingPoint, 3>;
+using MovingTriangle = std::array<MovingPoint, 3>;
 
 }  // namespace
 

@@ -14,7 +14,7 @@ constexpr int mantissa_bits = 53;
 constexpr int weight_bits = 4;
 
 // The least exponent e such that every coordinate is a multiple of 2^e.
-int common_exponent(std::span<const detector::MovingPoint* const> points) {
+int common_exponent(std::span<const MovingPoint* const> points) {
   int least = 0;
   bool is_found = false;
   for (const auto* p : points) {
@@ -53,12 +53,12 @@ ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
 
 }  // namespace
 
-ExactView::ExactView(const std::array<detector::MovingPoint, 3>& triangle,
-                     const detector::ViewPrimitive& primitive, int eighths) {
-  const std::array<const detector::MovingPoint*, 5> all = {&triangle[0], &triangle[1], &triangle[2],
-                                                           &primitive.q0, &primitive.q1};
+ExactView::ExactView(const std::array<MovingPoint, 3>& triangle, const ViewPrimitive& primitive,
+                     int eighths) {
+  const std::array<const MovingPoint*, 5> all = {&triangle[0], &triangle[1], &triangle[2],
+                                                 &primitive.q0, &primitive.q1};
   const int unit = common_exponent(all);
-  const auto place = [&](const detector::MovingPoint& p) {
+  const auto place = [&](const MovingPoint& p) {
     ExactPoint x;
     for (std::size_t k = 0; k < 3; ++k) {
       x[k] = (8 - eighths) * integer(p.t0[k], unit) + eighths * integer(p.t1[k], unit);
@@ -121,8 +121,6 @@ ExactInteger ExactView::by_region(const ExactPoint& x) const {
 }
 
 namespace {
-
-using detector::MovingPoint;
 using Vector = Eigen::Vector3d;
 
 Vector at(const MovingPoint& p, double t) {
@@ -139,15 +137,12 @@ double view_value(const Vector& x, const Vector& q0, const Vector& q1, const Vec
   return (x - q0 - share * along).dot(normal);
 }
 
-double greatest(const detector::PositionsView& x) {
-  return x.rows() == 0 ? 0 : x.cwiseAbs().maxCoeff();
-}
+double greatest(const PositionsView& x) { return x.rows() == 0 ? 0 : x.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                      const detector::SteppedMesh& motion,
-                      const detector::ViewPrimitive& primitive) {
+                      const SteppedMesh& motion, const ViewPrimitive& primitive) {
   constexpr int times = 17;
   double size = std::max(greatest(motion.vertices_t0), greatest(motion.vertices_t1));
   for (const auto* q : {&primitive.q0, &primitive.q1}) {

@@ -12,11 +12,6 @@
 
 namespace assay::properties {
 
-using detector::StepResult;
-using detector::TimeEnclosure;
-using detector::TrianglePair;
-using detector::ViewSign;
-
 bool is_of_plugins(const Law& law) { return law.change || law.name == threads_law; }
 
 bool is_given_in_form(const Law& law, std::string_view case_id) {
@@ -121,10 +116,9 @@ std::string difference_in_form(const StepResult& of_case, const Form& form,
   if (!pairs) return {};
   const auto before = pairs_of_parents(of_case, nullptr);
   const auto after = pairs_of_parents(of_form, &form.parent);
-  const bool same = std::equal(
-      before.begin(), before.end(), after.begin(), after.end(), [&](const auto& a, const auto& b) {
-        return a.first == b.first && (!form.same_times || a.second == b.second);
-      });
+  const bool same = std::ranges::equal(before, after, [&](const auto& a, const auto& b) {
+    return a.first == b.first && (!form.same_times || a.second == b.second);
+  });
   return same ? ""
               : fmt::format("{} pairs became {}, or others, or other times", before.size(),
                             after.size());
@@ -135,7 +129,7 @@ void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change) {
   if (base && change.on_grid) base = on_a_grid(std::move(*base));
   const auto form = base ? change.of(*base) : std::nullopt;
   if (!form) return;
-  const auto player_of = [&](const corpus::Case& run) {
+  const auto player_of = [&](const Case& run) {
     return PinnedPlayer::make(run, options_with_views(facts), facts.stages_of());
   };
   auto player = change.on_grid ? player_of(*base) : std::nullopt, other = player_of(form->c);

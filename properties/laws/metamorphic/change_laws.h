@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "detector/step_result.h"
 #include "properties/changes/changes.h"
 #include "properties/laws/law.h"
 
@@ -24,8 +23,8 @@ bool is_given_in_form(const Law& law, std::string_view case_id);
 
 // Returns how one detector's answer to a step of the form differs from its answer to the step of
 // the case; empty if it does not. `pairs`: whether all pairs were asked for.
-std::string difference_in_form(const detector::StepResult& of_case, const Form& form,
-                               const detector::StepResult& of_form, bool pairs = true);
+std::string difference_in_form(const StepResult& of_case, const Form& form,
+                               const StepResult& of_form, bool pairs = true);
 
 // Compares the pinned run of the case with that of its form. If the change is made on a grid, the
 // rounded case takes the place of the case.

@@ -8,9 +8,6 @@
 
 namespace assay::properties {
 
-using detector::MovingPoint;
-using detector::StepResult;
-
 namespace {
 
 using EdgeSet = std::vector<std::array<std::int32_t, 2>>;
@@ -24,11 +21,11 @@ std::map<std::int32_t, EdgeSet> holes_of(const Ghosts& ghosts, std::int32_t firs
   for (const auto& [u, v, apex] : ghosts) {
     if (v < first) holes[apex - first].push_back({std::min(u, v), std::max(u, v)});
   }
-  for (auto& [apex, edges] : holes) std::sort(edges.begin(), edges.end());
+  for (auto& [apex, edges] : holes) std::ranges::sort(edges);
   return holes;
 }
 
-std::vector<std::array<std::int32_t, 3>> pinned_ghosts(const corpus::Case& run) {
+std::vector<std::array<std::int32_t, 3>> pinned_ghosts(const Case& run) {
   std::vector<std::array<std::int32_t, 3>> ghosts;
   for (const auto& ghost : run.ghosts->triangles.rowwise())
     ghosts.push_back({ghost[0], ghost[1], ghost[2]});
@@ -43,26 +40,25 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   explicit PinnedBoundary(std::shared_ptr<const BoundaryHandler> otherwise)
       : otherwise_(std::move(otherwise)) {}
 
-  detector::Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
+  detector::Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                              detector::PacedStop& pace) const override {
     return otherwise_->close_up(triangles, vertex_count, pace);
   }
   std::vector<detector::ApexRule> choose_apexes(const detector::Surface& surface,
-                                                detector::BoundingVolumeTree&,
-                                                const detector::PositionsView&,
+                                                detector::BoundingVolumeTree&, const PositionsView&,
                                                 const detector::ElementaryTest&,
-                                                const detector::StopFunction&) const override {
+                                                const StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
   }
   // Before the first step, when view primitives are chosen, no apex is pinned yet.
   std::vector<MovingPoint> place_apexes(const detector::Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
-                                        const detector::SteppedMesh& motion) const override {
+                                        const SteppedMesh& motion) const override {
     return apexes.size() == surface.loops.size() ? apexes
                                                  : otherwise_->place_apexes(surface, rules, motion);
   }
   bool sweep(const detector::GhostSweep& sweep, std::span<const std::int32_t> ghosts,
-             const detector::StopFunction& stop, std::vector<std::uint8_t>& touched,
+             const StopFunction& stop, std::vector<std::uint8_t>& touched,
              detector::GhostCounts& counts) const override {
     return otherwise_->sweep(sweep, ghosts, stop, touched, counts);
   }
@@ -73,18 +69,18 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   std::shared_ptr<const BoundaryHandler> otherwise_;
 };
 
-detector::Options options_with_views(const CaseFacts& facts) {
+Options options_with_views(const CaseFacts& facts) {
   auto options = facts.options();
   if (detector::chooses_views(options.culling)) {
-    options.culling = detector::Culling::view_line;
+    options.culling = Culling::view_line;
   }
   return options;
 }
 
-std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
+std::optional<Case> pinned_run(const CaseFacts& facts) {
   if (!facts.stages_of()) return std::nullopt;
   const auto& surface = facts.surface();
-  corpus::Case run;
+  Case run;
   run.id = facts.source().id;
   run.triangles = facts.source().triangles;
   run.frames = {facts.source().frames.front()};
@@ -100,9 +96,8 @@ std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
     if (!facts.has_views(s)) return std::nullopt;
     const auto& result = facts.result(s);
     // The other run, of view-line, would ask for layers where this one did not.
-    const bool any_dirty =
-        std::any_of(result.doubts.begin(), result.doubts.end(),
-                    [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
+    const bool any_dirty = std::ranges::any_of(
+        result.doubts, [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
     if (any_dirty && !facts.known_from(s) && facts.starts_by_view_alone()) return std::nullopt;
     const auto from = static_cast<std::int32_t>(run.frames.size());
     run.script.push_back({from, from + 1, facts.script(s).commit});
@@ -118,11 +113,10 @@ std::optional<corpus::Case> pinned_run(const CaseFacts& facts) {
   return run;
 }
 
-PinnedPlayer::PinnedPlayer(const corpus::Case& run, std::shared_ptr<PinnedBoundary> boundary)
+PinnedPlayer::PinnedPlayer(const Case& run, std::shared_ptr<PinnedBoundary> boundary)
     : run_(&run), boundary_(std::move(boundary)) {}
 
-std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
-                                               const detector::Options& options,
+std::optional<PinnedPlayer> PinnedPlayer::make(const Case& run, const Options& options,
                                                const StagesOf& stages_of) {
   auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);
@@ -140,8 +134,8 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const corpus::Case& run,
   const std::span all(surface.all().triangles);
   for (const auto& hole :
        holes_of(all.subspan(surface.mesh.triangles.size()), surface.first_apex)) {
-    const auto same = std::find_if(holes.begin(), holes.end(),
-                                   [&](const auto& other) { return other.second == hole.second; });
+    const auto same =
+        std::ranges::find_if(holes, [&](const auto& other) { return other.second == hole.second; });
     if (same == holes.end()) return std::nullopt;
     player.apex_of_loop_.push_back(same->first);
     holes.erase(same);
@@ -161,8 +155,8 @@ StepResult PinnedPlayer::evaluate(std::size_t step) {
   return evaluate(step, run_->frames[at(script.from)], run_->frames[at(script.to)]);
 }
 
-StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsView& x_t0,
-                                  const detector::PositionsView& x_t1) {
+StepResult PinnedPlayer::evaluate(std::size_t step, const PositionsView& x_t0,
+                                  const PositionsView& x_t1) {
   if (problem_) {
     StepResult refusal;
     refusal.problem = problem_;
@@ -172,7 +166,7 @@ StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsVie
   const auto path = [&, &of_step = run_->script[step]](std::int32_t place) {
     return MovingPoint{points[at(of_step.from)][at(place)], points[at(of_step.to)][at(place)]};
   };
-  std::vector<detector::ViewPrimitive> primitives;
+  std::vector<ViewPrimitive> primitives;
   for (const auto place : view_of_component_) primitives.push_back({path(place), path(place + 1)});
   boundary_->apexes.clear();
   for (const auto place : apex_of_loop_) boundary_->apexes.push_back(path(place));

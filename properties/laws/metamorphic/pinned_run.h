@@ -21,36 +21,35 @@ namespace assay::properties {
 // The pinned points are stored as the case's ghosts, so that they change with the mesh: a fan for
 // each hole, and for each component one triangle of a vertex and the two ends of its view
 // primitive.
-std::optional<corpus::Case> pinned_run(const CaseFacts& facts);
+std::optional<Case> pinned_run(const CaseFacts& facts);
 
 // Returns the options of the case, for a run of another mesh. view-auto decides by cost, for the
 // mesh as a whole, whether it uses views. In a pinned run every step had views, and so must the
 // other run; therefore its culling becomes view-line, which can also see from pinned points.
-detector::Options options_with_views(const CaseFacts& facts);
+Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
   // Returns nothing if the holes of the mesh are not among those of the run (a boundary through
   // repeated vertices may be split in several ways). A mesh that the detector refuses has a player
   // too: each of its steps is that error. The run must outlive the player.
-  static std::optional<PinnedPlayer> make(const corpus::Case& run, const detector::Options& options,
+  static std::optional<PinnedPlayer> make(const Case& run, const Options& options,
                                           const StagesOf& stages_of);
 
-  detector::StepResult evaluate(std::size_t step);
+  StepResult evaluate(std::size_t step);
   // Evaluates a step between any two positions, with the primitives and apexes of `step`.
-  detector::StepResult evaluate(std::size_t step, const detector::PositionsView& x_t0,
-                                const detector::PositionsView& x_t1);
+  StepResult evaluate(std::size_t step, const PositionsView& x_t0, const PositionsView& x_t1);
   // Commits the step if the script commits it and the step was answered.
-  void commit(std::size_t step, const detector::StepResult& result);
-  std::vector<detector::StepResult> play();
+  void commit(std::size_t step, const StepResult& result);
+  std::vector<StepResult> play();
   // REQUIRES a mesh that was not refused.
   detector::Detector& detector() { return *detector_; }
 
  private:
   class PinnedBoundary;
-  PinnedPlayer(const corpus::Case& run, std::shared_ptr<PinnedBoundary> boundary);
+  PinnedPlayer(const Case& run, std::shared_ptr<PinnedBoundary> boundary);
 
-  const corpus::Case* run_;
+  const Case* run_;
   std::optional<detector::Detector> detector_;  // or the problem of the mesh
   std::optional<detector::Problem> problem_;
   std::shared_ptr<PinnedBoundary> boundary_;

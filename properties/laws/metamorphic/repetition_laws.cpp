@@ -16,9 +16,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::StepResult;
-using detector::TimeEnclosure;
-
 // Whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t - 1 are
 // exact. A time that no double equals has a closer enclosure in the second half, which lies inside
 // of the one that is computed here.
@@ -30,10 +27,10 @@ bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
 
 std::string compare_first(const StepResult& whole, const StepResult& first,
                           const StepResult& second) {
-  const bool collides = whole.answer == detector::Answer::collision;
-  const int half = first.answer == detector::Answer::collision ? 0 : 1;
+  const bool collides = whole.answer == Answer::collision;
+  const int half = first.answer == Answer::collision ? 0 : 1;
   const StepResult& early = half == 0 ? first : second;
-  if (collides != (early.answer == detector::Answer::collision)) {
+  if (collides != (early.answer == Answer::collision)) {
     return collides ? "the halves are free" : "the whole is free";
   }
   if (collides && !corresponds(whole.first, early.first, half)) return "another first time";
@@ -42,7 +39,7 @@ std::string compare_first(const StepResult& whole, const StepResult& first,
 
 std::string compare_pairs(const StepResult& whole, const StepResult& first,
                           const StepResult& second) {
-  std::map<detector::TrianglePair, std::pair<int, TimeEnclosure>> in_halves;
+  std::map<TrianglePair, std::pair<int, TimeEnclosure>> in_halves;
   for (const auto& contact : first.pairs) in_halves.try_emplace(contact.pair, 0, contact.time);
   for (const auto& contact : second.pairs) in_halves.try_emplace(contact.pair, 1, contact.time);
   for (const auto& [pair, time, feature] : whole.pairs) {
@@ -166,9 +163,9 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   return difference(facts.result(s), result);
 }
 
-// The next step uses the contacts that the last committed step left, so a step at rest shows them.
-std::string rests_alike(const CaseFacts& facts, detector::Detector& detector,
-                        const detector::Positions& x) {
+// What the step committed last left in contact is settled by the next step, so it shows where the
+// mesh rests there.
+std::string rests_alike(const CaseFacts& facts, detector::Detector& detector, const Positions& x) {
   const auto state_read = detector::SavedState::read(detector.state().bytes());
   auto restored = busy_detector(facts);
   if (!state_read || !restored || restored->restore(state_read.value())) return "the state";
@@ -199,8 +196,7 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
 // Positions that stand among other numbers of the caller.
 struct WideRows {
   Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
-  explicit WideRows(const detector::Positions& x)
-      : rows(decltype(rows)::Constant(x.rows(), 5, 0.5)) {
+  explicit WideRows(const Positions& x) : rows(decltype(rows)::Constant(x.rows(), 5, 0.5)) {
     rows.leftCols<3>() = x;
   }
 };
@@ -211,7 +207,7 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
   auto creation = detector::assemble(c.triangles, first.rows.leftCols<3>(), facts.options(),
                                      facts.stages_of()(facts.options()));
   for (std::size_t s = 0; creation && s < facts.steps(); ++s) {
-    const auto view = given_view(corpus::view_of_step(c, s), facts.options().culling);
+    const auto view = given_view(view_of_step(c, s), facts.options().culling);
     const WideRows x_t0(facts.x_t0(s)), x_t1(facts.x_t1(s));
     const StepResult result =
         creation.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), view);
@@ -267,15 +263,15 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
 
 void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
-  if (!run || facts.options().culling != detector::Culling::view_point) return;
+  if (!run || facts.options().culling != Culling::view_point) return;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto& primitives = facts.result(s).primitives;
-    const bool points = std::all_of(primitives.begin(), primitives.end(),
-                                    [](const auto& primitive) { return primitive.is_point(); });
+    const bool points =
+        std::ranges::all_of(primitives, [](const auto& primitive) { return primitive.is_point(); });
     if (!points) return;
   }
   auto options = facts.options();
-  options.culling = detector::Culling::view_line;
+  options.culling = Culling::view_line;
   auto player = PinnedPlayer::make(*run, options, facts.stages_of());
   if (!player) return;
   const auto results = player->play();

@@ -25,7 +25,7 @@ class PairsOfValues {
       for (std::size_t g = f + 1; g < sizes.size(); ++g) {
         for (std::uint8_t a = 0; a < sizes[f]; ++a) {
           for (std::uint8_t b = 0; b < sizes[g]; ++b) {
-            if (!may_meet({f, g, a, b})) continue;
+            if (may_meet && !may_meet({f, g, a, b})) continue;
             may_meet_[place(f, a, g, b)] = may_meet_[place(g, b, f, a)] = 1;
             open.push_back({f, g, a, b});
           }
@@ -117,9 +117,8 @@ SizeClass size_class(const CaseFacts& facts, Random& random) {
   return count <= few ? SizeClass::few : SizeClass::some;
 }
 
-// Arithmetics that prove nothing are left out.
-constexpr detector::Arithmetic arithmetics[] = {detector::Arithmetic::exact,
-                                                detector::Arithmetic::bounded};
+// Those that prove nothing are left out.
+constexpr Arithmetic arithmetics[] = {Arithmetic::exact, Arithmetic::bounded};
 constexpr std::uint8_t most_threads = 3;
 
 namespace factor {
@@ -140,7 +139,7 @@ enum : std::size_t {
 }  // namespace factor
 
 FactorSizes factor_sizes() {
-  return {all_values<detector::Culling>.size(),
+  return {all_values<Culling>.size(),
           std::size(arithmetics),
           all_values<detector::Start>.size(),
           all_values<detector::Pairs>.size(),
@@ -154,21 +153,21 @@ FactorSizes factor_sizes() {
           4};
 }
 
-bool answers_separation(detector::Culling culling) {
-  return culling == detector::Culling::bvh || culling == detector::Culling::none;
+bool answers_separation(Culling culling) {
+  return culling == Culling::bvh || culling == Culling::none;
 }
 
 bool may_meet(const TwoValues& two) {
   const auto& [f, g, a, b] = two;
   if (g == factor::apart && all_values<Apart>[b] != Apart::none)
-    return f == factor::culling      ? answers_separation(all_values<detector::Culling>[a])
-           : f == factor::arithmetic ? arithmetics[a] == detector::Arithmetic::exact
+    return f == factor::culling      ? answers_separation(all_values<Culling>[a])
+           : f == factor::arithmetic ? arithmetics[a] == Arithmetic::exact
            : f == factor::scale      ? a == 0
                                      : true;
   if (f == factor::apart && g == factor::size && all_values<Apart>[a] != Apart::none)
     return static_cast<SizeClass>(b) != SizeClass::many;
   if (g == factor::size && static_cast<SizeClass>(b) == SizeClass::far_body)
-    return f == factor::culling ? all_values<detector::Culling>[a] != detector::Culling::none
+    return f == factor::culling ? all_values<Culling>[a] != Culling::none
            : f == factor::scale ? a == 0
            : f == factor::start ? all_values<detector::Start>[a] != detector::Start::clean
                                 : true;
@@ -177,7 +176,7 @@ bool may_meet(const TwoValues& two) {
 
 DrawnOptions options_of(const FactorRow& row) {
   DrawnOptions d;
-  d.options.culling = all_values<detector::Culling>[row[factor::culling]];
+  d.options.culling = all_values<Culling>[row[factor::culling]];
   d.options.arithmetic = arithmetics[row[factor::arithmetic]];
   d.options.start = all_values<detector::Start>[row[factor::start]];
   d.options.pairs = all_values<detector::Pairs>[row[factor::pairs]];
@@ -216,7 +215,7 @@ DrawnOptions drawn_options(const CaseFacts& facts) {
   const auto mesh = static_cast<std::uint8_t>(mesh_class(facts));
   const auto size = static_cast<std::uint8_t>(size_class(facts, random));
   std::vector<FactorRow> fitting;
-  std::copy_if(array.begin(), array.end(), std::back_inserter(fitting), [&](const FactorRow& row) {
+  std::ranges::copy_if(array, std::back_inserter(fitting), [&](const FactorRow& row) {
     return row[factor::mesh] == mesh && row[factor::size] == size;
   });
   return options_of(fitting[random.next() % fitting.size()]);

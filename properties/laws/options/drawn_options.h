@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "detector/mesh/enum_names.h"
-#include "detector/options.h"
 #include "properties/generators/parts.h"
 #include "properties/laws/facts/case_facts.h"
 
@@ -26,14 +25,14 @@ struct TwoValues {
   std::uint8_t a, b;
 };
 using MayMeet = std::function<bool(const TwoValues&)>;
-inline bool all_may_meet(const TwoValues&) { return true; }
 
 // Returns rows that contain every pair of values that may meet, and no other pair. The choice is
 // greedy: each row begins with a pair of values that is still missing, and each further factor
 // takes the value that adds most missing pairs. Equal seeds give equal rows, different seeds mostly
 // different ones. REQUIRES in each factor a value that may meet all others.
+// All may meet if may_meet is empty.
 std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t seed,
-                                     const MayMeet& may_meet = all_may_meet);
+                                     const MayMeet& may_meet = {});
 
 // The history of a detector when the case begins.
 enum class StateBefore : std::uint8_t {
@@ -76,7 +75,7 @@ constexpr auto names_of(Question) {
 }
 
 struct DrawnOptions {
-  detector::Options options;  // without separation and relation, which follow from the case
+  Options options;  // without separation and relation, which follow from the case
   StateBefore state = StateBefore::fresh;
   bool is_scaled = false;  // by a power of two, up to the largest doubles or down to the smallest
   Apart apart = Apart::none;

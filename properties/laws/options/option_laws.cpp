@@ -21,29 +21,29 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer, detector::StepLimit, detector::StepResult, detector::StopFunction;
+using detector::StepLimit;
 
 // The case that the oracle is asked about, and the case that the detector is given instead: behind
 // the step that the state asks for, and with its far body.
 struct PosedCase {
-  corpus::Case judged_case, played_case;
+  Case judged_case, played_case;
   DrawnOptions draw;
 };
 
 // The case behind the step that the state asks for.
-corpus::Case with_step_before(corpus::Case c, StateBefore state) {
+Case with_step_before(Case c, StateBefore state) {
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
-  auto script = corpus::steps_of(c);
+  auto script = steps_of(c);
   if (state == StateBefore::elsewhere) script.insert(script.begin(), {last, last, true});
   if (state == StateBefore::carried) script.insert(script.begin(), {last, script[0].from, true});
   c.script = std::move(script);
   return c;
 }
 
-// Some cases have no such form: then the drawn value is taken back.
-void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, corpus::Case& c) {
+// Some cases have no such form: then what was drawn is taken back.
+void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, Case& c) {
   if (d.left_out == LeftOut::nothing) return;
-  std::vector<detector::PairContact> in_contact;
+  std::vector<PairContact> in_contact;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const auto& pairs = facts.judgement(s).pairs;
     in_contact.insert(in_contact.end(), pairs.begin(), pairs.end());
@@ -57,7 +57,7 @@ void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, corpus::
 }
 
 // A power of two, from a quarter of the mesh down to its 2^-12.
-double separation_of(const DrawnOptions& d, Random& random, const corpus::Case& c) {
+double separation_of(const DrawnOptions& d, Random& random, const Case& c) {
   const double extent = extent_of(c);
   if (d.apart == Apart::none || !(extent > 0x1p-400 && extent < 0x1p400)) return 0;
   const int halvings = d.apart == Apart::much ? random.between(2, 4) : random.between(5, 12);
@@ -77,24 +77,24 @@ PosedCase posed(const CaseFacts& facts) {
   // Adds two features that only just come within the separation, or only just do not.
   if (d.apart != Apart::none && d.options.start != detector::Start::clean && random.one_in(2))
     p.judged_case = with_approach(std::move(p.judged_case), d.options.separation, random);
-  auto large = d.has_far_body ? with_far_body(p.judged_case, d.options.separation)
-                              : std::optional<corpus::Case>();
+  auto large =
+      d.has_far_body ? with_far_body(p.judged_case, d.options.separation) : std::optional<Case>();
   d.has_far_body = large.has_value();
   p.played_case = with_step_before(large ? std::move(*large) : p.judged_case, d.state);
   return p;
 }
 
-// Returns the oracle's judgement of each step of the posed case. The oracle is asked again only if
-// its judgement of the case does not tell.
-std::vector<oracle::StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) {
-  const auto* counted_pairs = corpus::counted_of(p.judged_case);
+// What the oracle says of each step of the posed case. It is asked anew only where what it said of
+// the case does not tell.
+std::vector<StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) {
+  const auto* counted_pairs = counted_of(p.judged_case);
   const auto features = oracle::mesh_features(p.judged_case.triangles);
   const auto relation =
       counted_pairs ? std::optional<oracle::PairRelation>(std::in_place, *counted_pairs, features)
                     : std::nullopt;
-  oracle::JudgeOptions options;
+  JudgeOptions options;
   options.counted = counted_pairs;
-  std::vector<oracle::StepJudgement> truth;
+  std::vector<StepJudgement> truth;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     if (p.draw.options.separation > 0 || (relation && relation->is_of_features())) {
       const auto& step = facts.script(s);
@@ -107,20 +107,19 @@ std::vector<oracle::StepJudgement> truth_of(const PosedCase& p, const CaseFacts&
     auto& of_step = truth.back();
     if (!relation) continue;
     keep_counted(relation, of_step.pairs);
-    const auto first =
-        std::min_element(of_step.pairs.begin(), of_step.pairs.end(),
-                         [](const auto& a, const auto& b) { return a.time < b.time; });
+    const auto first = std::ranges::min_element(
+        of_step.pairs, [](const auto& a, const auto& b) { return a.time < b.time; });
     const bool meets = first != of_step.pairs.end();
-    of_step.first = meets ? first->time : detector::TimeEnclosure{};
+    of_step.first = meets ? first->time : TimeEnclosure{};
     if (of_step.complete) of_step.answer = meets ? Answer::collision : Answer::free;
   }
   return truth;
 }
 
 // Goes on in a detector that was made elsewhere, and has committed something else.
-bool go_on_elsewhere(CasePlayer& player, const corpus::Case& c, detector::Options options,
+bool go_on_elsewhere(CasePlayer& player, const Case& c, Options options,
                      const StagesOf& stages_of) {
-  options.counted = corpus::counted_of(c);
+  options.counted = counted_of(c);
   const auto state = detector::SavedState::read(player.detector().state().bytes());
   const auto& elsewhere = c.frames.back();
   auto creation = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
@@ -224,22 +223,27 @@ std::vector<PlayedStep> play(const PosedCase& p, const StagesOf& stages_of) {
 }
 
 // What is wrong with a limit, or empty.
-std::string fault_of(const StepLimit& limit, const PosedCase& p, const corpus::CaseStep& step,
-                     const oracle::StepJudgement& truth) {
+std::string fault_of(const StepLimit& limit, const PosedCase& p, const CaseStep& step,
+                     const StepJudgement& truth) {
   if (limit.problem) return "a limit is refused";
   Contract contract = contract_of(p.draw.options);
   contract.progress = built_in_progress;
   // Bounded arithmetic may see a contact too early, or where there is none.
-  const Claims claims = p.draw.options.arithmetic == detector::Arithmetic::exact
+  const Claims claims = p.draw.options.arithmetic == Arithmetic::exact
                             ? claims_on_limits
                             : Claims{Claim::commit_free, Claim::path_free};
-  oracle::JudgeOptions options;
-  options.counted = corpus::counted_of(p.judged_case);
+  JudgeOptions options;
+  options.counted = counted_of(p.judged_case);
   const auto& x_t0 = start_of(p.judged_case, step);
   StepDiff diff;
   judge_limit(LimitAnswer{limit.share, limit.positions.topRows(x_t0.rows())},
-              {{x_t0, end_of(p.judged_case, step)}, p.judged_case.triangles, options}, truth,
-              claims, contract, diff);
+              {{x_t0, end_of(p.judged_case, step)},
+               p.judged_case.triangles,
+               options,
+               truth,
+               claims,
+               contract},
+              diff);
   return diff.breaches.empty() ? "" : fmt::format("limit: {}", name_of(diff.breaches.front()));
 }
 
@@ -253,7 +257,7 @@ bool is_vouched_rightly(CaseFacts& tail, CaseFacts& facts, std::size_t s, std::s
     return is_vouched_rightly(tail, facts, *known_step, before);
   if (s < before || tail.has_views(s) || !facts.has_views(s - before)) return false;
   const auto& clean = facts.layers_at_start(s - before).clean;
-  return std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+  return std::ranges::all_of(clean, [](std::uint8_t c) { return c != 0; });
 }
 
 void check_options(CaseFacts& facts, LawTally& tally) {
@@ -261,7 +265,7 @@ void check_options(CaseFacts& facts, LawTally& tally) {
   const PosedCase p = posed(facts);
   const auto& options = p.draw.options;
   const auto played_steps = play(p, facts.stages_of());
-  const std::size_t steps = corpus::steps_of(p.played_case).size(), before = steps - facts.steps();
+  const std::size_t steps = steps_of(p.played_case).size(), before = steps - facts.steps();
   if (played_steps.size() < steps) {
     note(facts, 0, p.draw.text() + ": refused", tally);
     return;
@@ -269,7 +273,7 @@ void check_options(CaseFacts& facts, LawTally& tally) {
   const auto truth = truth_of(p, facts);
   std::vector<StepResult> results;
   for (const auto& step : played_steps) results.push_back(step.result);
-  std::vector<oracle::StepJudgement> judgements(before);
+  std::vector<StepJudgement> judgements(before);
   judgements.insert(judgements.end(), truth.begin(), truth.end());
   CaseFacts tail(p.played_case, options, results, judgements, facts.surface(), facts.stages_of());
   const Claims claims = claims_of(options);

@@ -16,8 +16,6 @@
 namespace assay::properties {
 namespace {
 
-using corpus::Case;
-
 // After this many calls without success the pass ends. There are fewer calls if each takes long.
 std::uint64_t call_budget(const MeshSize& size) {
   constexpr std::uint64_t of_small = 6000, least = 500, small = 60;
@@ -131,7 +129,7 @@ class Escape {
       keep[t] = 0;
       if (search_.offer(keep_triangles(c, keep))) return true;
     }
-    const auto steps = corpus::steps_of(c);
+    const auto steps = steps_of(c);
     for (std::size_t s = 0; s + 1 < steps.size(); ++s) {
       auto fewer = steps;
       fewer[s].to = fewer[s + 1].to;

@@ -17,7 +17,7 @@ std::size_t triangle_count(const ReductionSearch& search) {
 }
 
 // The middle of a triangle over all frames.
-Eigen::RowVector3d middle_of(const corpus::Case& c, std::int32_t triangle) {
+Eigen::RowVector3d middle_of(const Case& c, std::int32_t triangle) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const auto& frame : c.frames) {
     for (int k = 0; k < 3; ++k) sum += frame.row(c.triangles(triangle, k));
@@ -37,8 +37,8 @@ std::vector<std::int32_t> near_first(const ReductionSearch& search) {
   std::vector<double> distance;
   for (const auto t : order) distance.push_back((middle_of(c, t) - centre).squaredNorm());
   for (const auto t : focus) distance[at(t)] = -1;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return distance[at(a)] < distance[at(b)]; });
+  std::ranges::stable_sort(order,
+                           [&](auto a, auto b) { return distance[at(a)] < distance[at(b)]; });
   return order;
 }
 
@@ -109,8 +109,8 @@ std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
       distance[t] = std::max(distance[t], rings.distance[at(v)]);
     }
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
+  std::ranges::stable_sort(order,
+                           [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
   return order;
 }
 
@@ -161,7 +161,7 @@ void drop_unused_vertices(ReductionSearch& search) {
 
 void drop_ghosts(ReductionSearch& search) {
   if (!search.best().ghosts) return;
-  corpus::Case without = search.best();
+  Case without = search.best();
   without.ghosts.reset();
   search.offer(without);
 }
@@ -270,7 +270,7 @@ void collapse_edges(ReductionSearch& search) {
     const auto u = rings.far_first[i];
     const auto n = vertex_count(search.best());
     const Numbers near = n <= few ? in_order(n) : rings.neighbours[at(u)];
-    const bool smaller = std::any_of(near.begin(), near.end(), [&](std::int32_t v) {
+    const bool smaller = std::ranges::any_of(near, [&](std::int32_t v) {
       if (v == u) return false;
       Numbers targets = in_order(n);
       targets[at(u)] = v;
@@ -306,7 +306,7 @@ void remove_and_close(ReductionSearch& search) {
     const auto triangles = triangles_of(search.best());
     std::vector<std::uint8_t> keep(triangles.size(), 1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (std::count(triangles[t].begin(), triangles[t].end(), v) > 0) keep[t] = 0;
+      if (std::ranges::count(triangles[t], v) > 0) keep[t] = 0;
     }
     const auto open = keep_triangles(search.best(), keep);
     bool smaller = false;

@@ -13,8 +13,6 @@
 
 namespace assay::properties {
 
-using corpus::Case;
-
 void translate(ReductionSearch& search) {
   constexpr std::size_t most_origins = 60;
   for (int axis = 0; axis < 3; ++axis) {
@@ -110,8 +108,8 @@ Case with_vertices_by_use(const Case& c) {
     number[at(v)] = static_cast<std::int32_t>(was.size());
     was.push_back(v);
   };
-  for (const auto& corners : triangles_of(c)) std::for_each(corners.begin(), corners.end(), use);
-  for (const auto v : in_order(number.size())) use(v);  // those that no triangle names
+  for (const auto& corners : triangles_of(c)) std::ranges::for_each(corners, use);
+  for (const auto v : in_order(number.size())) use(v);  // of which no triangle is, if any
   Case candidate = c;
   renumber_vertices(candidate, number);
   if (c.counted)
@@ -123,14 +121,14 @@ Case with_vertices_by_use(const Case& c) {
 Case with_lowest_corners_first(const Case& c) {
   auto triangles = triangles_of(c);
   for (auto& corners : triangles) {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   }
   return with_triangles(c, triangles);
 }
 
 Case with_sorted_triangles(const Case& c) {
   auto triangles = triangles_of(c);
-  std::sort(triangles.begin(), triangles.end());
+  std::ranges::sort(triangles);
   return with_triangles(c, triangles);
 }
 

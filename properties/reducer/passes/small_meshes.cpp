@@ -20,9 +20,9 @@ using Corners = std::array<std::int32_t, 3>;
 SphereMesh canonical(SphereMesh mesh) {
   const auto sort = [](SphereMesh& m) {
     for (Corners& corners : m) {
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     }
-    std::sort(m.begin(), m.end());
+    std::ranges::sort(m);
   };
   sort(mesh);
   SphereMesh other = mirrored(mesh);
@@ -81,8 +81,7 @@ SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i) {
   }
   if (b < 0 || b == a) return {};
   for (const Corners& corners : mesh) {
-    if (std::count(corners.begin(), corners.end(), a) > 0 &&
-        std::count(corners.begin(), corners.end(), b) > 0) {
+    if (std::ranges::count(corners, a) > 0 && std::ranges::count(corners, b) > 0) {
       return {};
     }
   }
@@ -117,9 +116,9 @@ bool any_subset(std::size_t pool, std::size_t count, Take take) {
 }
 
 bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& triangles) {
-  return std::all_of(triangles.begin(), triangles.end(), [&](const Corners& corners) {
-    return std::any_of(mesh.begin(), mesh.end(),
-                       [&](const Corners& other) { return as_set(other) == as_set(corners); });
+  return std::ranges::all_of(triangles, [&](const Corners& corners) {
+    return std::ranges::any_of(
+        mesh, [&](const Corners& other) { return as_set(other) == as_set(corners); });
   });
 }
 
@@ -129,7 +128,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
   // reported triangles are tried.
   constexpr std::size_t many = 6;
   Rings rings = rings_of(search);
-  const corpus::Case start = search.best();
+  const Case start = search.best();
   std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
   if (pool.size() > largest_pool) pool.resize(largest_pool);
   if (of_pair_only) {
@@ -162,7 +161,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
           for (Corners& corners : mesh) {
             for (auto& v : corners) v = pool[places[at(v)]];
           }
-          const corpus::Case small = with_triangles(start, mesh);
+          const Case small = with_triangles(start, mesh);
           if (search.offer(small)) return true;
           // The view of the large mesh need not suit the small one, so the small one is also tried
           // with a view of its own.

@@ -8,17 +8,17 @@
 namespace assay::properties {
 
 void drop_later_steps(ReductionSearch& search) {
-  auto steps = corpus::steps_of(search.best());
+  auto steps = steps_of(search.best());
   if (search.finding().step + 1 >= steps.size()) return;
   steps.resize(search.finding().step + 1);
   search.offer(with_steps(search.best(), steps));
 }
 
 void drop_steps(ReductionSearch& search) {
-  const auto size = [&] { return corpus::steps_of(search.best()).size(); };
+  const auto size = [&] { return steps_of(search.best()).size(); };
   if (size() < 2) return;
   try_halves(search, size, [&](std::size_t begin, std::size_t end) {
-    auto steps = corpus::steps_of(search.best());
+    auto steps = steps_of(search.best());
     if (end - begin == steps.size()) return false;
     steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(begin),
                 steps.begin() + static_cast<std::ptrdiff_t>(end));
@@ -27,8 +27,8 @@ void drop_steps(ReductionSearch& search) {
 }
 
 void merge_steps(ReductionSearch& search) {
-  for (std::size_t s = 0; s + 1 < corpus::steps_of(search.best()).size() && !search.has_ended();) {
-    auto steps = corpus::steps_of(search.best());
+  for (std::size_t s = 0; s + 1 < steps_of(search.best()).size() && !search.has_ended();) {
+    auto steps = steps_of(search.best());
     steps[s].to = steps[s + 1].to;
     steps[s].commit = steps[s + 1].commit;
     steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(s) + 1);
@@ -37,10 +37,7 @@ void merge_steps(ReductionSearch& search) {
 }
 
 namespace {
-
-using corpus::Case;
-using corpus::CaseView;
-using Places = std::vector<detector::Point>;
+using Places = std::vector<Point>;
 
 void offer_view(ReductionSearch& search, const std::optional<CaseView>& view) {
   Case simpler = search.best();
@@ -53,7 +50,7 @@ Places fixed(const Places& places, std::size_t frame) {
 }
 
 // Moves everything so that `origin` comes to (0,0,0).
-Case with_origin(const Case& c, const detector::Point& origin) {
+Case with_origin(const Case& c, const Point& origin) {
   Case result = c;
   for (int axis = 0; axis < 3; ++axis) {
     for (double* x : numbers_along(result, axis)) *x -= origin[at(axis)];
@@ -107,7 +104,7 @@ void freeze_vertices(ReductionSearch& search) {
     if (size() == 0) return;
     try_halves(search, size, [&](std::size_t begin, std::size_t end) {
       const auto moving = moving_vertices(search);
-      corpus::Case still = search.best();
+      Case still = search.best();
       for (std::size_t i = begin; i < end; ++i) {
         for (auto& frame : still.frames)
           frame.row(moving[i]) = search.best().frames[f].row(moving[i]);
@@ -120,7 +117,7 @@ void freeze_vertices(ReductionSearch& search) {
        ++f) {
     for (const auto v : moving_vertices(search)) {
       for (const std::size_t at : {f, f + 1}) {
-        corpus::Case still = search.best();
+        Case still = search.best();
         still.frames[2 * f + 1 - at].row(v) = still.frames[at].row(v);
         if (search.offer(still)) break;
       }
@@ -133,17 +130,17 @@ namespace {
 // Offers the case with this change of its relation.
 template <class Change>
 bool offer_relation(ReductionSearch& search, const Change& change) {
-  corpus::Case simpler = search.best();
+  Case simpler = search.best();
   change(simpler.counted->pairs);
   return search.offer(simpler);
 }
 
 template <class List>
-void shorten(ReductionSearch& search, List detector::CountedPairs::*list) {
+void shorten(ReductionSearch& search, List CountedPairs::*list) {
   const auto size = [&] { return (search.best().counted->pairs.*list).size(); };
   if (size() == 0) return;
   try_halves(search, size, [&](std::size_t begin, std::size_t end) {
-    return offer_relation(search, [&](detector::CountedPairs& pairs) {
+    return offer_relation(search, [&](CountedPairs& pairs) {
       const auto first = (pairs.*list).begin();
       (pairs.*list)
           .erase(first + static_cast<std::ptrdiff_t>(begin),
@@ -156,10 +153,9 @@ void shorten(ReductionSearch& search, List detector::CountedPairs::*list) {
 
 void simplify_relation(ReductionSearch& search) {
   if (!search.best().counted) return;
-  corpus::Case without = search.best();
+  Case without = search.best();
   without.counted.reset();
   if (search.offer(without)) return;
-  using detector::CountedPairs;
   shorten(search, &CountedPairs::apart);
   shorten(search, &CountedPairs::triangle_pairs);
   shorten(search, &CountedPairs::vertex_faces);

@@ -179,8 +179,8 @@ Needs needs_of(const fs::path& file) {
 
 bool is_of_the_system(const fs::path& file) {
   constexpr const char* folders[] = {"/lib/", "/lib32/", "/lib64/", "/usr/lib"};
-  return std::any_of(std::begin(folders), std::end(folders),
-                     [&](const char* folder) { return file.string().starts_with(folder); });
+  return std::ranges::any_of(folders,
+                             [&](const char* folder) { return file.string().starts_with(folder); });
 }
 
 // The order is that of the loader.
@@ -211,7 +211,7 @@ void add_needed(const fs::path& file, const Strings& inherited, std::vector<fs::
     const auto dependency = find(name, needs, inherited);
     std::error_code ignored;
     if (!dependency || is_of_the_system(fs::canonical(*dependency, ignored)) ||
-        std::find(files.begin(), files.end(), *dependency) != files.end())
+        std::ranges::find(files, *dependency) != files.end())
       continue;
     files.push_back(*dependency);
     add_needed(*dependency, handed_on, files);

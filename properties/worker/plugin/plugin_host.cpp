@@ -3,77 +3,58 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <array>
+#include <boost/outcome/try.hpp>
 #include <memory>
-#include <new>
 
-#include "detector/step_result.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
-using detector::Answer;
-using detector::StepResult;
-
 namespace {
 
 // Runs the steps of one case through one handle.
-class PluginRun {
- public:
-  PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count,
-            bool reports_pairs, bool asks_twice)
-      : api_(api),
-        handle_(handle, api.destroy),
-        triangle_count_(triangle_count),
-        reports_pairs_(reports_pairs),
-        asks_twice_(asks_twice) {}
+struct PluginRun {
+  const assay_detector_api& api_;
+  const std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
+  const std::int32_t triangle_count_;
+  const bool reports_pairs_, asks_twice_;
 
   // The candidate pairs of a step, or why there are none.
-  Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
-                                                           const detector::Positions& x_t1) {
+  Expected<std::vector<TrianglePair>> candidates(const Positions& x_t0, const Positions& x_t1) {
     assay_candidates raw = {};
-    const auto ok =
-        status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(
+        status("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw)));
     return candidate_pairs(raw, triangle_count_);
   }
 
   // What the limiter allows in a step, or why it allows nothing.
   // `way` is x_t1, or the displacement to it, as the contract has it.
-  Expected<LimitAnswer> limit(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                              const detector::Positions& way,
+  Expected<LimitAnswer> limit(const Positions& x_t0, const Positions& x_t1, const Positions& way,
                               const PluginDescription& description) {
     assay_limit raw = {};
     raw.share = -1;
-    const auto ok = status("limit", api_.limit(handle_.get(), x_t0.data(), way.data(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(status("limit", api_.limit(handle_.get(), x_t0.data(), way.data(), &raw)));
     return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, way);
   }
 
-  // The result of a step, or why it has none.
-  Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                            bool commit) {
+  // The result of a step, or why it has none: the same reasons.
+  Expected<StepResult> step(const Positions& x_t0, const Positions& x_t1, bool commit) {
     auto result = evaluated_step(x_t0, x_t1);
     if (result && asks_twice_) result = evaluated_step(x_t0, x_t1);
     if (!result) return result;
     const Answer answer = result.value().answer;
     if (commit && (answer == Answer::free || answer == Answer::collision)) {
-      const auto committed = status("commit", api_.commit(handle_.get()));
-      if (!committed) return committed.error();
+      BOOST_OUTCOME_TRYV(status("commit", api_.commit(handle_.get())));
     }
     return result;
   }
 
  private:
-  Expected<StepResult> evaluated_step(const detector::Positions& x_t0,
-                                      const detector::Positions& x_t1) {
-    const auto evaluated =
-        status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
-    if (!evaluated) return evaluated.error();
+  Expected<StepResult> evaluated_step(const Positions& x_t0, const Positions& x_t1) {
+    BOOST_OUTCOME_TRYV(status("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data())));
     assay_result raw = {};
-    const auto ok = status("result", api_.result(handle_.get(), &raw));
-    if (!ok) return ok.error();
+    BOOST_OUTCOME_TRYV(status("result", api_.result(handle_.get(), &raw)));
     if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
       if (auto text = text_of_error(api_); !text.empty()) return Problem{std::move(text)};
     }
@@ -87,21 +68,16 @@ class PluginRun {
     if (code == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(text_of_error(api_));
     return Problem{text_of_code(api_, function, code)};
   }
-
-  const assay_detector_api& api_;
-  std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
-  std::int32_t triangle_count_;
-  bool reports_pairs_, asks_twice_;
 };
 
 // Tells the plug-in which pairs count. Says why it does not take that; empty if it does.
 std::string tell_what_counts(const assay_detector_api& table, assay_handle* handle,
-                             const detector::CountedPairs& pairs) {
+                             const CountedPairs& pairs) {
   // They are handed over as they stand.
-  static_assert(sizeof(detector::TrianglePair) == 2 * sizeof(std::int32_t));
+  static_assert(sizeof(TrianglePair) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::VertexAndFace) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::TwoEdges) == 4 * sizeof(std::int32_t));
-  static_assert(sizeof(detector::Point) == 3 * sizeof(double));
+  static_assert(sizeof(Point) == 3 * sizeof(double));
   const auto numbers = [](const auto& list) {
     return list.empty() ? nullptr : reinterpret_cast<const std::int32_t*>(list.data());
   };
@@ -155,24 +131,19 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
-CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const {
-  constexpr std::size_t points = 4, axes = 3;
-  std::array<double, points * axes> x_t0, x_t1;
-  for (std::size_t i = 0; i < points; ++i) {
-    for (std::size_t k = 0; k < axes; ++k) {
-      x_t0[axes * i + k] = query.points[i].t0[k];
-      x_t1[axes * i + k] = query.points[i].t1[k];
-      if (description_.contract.motion == MotionGiven::displacement)
-        x_t1[axes * i + k] -= x_t0[axes * i + k];  // exact in a contracted query
-    }
-  }
+CaseRun PluginHost::ask(const Case& c, int first_group, bool is_timed) const {
+  const auto step = steps_of(c).front();
+  const Positions& x_t0 = start_of(c, step);
+  Positions x_t1 = end_of(c, step);
+  // The displacement is exact in a contracted query.
+  if (description_.contract.motion == MotionGiven::displacement) x_t1 -= x_t0;
   assay_query_result raw = {};
   RunClock clock(is_timed);
   clock.created();
   clock.begin();
   const std::int32_t code =
-      table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
-                   x_t0.data(), x_t1.data(), &raw);
+      table_.query(first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE, x_t0.data(),
+                   x_t1.data(), &raw);
   clock.end_step();
   CaseRun run;
   run.times = clock.take();
@@ -187,26 +158,26 @@ CaseRun PluginHost::ask(const detector::FourPoints& query, bool is_timed) const 
     alike.answer = raw.answer;
     alike.first_lo = raw.first_lo;
     alike.first_hi = raw.first_hi;
-    auto step = step_result(alike, 0);
-    if (step) {
-      result = std::move(step.value());
+    auto answer = step_result(alike, 0);
+    if (answer) {
+      result = std::move(answer.value());
     } else {
       const auto text = raw.answer == ASSAY_ERROR ? text_of_error(table_) : "";
-      run.explanation = text.empty() ? step.error().message : text;
+      run.explanation = text.empty() ? answer.error().message : text;
     }
   }
   return run;
 }
 
-CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
+CaseRun PluginHost::run(const Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
   if (const auto query = query_of(c)) {
     if (!parts.query) return {RunEnd::refused, "it answers no queries", {}};
-    return ask(*query, is_timed);
+    return ask(c, query->first_group, is_timed);
   }
   if (!parts.steps && !parts.candidates && !parts.limit)
     return {RunEnd::refused, "it takes no steps", {}};
-  std::vector<detector::Positions> frames;
+  std::vector<Positions> frames;
   for (const auto& frame : c.frames) {
     frames.push_back(round_to(frame, description_.contract.coordinates));
     if (frames.back().allFinite()) continue;
@@ -229,8 +200,11 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     if (explanation.empty()) explanation = text_of_code(table_, "create", code);
     return {RunEnd::refused, std::move(explanation), {}};
   }
-  PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
-                   description_.contract.reports_pairs(), asks_twice_);
+  PluginRun plugin{table_,
+                   {handle, table_.destroy},
+                   static_cast<std::int32_t>(c.triangles.rows()),
+                   description_.contract.reports_pairs(),
+                   asks_twice_};
   if (c.counted && !c.counted->pairs.count_all()) {
     // A contracted case has no relation for such a plug-in.
     if (!table_.count) return {RunEnd::refused, "it cannot be told which pairs count", {}};
@@ -239,7 +213,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   }
   CaseRun run;
   run.has_answers = parts.steps;
-  for (const auto& step : corpus::steps_of(c)) {
+  for (const auto& step : steps_of(c)) {
     const auto& x_t0 = frames[static_cast<std::size_t>(step.from)];
     const auto& x_t1 = frames[static_cast<std::size_t>(step.to)];
     const bool is_displaced = description_.contract.motion == MotionGiven::displacement;

@@ -4,9 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
-#include "detector/step_result.h"
 #include "properties/claims/claims.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
@@ -33,10 +31,10 @@ class PluginHost {
   // invalid interval), its step is an error, which `explanation` states. Coordinates are rounded as
   // the contract says. The caller must leave out the steps that the contract leaves out. If the
   // case is a query (query_case.h), the plug-in's query is asked, with unrounded coordinates.
-  CaseRun run(const corpus::Case& c, bool is_timed = false) const;
+  CaseRun run(const Case& c, bool is_timed = false) const;
 
  private:
-  CaseRun ask(const detector::FourPoints& query, bool is_timed) const;
+  CaseRun ask(const Case& c, int first_group, bool is_timed) const;
 
   PluginHost(const assay_detector_api& table, PluginDescription description)
       : table_(table), description_(std::move(description)) {}
@@ -75,8 +73,8 @@ Expected<PluginDescription> described(const assay_description& raw, const Plugin
 // 1] if none is stated). Fails if the result breaks the header's rules, and, with the plug-in's own
 // words, if it says that the step has no answer. If `reports_pairs` is false
 // (PairReporting::no_pairs), pairs break the rules.
-Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
-                                           bool reports_pairs = true);
+Expected<StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                 bool reports_pairs = true);
 
 // Returns the answer of a limiter with these claims: its share, or -1, and the positions at which
 // the caller stops, its own or computed as Contract::limit_gives says; `way` is the displacement
@@ -84,11 +82,11 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
 // to compute them from, if positions are not finite, and if a claim needs a share that is not
 // stated.
 Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
-                                   const Contract& contract, const detector::Positions& x_t0,
-                                   const detector::Positions& x_t1, const detector::Positions& way);
+                                   const Contract& contract, const Positions& x_t0,
+                                   const Positions& x_t1, const Positions& way);
 
 // Returns the candidate pairs a < b, ascending, each once. Fails if an index is out of range.
-Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
-                                                              std::int32_t triangle_count);
+Expected<std::vector<TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                    std::int32_t triangle_count);
 
 }  // namespace assay::properties

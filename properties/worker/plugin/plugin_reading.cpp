@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "detector/mesh/step_types.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/plugin_host.h"
 
@@ -69,8 +68,8 @@ std::string line_of(const char* text) {
   constexpr std::size_t longest = 1000;
   if (!text) return "";
   std::string line(text, ::strnlen(text, longest));
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return 0 < c && c < ' '; }, ' ');
+  std::ranges::replace_if(
+      line, [](char c) { return 0 < c && c < ' '; }, ' ');
   return printable(line);
 }
 
@@ -147,10 +146,6 @@ Expected<PluginDescription> described(const assay_description& raw, const Plugin
   return description;
 }
 
-using detector::Answer;
-using detector::PairContact;
-using detector::TimeEnclosure;
-
 namespace {
 
 bool is_interval(const TimeEnclosure& time) {
@@ -158,12 +153,12 @@ bool is_interval(const TimeEnclosure& time) {
 }
 
 // Returns false if the numbers are no pair of triangles of this mesh.
-bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::TrianglePair& pair) {
+bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, TrianglePair& pair) {
   pair = {std::min(raw[0], raw[1]), std::max(raw[0], raw[1])};
   return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
 }
 
-std::string numbers_of(const detector::TimeEnclosure& time) {
+std::string numbers_of(const TimeEnclosure& time) {
   return "[" + number_text(time.lo) + ", " + number_text(time.hi) + "]";
 }
 
@@ -184,7 +179,7 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
     }
     pairs.push_back(contact);
   }
-  std::sort(pairs.begin(), pairs.end(), [](const PairContact& a, const PairContact& b) {
+  std::ranges::sort(pairs, [](const PairContact& a, const PairContact& b) {
     return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
   });
   const auto same_pair = [](const PairContact& a, const PairContact& b) {
@@ -197,9 +192,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
 // Where a caller stops if it computes in this format, with one rounding for each operation. Share 1
 // is x_t1.
 template <class Real>
-void stop_at(double share, LimitGives gives, const detector::Positions& x_t0,
-             const detector::Positions& x_t1, const detector::Positions* displacement,
-             detector::Positions& stop) {
+void stop_at(double share, LimitGives gives, const Positions& x_t0, const Positions& x_t1,
+             const Positions* displacement, Positions& stop) {
   if (share == 1) return;
   const auto part = static_cast<Real>(share);
   for (Eigen::Index i = 0; i < x_t0.size(); ++i) {
@@ -214,8 +208,7 @@ void stop_at(double share, LimitGives gives, const detector::Positions& x_t0,
 
 // REQUIRES that the plug-in does not call it an error. Says which rule is broken; empty if none
 // is.
-std::string read_result(const assay_result& raw, std::int32_t triangle_count,
-                        detector::StepResult& result) {
+std::string read_result(const assay_result& raw, std::int32_t triangle_count, StepResult& result) {
   switch (raw.answer) {
     case ASSAY_FREE:
       result.answer = Answer::free;
@@ -237,8 +230,8 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
 
 }  // namespace
 
-Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
-                                           bool reports_pairs) {
+Expected<StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                 bool reports_pairs) {
   if (raw.answer == ASSAY_ERROR) {
     return Problem{raw.message && *raw.message ? raw.message : "an error without a message"};
   }
@@ -246,16 +239,15 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   if (!reports_pairs && raw.pair_count > 0) {
     return Problem{"gives pairs, and says that it reports none"};
   }
-  detector::StepResult result;
+  StepResult result;
   std::string problem = read_result(raw, triangle_count, result);
   if (!problem.empty()) return Problem{std::move(problem)};
   return result;
 }
 
 Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
-                                   const Contract& contract, const detector::Positions& x_t0,
-                                   const detector::Positions& x_t1,
-                                   const detector::Positions& way) {
+                                   const Contract& contract, const Positions& x_t0,
+                                   const Positions& x_t1, const Positions& way) {
   const bool has_share = raw.share != -1;
   if (has_share && !(raw.share >= 0 && raw.share <= 1))
     return Problem{"its share " + number_text(raw.share) + " is none from 0 to 1"};
@@ -263,7 +255,7 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
     return Problem{"it states no share, and claims path-free or progress"};
   LimitAnswer limit{raw.share, x_t1};
   if (raw.positions) {
-    limit.positions = Eigen::Map<const detector::Positions>(raw.positions, x_t0.rows(), 3);
+    limit.positions = Eigen::Map<const Positions>(raw.positions, x_t0.rows(), 3);
   } else if (!has_share || contract.limit_gives == LimitGives::positions) {
     return Problem{"it gives no positions, and no share from which they could be computed"};
   } else if (contract.coordinates == Coordinates::float32) {
@@ -276,17 +268,17 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
   return limit;
 }
 
-Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
-                                                              std::int32_t triangle_count) {
+Expected<std::vector<TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                    std::int32_t triangle_count) {
   if (raw.pair_count > 0 && !raw.pairs) return breach("candidates are counted but not given");
-  std::vector<detector::TrianglePair> pairs;
+  std::vector<TrianglePair> pairs;
   for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
-    detector::TrianglePair pair;
+    TrianglePair pair;
     if (!read_pair(raw.pairs + 2 * i, triangle_count, pair))
       return breach("candidate " + std::to_string(i) + " names no two triangles");
     pairs.push_back(pair);
   }
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }

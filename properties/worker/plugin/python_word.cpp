@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 bool is_identifier(std::string_view text) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; };
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
-         std::all_of(text.begin(), text.end(), fits);
+         std::ranges::all_of(text, fits);
 }
 
 // The places where the package may be: in the build folder, around the programs (as pip puts it),
@@ -47,7 +47,7 @@ void add_module(const fs::path& place, std::vector<fs::path>& files) {
   for (const auto& file : {fs::path(place.string() + ".py"), place / "__init__.py"}) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) continue;
-    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
     return;
   }
 }
@@ -59,8 +59,8 @@ std::vector<std::string> imported_names(const fs::path& file) {
   for (std::string line; std::getline(in, line);) {
     line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with("import ") && !line.starts_with("from ")) continue;
-    std::replace_if(
-        line.begin(), line.end(),
+    std::ranges::replace_if(
+        line,
         [](char c) {
           return !is_identifier({&c, 1}) && !std::isdigit(static_cast<unsigned char>(c));
         },
@@ -87,7 +87,7 @@ std::optional<PythonWord> python_word_of(std::string_view word) {
   const auto parts = parts_of(std::string(word.substr(python_prefix.size())), ':');
   if (parts.size() != 2 || !is_identifier(parts[1])) return std::nullopt;
   const auto modules = parts_of(parts[0], '.');
-  if (!std::all_of(modules.begin(), modules.end(), is_identifier)) return std::nullopt;
+  if (!std::ranges::all_of(modules, is_identifier)) return std::nullopt;
   return PythonWord{parts[0], parts[1]};
 }
 

@@ -10,25 +10,23 @@
 #include <optional>
 #include <string>
 
-#include "corpus/cases/case_file.h"
-#include "detector/mesh/step_types.h"
-#include "detector/mesh/types.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
-corpus::Case case_of_query(const detector::FourPoints& query, std::string id);
+Case case_of_query(const FourPoints& query, std::string id);
 
 // Returns whether the case says that it is a query, rightly or not.
-bool says_query(const corpus::Case& c);
+bool says_query(const Case& c);
 // Returns the query of such a case; nothing if the case is no query.
-std::optional<detector::FourPoints> query_of(const corpus::Case& c);
+std::optional<FourPoints> query_of(const Case& c);
 
 // Returns the two features of the query, by the vertices of its case.
-detector::Feature features_of(const detector::FourPoints& query);
+Feature features_of(const FourPoints& query);
 
-const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
+const char* query_word(const FourPoints& query);  // "vertex-face", "edge-edge"
 // Returns the value of the case's option `query`; empty if it has none.
-std::string query_word(const corpus::Case& c);
-void say_query(corpus::Case& c, const std::string& word);
+std::string query_word(const Case& c);
+void say_query(Case& c, const std::string& word);
 
 }  // namespace assay::properties

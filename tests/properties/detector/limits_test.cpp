@@ -40,8 +40,8 @@ detector::Positions judge_one(detector::Detector& detector, const corpus::Case& 
   const detector::SteppedMesh motion{from, to};
   const auto truth = judge_under(contract, motion, c.triangles, options);
   StepDiff diff;
-  judge_limit(LimitAnswer{limit.share, limit.positions}, {motion, c.triangles, options}, truth,
-              claims_on_limits, contract, diff);
+  judge_limit(LimitAnswer{limit.share, limit.positions},
+              {motion, c.triangles, options, truth, claims_on_limits, contract}, diff);
   for (const auto claim : diff.breaches) ADD_FAILURE() << name_of(claim) << ": " << c.id;
   diff.oracle_complete = true;
   tally.use += errors_of(diff).limits;

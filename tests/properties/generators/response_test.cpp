@@ -12,8 +12,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer;
-
 // Vertex 3 of a tetrahedron goes down through the opposite face, which it reaches at t = 1/2.
 corpus::Case down_through_the_floor() {
   corpus::Case c;

@@ -23,14 +23,11 @@ struct Fall {
   // The cause behind a contact, or behind a pair that does not meet.
   template <class... Asked>
   std::string cause_behind(const Asked&... asked) const {
-    return text_of(cause_of(triangles, {x_t0, x_t1}, asked...));
+    return cause_of(triangles, {x_t0, x_t1}, asked...);
   }
   std::string cause() const {
     const auto judged = oracle::judge_step({x_t0, x_t1}, triangles, {});
     return judged.pairs.size() == 1 ? cause_behind(judged.pairs[0]) : "none";
-  }
-  std::string cause_of_the_query(const auto& asked) const {
-    return text_of(cause_of_query(triangles, {x_t0, x_t1}, asked));
   }
 };
 
@@ -99,10 +96,10 @@ TEST(Cause, OfAQueryItsFeaturesAloneAreNear) {
   const detector::PairContact contact{
       {0, 1}, {0.5, 0.5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
   fall.x_t0(4, 2) = fall.x_t1(4, 2) = 0;
-  EXPECT_EQ(fall.cause_of_the_query(contact), "t inside, moving, generic");
+  EXPECT_EQ(fall.cause_behind(contact, false, true), "t inside, moving, generic");
   EXPECT_EQ(fall.cause_behind(contact), "t inside, moving, generic, near contact at the start");
   fall.x_t0(3, 2) = 1e-6;
-  EXPECT_EQ(fall.cause_of_the_query(contact),
+  EXPECT_EQ(fall.cause_behind(contact, false, true),
             "t inside, moving, generic, near contact at the start");
 }
 
@@ -112,7 +109,8 @@ TEST(Cause, OfAQueryThatStaysApartNothingIsShared) {
   one.triangles(1, 1) = 1;
   one.x_t1 = one.x_t0;
   const detector::Feature features{detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}};
-  EXPECT_EQ(one.cause_of_the_query(features), "at rest");
+  EXPECT_EQ(one.cause_behind(detector::TrianglePair{0, 1}, false, std::optional(features)),
+            "at rest");
   EXPECT_EQ(one.cause_behind(detector::TrianglePair{0, 1}), "at rest, sharing a vertex");
 }
 

@@ -117,12 +117,19 @@ TEST(Claims, ARefusalBeyondTheCapacityBreaksNothing) {
                       {{.capacity_candidates = 7}, false},
                       {{.capacity_candidates = 6}, true},
                       {{.capacity_triangles = 9, .capacity_candidates = 6}, true}};
+  const auto diff_of = [](const oracle::StepJudgement& truth, const Claims& claims,
+                          const Contract& contract) {
+    CaseRun refusal;
+    note_capacity(refusal, 0);
+    const detector::Positions x(6, 3);
+    return judge_step(refusal, 0, {{x, x}, mesh(), {}, truth, claims, contract});
+  };
   for (const auto& [contract, is_beyond] : rows) {
-    const auto diff = diff_of_refusal(judgement, claimable, contract, mesh());
+    const auto diff = diff_of(judgement, claimable, contract);
     EXPECT_EQ(diff.outcome, is_beyond ? Outcome::refused : Outcome::defect);
     EXPECT_EQ(diff.breaches, is_beyond ? List{} : List{Claim::total});
     // Without the claim total a refusal breaks nothing, and answers nothing.
-    EXPECT_EQ(diff_of_refusal(judgement, {Claim::free_sound}, contract, mesh()).outcome,
+    EXPECT_EQ(diff_of(judgement, {Claim::free_sound}, contract).outcome,
               is_beyond ? Outcome::refused : Outcome::error);
     // An answer is judged, whatever the capacity: silence is no refusal.
     EXPECT_EQ(judged(answer(Answer::free), judgement, claimable, contract).breaches.front(),
@@ -131,10 +138,10 @@ TEST(Claims, ARefusalBeyondTheCapacityBreaksNothing) {
   // Pairs that the contract leaves out fill no buffer.
   auto neighbours = truth({pair_at(0, 1, .5), pair_at(3, 4, .5)});
   const Contract strangers = {.adjacency = Adjacency::no_shared_vertex, .capacity_contacts = 1};
-  EXPECT_EQ(diff_of_refusal(neighbours, claimable, strangers, mesh()).outcome, Outcome::defect);
+  EXPECT_EQ(diff_of(neighbours, claimable, strangers).outcome, Outcome::defect);
   // An oracle that was stopped has counted too little to refuse the refusal.
   neighbours.complete = false;
-  EXPECT_EQ(diff_of_refusal(neighbours, claimable, strangers, mesh()).outcome, Outcome::undecided);
+  EXPECT_EQ(diff_of(neighbours, claimable, strangers).outcome, Outcome::undecided);
 }
 
 TEST(Claims, CollisionAgainstNoneIsSpurious) {

@@ -49,7 +49,7 @@ class JudgedTrials : public testing::Test {
     const auto contact =
         std::find_if(truth[0].pairs.begin(), truth[0].pairs.end(),
                      [&](const auto& exact) { return exact.pair == *judged.failure->pair; });
-    return ", " + text_of(cause_of(c.triangles, {c.frames[0], c.frames[1]}, *contact));
+    return ", " + cause_of(c.triangles, {c.frames[0], c.frames[1]}, *contact);
   }
   std::string feature_of_first() const { return name_of(truth[0].pairs[0].feature.kind); }
 

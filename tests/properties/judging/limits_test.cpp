@@ -12,8 +12,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::Positions;
-
 // The corner sinks from z = 3 to -1, so it is at the plane at t = 3/4.
 constexpr double first_time = 0.75;
 

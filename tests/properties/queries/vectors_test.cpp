@@ -20,7 +20,8 @@
 namespace assay::properties {
 namespace {
 
-using corpus::Json, detector::FeatureKind, detector::FourPoints, detector::TimeEnclosure;
+using corpus::Json;
+using detector::FeatureKind;
 
 const std::string folder = ASSAY_SOURCE_DIR "/corpus/vectors/";
 

@@ -14,8 +14,6 @@
 namespace assay::properties {
 namespace {
 
-using corpus::Case;
-
 // Small cases in which nothing moves.
 
 Case still_case(const detector::Triangles& triangles, const detector::Positions& positions,

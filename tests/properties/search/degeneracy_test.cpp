@@ -7,8 +7,6 @@
 namespace assay::properties {
 namespace {
 
-using detector::FourPoints;
-
 FourPoints generic(std::uint64_t i) { return query_families()[8].query(5, i).query; }
 
 // The volume of the four points at this time over that of a cube of their largest coordinate.
