@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,9 +84,6 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
                                      const std::vector<std::int32_t>& component, int jobs = 1);
-
-// Says whether a pair of triangles, the lower index first, is to be looked at.
-using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
 // Returns a pair of triangles that `counts` accepts and that is near, or nothing if there is none.
 // A pair is near if it is in contact at rest (detector/LAWS.md defines that), or if it holds a

@@ -105,6 +105,9 @@ void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Work
 void for_each_face_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
                         const VisitFeatures& visit);
 
+// Says of two triangles, the lower first, whether they count.
+using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
+
 // Triangle pairs whose features meet, by tests that the caller chooses (at rest or over a step).
 
 // Exact tests of two features, each given by its vertices: whether they meet.
