@@ -50,20 +50,10 @@ MethodAnswer detector_integers(const QueryTask& task) {
   return answer_of(answer.contact, answer.time, answer.rung, Want::first_time);
 }
 
-oracle::DistanceVerdict ask_distance_referee(const QueryTask& task,
-                                             const oracle::DistanceRefereeOptions& options) {
-  const auto& x = task.query.points;
-  if (task.query.first_group == 2)
-    return oracle::distance_referee(detector::EdgeEdge{{x[0], x[1]}, {x[2], x[3]}}, *task.within,
-                                    options);
-  return oracle::distance_referee(detector::VertexFace{x[0], {x[1], x[2], x[3]}}, *task.within,
-                                  options);
-}
-
 // Of a distance no time is asked for, so that any bracket of it will do.
 MethodAnswer referee(const QueryTask& task) {
   if (!task.within) return {oracle::referee(task.query)};
-  return {ask_distance_referee(task, {.bits = 0}).within};
+  return {oracle::distance_referee(task.query, *task.within, {.bits = 0}).within};
 }
 
 // The limits are small, because a query that is not settled soon is mostly a touch, which no
@@ -73,7 +63,7 @@ MethodAnswer second_referee(const QueryTask& task) {
 }
 
 MethodAnswer distance_referee(const QueryTask& task) {
-  const auto verdict = ask_distance_referee(task, {});
+  const auto verdict = oracle::distance_referee(task.query, *task.within);
   return {.decision = verdict.within, .proof = verdict};
 }
 

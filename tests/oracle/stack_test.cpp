@@ -48,7 +48,7 @@ void expect_answered(const Feature& query) {
   if (first) {
     EXPECT_EQ(*first, answer.first);
   }
-  (void)referee(query, {20, 20});
+  (void)referee(four_points(query), {20, 20});
 }
 
 void expect_answered(const FourMoving& p) {

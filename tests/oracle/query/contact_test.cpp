@@ -311,7 +311,7 @@ TEST(Piercing, ScalesOfAllDoubles) {
 template <class Query>
 ContactShape shape(const Query& query, const ContactAnswer& answer) {
   EXPECT_TRUE(answer.contact);
-  return shape_of(query, answer.first);
+  return shape_of(four_points(query), answer.first);
 }
 ContactShape shape(const VertexFace& q) {
   return shape(q, vertex_face_contact(q, detector::Want::first_time));
@@ -351,7 +351,7 @@ TEST(ContactShape, OfADoubleRoot) {
   const auto answer = edge_edge_contact(q, detector::Want::first_time);
   ASSERT_TRUE(answer.contact);
   EXPECT_EQ(answer.first, (detector::TimeEnclosure{0.5, 0.5}));
-  EXPECT_EQ(shape_of(q, answer.first), ContactShape::double_root);
+  EXPECT_EQ(shape_of(four_points(q), answer.first), ContactShape::double_root);
 }
 
 }  // namespace

@@ -9,11 +9,10 @@ namespace assay::oracle {
 namespace {
 
 using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::VertexFace,
-    test::edge_edge, test::Points, test::QueryKind, test::Random, test::rest, test::resting_face,
-    test::vertex_face;
+    test::Points, test::QueryKind, test::Random, test::rest, test::resting_face;
 
 detector::Decision over_resting_face(const Point& from, const Point& to) {
-  return referee(VertexFace{{from, to}, resting_face});
+  return referee(four_points(VertexFace{{from, to}, resting_face}));
 }
 
 TEST(Referee, VertexThroughAFace) {
@@ -34,7 +33,7 @@ TEST(Referee, TouchingCounts) {
 // Through a resting face at t = 1/2, and through one that rises meanwhile.
 TEST(Referee, AskedUpToATime) {
   const auto up_to = [](const VertexFace& query, double until) {
-    return referee(query, RefereeOptions{.until = until});
+    return referee(four_points(query), RefereeOptions{.until = until});
   };
   const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, resting_face};
   EXPECT_EQ(up_to(half, 1), detector::Decision::yes);
@@ -66,7 +65,7 @@ TEST(Referee, ParallelAndZeroLengthEdges) {
       m.t1[2] -= 2;
       return m;
     };
-    return referee(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}});
+    return referee(four_points(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}}));
   };
   EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {1, 0, 0}, {3, 0, 0}), detector::Decision::yes);
   EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {3, 0, 0}, {4, 0, 0}), detector::Decision::no);
@@ -82,8 +81,8 @@ TEST(Referee, NoMotion) {
 TEST(Referee, ExtremeNumbers) {
   constexpr double huge = 0x1.fffffffffffffp1023, tiny = 0x1p-1074;
   const auto scaled = [](double s, double z) {
-    return referee(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
-                              {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}});
+    return referee(four_points(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
+                                          {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}}));
   };
   EXPECT_EQ(scaled(huge, huge), detector::Decision::yes);
   EXPECT_EQ(scaled(4 * tiny, tiny), detector::Decision::yes);
@@ -101,19 +100,19 @@ TEST(Referee, IrrationalTouchStaysOpen) {
   const ContactAnswer answer = vertex_face_contact(touch, detector::Want::first_time);
   ASSERT_TRUE(answer.contact);
   EXPECT_EQ(answer.first.lo, std::nextafter(std::sqrt(.5), 0));
-  EXPECT_EQ(referee(touch), detector::Decision::open);
+  EXPECT_EQ(referee(four_points(touch)), detector::Decision::open);
 }
 
 TEST(Referee, LessDepthOnlyLeavesMoreOpen) {
   Random random(31);
   for (int i = 0; i < 300; ++i) {
     const Points x = random_query(random, QueryKind::generic, 1);
-    const detector::Decision full = referee(vertex_face(x));
+    const detector::Decision full = referee({x, 1});
     for (const int depth : {0, 3, 8}) {
-      const detector::Decision part = referee(vertex_face(x), {depth, 1000});
+      const detector::Decision part = referee({x, 1}, {depth, 1000});
       EXPECT_TRUE(part == full || part == detector::Decision::open) << i << " depth " << depth;
     }
-    EXPECT_TRUE(referee(vertex_face(x), {60, 0}) == detector::Decision::open);
+    EXPECT_TRUE(referee({x, 1}, {60, 0}) == detector::Decision::open);
   }
 }
 
@@ -123,16 +122,9 @@ TEST(Referee, DepthSeventeenConfirmsEveryNo) {
   int confirmed = 0;
   for (int i = 0; i < 4000; ++i) {
     const Points x = random_query(random, QueryKind::generic, 1 + i % 2);
-    const bool is_vertex_face = i % 2 == 0;
-    const bool contact =
-        (is_vertex_face ? vertex_face_contact(vertex_face(x), detector::Want::yes_no)
-                        : edge_edge_contact(edge_edge(x), detector::Want::yes_no))
-            .contact;
-    if (contact) continue;
+    if (contact_of({x, 1 + i % 2}, detector::Want::yes_no).contact) continue;
     const RefereeOptions options = {17, 1000};
-    EXPECT_EQ(is_vertex_face ? referee(vertex_face(x), options) : referee(edge_edge(x), options),
-              detector::Decision::no)
-        << i;
+    EXPECT_EQ(referee({x, 1 + i % 2}, options), detector::Decision::no) << i;
     ++confirmed;
   }
   std::printf("%d queries without contact confirmed at depth 17\n", confirmed);
@@ -151,14 +143,10 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
     const int first_group = 1 + i % 2;
     const Points x = random_query(random, kind, first_group);
     const auto begin = std::chrono::steady_clock::now();
-    const detector::Decision verdict =
-        first_group == 1 ? referee(vertex_face(x)) : referee(edge_edge(x));
+    const detector::Decision verdict = referee({x, first_group});
     microseconds +=
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
-    const bool contact =
-        (first_group == 1 ? vertex_face_contact(vertex_face(x), detector::Want::yes_no)
-                          : edge_edge_contact(edge_edge(x), detector::Want::yes_no))
-            .contact;
+    const bool contact = contact_of({x, first_group}, detector::Want::yes_no).contact;
     ++tally.queries;
     if (verdict == detector::Decision::open) {
       ++(contact ? tally.open_contact : tally.open_none);
@@ -191,10 +179,10 @@ TEST(Referee, AgreesAndLeavesLittleOpen) {
 
 TEST(SeparationProof, ADirectionThatTurnsAndOneThatStays) {
   // A vertex that passes over a face at a distance of 1: separated in one piece.
-  const VertexFace over = {{{0, 0, 1}, {4, 4, 1}}, resting_face};
+  const auto over = four_points(VertexFace{{{0, 0, 1}, {4, 4, 1}}, resting_face});
   EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
-  const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
+  const auto through = four_points(VertexFace{{{1, 1, 1}, {1, 1, -1}}, resting_face});
   EXPECT_EQ(separated_in_double(double_hull(through), 0, 1), SeparationProof::not_found);
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 0, 0));
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 1, 1));  // touches at 1/2
@@ -207,7 +195,7 @@ TEST(SeparationProof, DoublesDoNotClaimWhatTheyCannotTell) {
   const VertexFace q = {rest({1e6 + 1, 1e6 + 1, z}),
                         {rest({1e6, 1e6, 1e6}), rest({1e6 + 4, 1e6, 1e6}),
                          MovingPoint{{1e6, 1e6 + 4, 1e6}, {1e6, 1e6 + 4, z}}}};
-  EXPECT_TRUE(separated_in_integers(integer_hull(q), 0, 0));
+  EXPECT_TRUE(separated_in_integers(integer_hull(four_points(q)), 0, 0));
 }
 
 TEST(Existence, SimplestFractions) {
@@ -229,7 +217,7 @@ TEST(Existence, SimplestFractions) {
 TEST(Existence, OriginInDegenerateHulls) {
   const auto holds = [](const std::array<Point, 3>& face) {
     const VertexFace q = {rest({0, 0, 0}), {rest(face[0]), rest(face[1]), rest(face[2])}};
-    return contains_origin(integer_hull(q).t0);
+    return contains_origin(integer_hull(four_points(q)).t0);
   };
   EXPECT_TRUE(holds({{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}}));
   EXPECT_TRUE(holds({{{0, -1, 0}, {0, 1, 0}, {5, 0, 0}}}));  // on an edge
@@ -241,11 +229,11 @@ TEST(Existence, OriginInDegenerateHulls) {
 }
 
 TEST(Existence, BoxesProveCrossingsAndNothingElse) {
-  const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, resting_face};
+  const auto through = four_points(VertexFace{{{1, 1, 1}, {1.1, .9, -1.7}}, resting_face});
   const auto guess = guess_crossing(double_hull(through), 0, 1);
   ASSERT_TRUE(guess.has_value());
   EXPECT_TRUE(crossing_in_a_box(integer_hull(through), *guess));
-  const VertexFace beside = {{{3, 3, 1}, {3.1, 2.9, -1.7}}, resting_face};
+  const auto beside = four_points(VertexFace{{{3, 3, 1}, {3.1, 2.9, -1.7}}, resting_face});
   EXPECT_FALSE(guess_crossing(double_hull(beside), 0, 1).has_value());
   // A wrong guess proves nothing.
   EXPECT_FALSE(crossing_in_a_box(integer_hull(beside), *guess));
