@@ -9,6 +9,7 @@
 
 #include "oracle/processor_state.h"
 #include "oracle/query/interval_sign.h"
+#include "oracle/query/rungs.h"
 #include "oracle/query/times/times.h"
 
 namespace assay::oracle {
@@ -26,22 +27,6 @@ double rounded_up(const Separation& d) {
   const double sum = d.first + d.second;
   if (d.first == 0 || d.second == 0) return sum;
   return std::nextafter(sum, std::numeric_limits<double>::infinity());
-}
-
-// -1: all of S lies more than `distance` before all of S' along the axis; 1: after; 0: neither.
-// Where a difference that is rounded to nearest is greater than a double, so is the exact one.
-int order_beyond(const FourPoints& q, Point detector::MovingPoint::*end, int axis,
-                 double distance) {
-  const auto at = [&](int i) { return (q.points[i].*end)[axis]; };
-  double s_min = at(0), s_max = at(0), r_min = at(3), r_max = at(3);
-  for (int i = 1; i < 3; ++i) {
-    double& least = i < q.first_group ? s_min : r_min;
-    double& greatest = i < q.first_group ? s_max : r_max;
-    least = std::min(least, at(i));
-    greatest = std::max(greatest, at(i));
-  }
-  if (r_min - s_max > distance) return -1;
-  return s_min - r_max > distance ? 1 : 0;
 }
 
 // The question, enclosed: the points seen from the first one, and d.
@@ -185,19 +170,6 @@ Approach walk(const FourPoints& q, const Separation& d) {
   return found;
 }
 
-// The rung "axis", exact: along some axis the features are more than d apart at both ends of the
-// step, in the same order, and so at all times. Comparisons of rounded differences: 0.03 us.
-bool apart_by_axis(const FourPoints& q, const Separation& d) {
-  const double distance = rounded_up(d);
-  for (int axis = 0; axis < 3; ++axis) {
-    const int at_t0 = order_beyond(q, &detector::MovingPoint::t0, axis, distance);
-    if (at_t0 != 0 && at_t0 == order_beyond(q, &detector::MovingPoint::t1, axis, distance)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 // Coordinates or distances of 2^250 or more are left to the next rung. 0.3 to 0.6 us for most
 // pairs.
 Approach approach(const FourPoints& q, const Separation& d) {
@@ -258,7 +230,7 @@ std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, doubl
 
 FirstNear first_time_within(const FourPoints& q, const Separation& d, Want want) {
   require_exact_processor_state();
-  if (apart_by_axis(q, d)) return {false, {}, Rung::axis};
+  if (separated_by_axis(q, rounded_up(d))) return {false, {}, Rung::axis};
   const Approach quick = approach(q, d);
   if (quick.decision == Decision::no) return {false, {}, Rung::interval};
   if (quick.decision == Decision::yes && (want == Want::yes_no || quick.near == 0)) {
