@@ -174,18 +174,6 @@ int orientation(StaticPoints x, std::int32_t o, std::int32_t a, std::int32_t b, 
 
 }  // namespace
 
-IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Integer dot(const IntegerPoint& a, const IntegerPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face) {
   return meet({{&x[vertex], &x[face[0]], &x[face[1]], &x[face[2]]}, 1});
 }

@@ -59,9 +59,6 @@ class Instant {
 // complete as those of contact.h: they decide degenerate, coplanar, collinear and coinciding
 // features too. On degenerate features they are faster, 1 to 5 us, because no time has to be found.
 
-IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b);
-IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b);
-Integer dot(const IntegerPoint& a, const IntegerPoint& b);
 
 // Features name their vertices by index into the points.
 using StaticPoints = std::span<const IntegerPoint>;

@@ -24,10 +24,6 @@ IntegerPoint direction_vector(int k) {
   return {Integer(1) << run_exponent, Integer(k), Integer(k) * k};
 }
 
-Integer determinant(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
-  return dot(a, cross(b, c));
-}
-
 double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
 // The farthest that a ray in direction (2^20, s) rises over `run`, rounded up.
@@ -138,13 +134,13 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
     if (t == skipped) continue;
     const IntegerPoint a = ray.to(x[cycle_(t, 0)]), b = ray.to(x[cycle_(t, 1)]),
                        c = ray.to(x[cycle_(t, 2)]);
-    const int ab = sgn(determinant(d, a, b)), bc = sgn(determinant(d, b, c)),
-              ca = sgn(determinant(d, c, a));
+    const int ab = sgn(dot(d, cross(a, b))), bc = sgn(dot(d, cross(b, c))),
+              ca = sgn(dot(d, cross(c, a)));
     if (std::min({ab, bc, ca}) < 0 && std::max({ab, bc, ca}) > 0) continue;
     if (ab != 0 && ab == bc && bc == ca) {
       // The line crosses the inside, and d.N has the sign ab. The crossing is ahead when a.N has
       // it too.
-      if (sgn(determinant(a, b, c)) == ab) w += ab;
+      if (sgn(dot(a, cross(b, c))) == ab) w += ab;
       continue;
     }
     const IntegerPoint normal = cross(b - a, c - a);

@@ -66,14 +66,6 @@ using Interval = CGAL::Interval_nt<false>;
 // The five points of the question, all at rest: e0, e1, f0, f1, f2.
 using Configuration = std::array<MovingPoint, 5>;
 
-template <class Number>
-Number determinant(const Vector3<Number>& a, const Vector3<Number>& b, const Vector3<Number>& c) {
-  const Number x = b[1] * c[2] - b[2] * c[1];
-  const Number y = b[2] * c[0] - b[0] * c[2];
-  const Number z = b[0] * c[1] - b[1] * c[0];
-  return a[0] * x + a[1] * y + a[2] * z;
-}
-
 // Calls sign(a, b, c, d), the orientation of four of the points, until the answer is known: 1 yes,
 // 0 no, -1 when an orientation of the given precision is not certain. A sign is 2 when uncertain.
 template <class Orientation>
@@ -100,7 +92,7 @@ int pierces(const Orientation& sign) {
       for (int k = 0; k < 3; ++k) v[k] = Interval(c[i].t0[k]) - Interval(c[o].t0[k]);
       return v;
     };
-    const Interval value = determinant(edge(a), edge(b), edge(d));
+    const Interval value = dot(edge(a), cross(edge(b), edge(d)));
     const int s = sure_sign(value);
     if (s != 0) return s;
     return value.inf() == 0 && value.sup() == 0 ? 0 : 2;
@@ -115,7 +107,7 @@ int pierces_by_integers(const Configuration& c) {
       for (int k = 0; k < 3; ++k) v[k] = scale(c[i].t0[k]) - scale(c[o].t0[k]);
       return v;
     };
-    return sgn(determinant<Integer>(edge(a), edge(b), edge(d)));
+    return sgn(dot(edge(a), cross(edge(b), edge(d))));
   });
 }
 

@@ -164,19 +164,6 @@ PolynomialVector moving_difference(const IntegerScale& scale, const detector::Mo
   return u;
 }
 
-PolynomialVector cross(const PolynomialVector& u, const PolynomialVector& v) {
-  PolynomialVector w;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    w[k] = u[i] * v[j] - u[j] * v[i];
-  }
-  return w;
-}
-
-IntegerPolynomial dot(const PolynomialVector& u, const PolynomialVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
 namespace {
 
 void make_primitive(IntegerPolynomial& p) {
