@@ -44,13 +44,14 @@ StepFeatures features_of(const SteppedMesh& motion, const TrianglesView& triangl
 
 StepJudgement judge(const StepFeatures& features, const SteppedMesh& motion, const Separation& d,
                     const std::vector<double>& offsets, StopGate& gate) {
-  const auto answer = [&](const FeaturePair& pair) -> ContactAnswer {
+  const auto answer = [&](const detector::FourPoints& points,
+                          const detector::Feature& feature) -> ContactAnswer {
     Separation within = d;
     if (!offsets.empty()) {
-      const auto offset = [&](int i) { return offsets[detector::at(pair.feature.vertices[i])]; };
-      within = {offset(0), offset(pair.points.first_group)};
+      const auto offset = [&](int i) { return offsets[detector::at(feature.vertices[i])]; };
+      within = {offset(0), offset(points.first_group)};
     }
-    const FirstNear near = first_time_within(pair.points, within);
+    const FirstNear near = first_time_within(points, within);
     return {near.near, near.first, near.rung};
   };
   return features.judge(grown_boxes(motion, half_of(d), offsets), gate, answer);
@@ -95,14 +96,17 @@ LeastDistance least_distance(const SteppedMesh& motion, const TrianglesView& tri
   const double most = std::min(2 * extent(motion), greatest);
   for (double within = most * first_share; least > within && !gate.stopped();
        within = std::max(within * growth, std::numeric_limits<double>::denorm_min())) {
-    features.for_each(
-        grown_boxes(motion, half_of({within, 0}), {}), workers, [&](const FeaturePair& pair, int) {
-          const double now = least;
-          if (now == 0) return;
-          const double nearer = now > within ? within : std::nextafter(now, 0);
-          if (!first_time_within(pair.points, {nearer, 0}, detector::Want::yes_no).near) return;
-          if (features.some_pair_counts(pair)) lower_to(least, least_distance(pair.points));
-        });
+    features.for_each(grown_boxes(motion, half_of({within, 0}), {}), workers,
+                      [&](const FeaturePair& pair, int) {
+                        const double now = least;
+                        if (now == 0) return;
+                        const double nearer = now > within ? within : std::nextafter(now, 0);
+                        const auto points = points_of(motion, pair.feature);
+                        if (!first_time_within(points, {nearer, 0}, detector::Want::yes_no).near)
+                          return;
+                        if (features.some_pair_counts(pair))
+                          lower_to(least, least_distance(points));
+                      });
     if (within >= most) break;
   }
   LeastDistance result;

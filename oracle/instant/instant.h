@@ -59,20 +59,14 @@ class Instant {
 // complete as those of contact.h: they decide degenerate, coplanar, collinear and coinciding
 // features too. On degenerate features they are faster, 1 to 5 us, because no time has to be found.
 
-
 // Features name their vertices by index into the points.
 using StaticPoints = std::span<const IntegerPoint>;
-using StaticEdge = std::array<std::int32_t, 2>;
-using StaticFace = std::array<std::int32_t, 3>;
 
 // Returns whether two closed features have a point in common. A zero-area triangle is the segment
-// or point that it has become.
-bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face);
-bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
-
-// The condition of segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides
-// of the plane of the face, and the line passes strictly inside all three of its edges.
-bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace& face);
+// or point that it has become. Of a piercing edge, returns the condition of
+// segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides of the plane of
+// the face, and the line passes strictly inside all three of its edges.
+bool features_meet(StaticPoints x, const detector::Feature& feature);
 
 // Element t of the result is 1 when triangle t meets another triangle of its own component, or a
 // ghost of that component. REQUIRES that triangles and ghosts name vertices of this instant.

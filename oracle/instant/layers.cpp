@@ -157,7 +157,7 @@ bool WindingField::on_surface(const Ray& ray) const {
   for (const std::int32_t t : candidates) {
     std::array<IntegerPoint, 4> points = {here};
     for (int i = 0; i < 3; ++i) points[i + 1] = ray.to(instant_.points()[cycle_(t, i)]);
-    if (vertex_meets_face(points, 0, {1, 2, 3})) return true;
+    if (features_meet(points, {detector::FeatureKind::vertex_face, {0, 1, 2, 3, -1}})) return true;
   }
   return false;
 }

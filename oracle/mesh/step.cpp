@@ -115,59 +115,36 @@ StepFeatures::StepFeatures(const detector::SteppedMesh& motion,
 }
 
 void StepFeatures::for_each(const BoxOfVertices& boxes, const Workers& workers,
-                            const Visit& visit) const {
-  // The first `first_group` of the four vertices are the first feature.
-  const auto offer = [&](int first_group, const std::array<std::int32_t, 4>& v, Holders of_first,
-                         Holders of_second, int worker) {
-    if (!bodies_meet(v[0], v[first_group]) ||
-        !some_of(of_first, of_second, &StepFeatures::may_count))
-      return;
-    const auto path = [&](int i) { return motion_.path(v[i]); };
-    visit({{{path(0), path(1), path(2), path(3)}, first_group},
-           {first_group == 1 ? FeatureKind::vertex_face : FeatureKind::edge_edge,
-            {v[0], v[1], v[2], v[3], -1}},
-           of_first,
-           of_second},
-          worker);
-  };
-  // Each kind has an index of its own, so that no more than one tree is in memory at a time.
-  const auto with_index = [&](const auto& kind, const VisitFeatures& visit_features) {
-    if (workers.gate->stopped()) return;
-    const FeatureIndex mesh(features_, boxes);
-    kind(mesh, mesh, workers, visit_features);
-  };
-  with_index(for_each_vertex_face, [&](std::size_t i, std::size_t j, int worker) {
-    const auto face = static_cast<std::int32_t>(j);
-    const Face& f = features_.faces[j];
-    offer(1, {features_.vertices[i], f[0], f[1], f[2]}, features_.triangles_of_vertex.of(i),
-          {&face, 1}, worker);
-  });
-  with_index(for_each_edge_edge, [&](std::size_t i, std::size_t j, int worker) {
-    const Edge &a = features_.edges[i], &b = features_.edges[j];
-    offer(2, {a[0], a[1], b[0], b[1]}, features_.triangles_of_edge.of(i),
-          features_.triangles_of_edge.of(j), worker);
+                            const VisitPair& visit) const {
+  for (const auto kind : {FeatureKind::vertex_face, FeatureKind::edge_edge})
+    for_each_of(kind, boxes, workers, visit);
+}
+
+// Visits the pairs of one kind that counted pairs of triangles may hold. Each kind has an index of
+// its own, so that no more than one tree is in memory at a time.
+void StepFeatures::for_each_of(FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
+                               const VisitPair& visit) const {
+  if (workers.gate->stopped()) return;
+  const FeatureIndex mesh(features_, boxes);
+  const int second = kind == FeatureKind::vertex_face ? 1 : 2;  // place of the second feature
+  for_each_pair(mesh, mesh, kind, workers, [&](const FeaturePair& pair, int worker) {
+    const auto& v = pair.feature.vertices;
+    if (counted_ && !counted_->bodies_meet(v[0], v[second])) return;
+    if (some_of(pair, &StepFeatures::may_count)) visit(pair, worker);
   });
 }
 
 void StepFeatures::for_each_pierced_at_start(const Workers& workers,
                                              const VisitPierced& visit) const {
-  if (!workers.gate->stopped()) {
-    const FeatureIndex mesh(features_, swept_boxes(motion_.at_start()));
-    for_each_edge_face(mesh, mesh, workers, [&](std::size_t i, std::size_t j, int worker) {
-      const Edge& e = features_.edges[i];
-      const Face& f = features_.faces[j];
-      const auto face = static_cast<std::int32_t>(j);
-      const Holders of_edge = features_.triangles_of_edge.of(i);
-      if (!bodies_meet(e[0], f[0]) || !some_of(of_edge, {&face, 1}, &StepFeatures::may_count))
-        return;
-      const auto at = [&](std::int32_t vertex) { return motion_.start(vertex); };
-      if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
-      const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
-      for (const std::int32_t t : of_edge) {
-        if (counts(t, face)) visit(t, face, feature, worker);
-      }
-    });
-  }
+  for_each_of(FeatureKind::piercing, swept_boxes(motion_.at_start()), workers,
+              [&](const FeaturePair& pair, int worker) {
+                const auto at = [&](int i) { return motion_.start(pair.feature.vertices[i]); };
+                if (!segment_pierces_triangle(at(0), at(1), {at(2), at(3), at(4)})) return;
+                const std::int32_t face = pair.of_second[0];
+                for (const std::int32_t t : pair.of_first) {
+                  if (counts(t, face)) visit(t, face, pair.feature, worker);
+                }
+              });
   for (const auto& [s, t] : same_vertices_pairs(features_.faces)) {
     if (!counts(s, t)) continue;
     const Face& f = features_.faces[s];
@@ -176,8 +153,8 @@ void StepFeatures::for_each_pierced_at_start(const Workers& workers,
 }
 
 bool StepFeatures::some_pair_counts(const FeaturePair& pair) const {
-  return passes(counted_, pair) && ((counted_ && counted_->is_of_features()) ||
-                                    some_of(pair.of_first, pair.of_second, &StepFeatures::counts));
+  return passes(counted_, pair) &&
+         ((counted_ && counted_->is_of_features()) || some_of(pair, &StepFeatures::counts));
 }
 
 StepJudgement StepFeatures::judge(const BoxOfVertices& boxes, StopGate& gate,
@@ -186,7 +163,7 @@ StepJudgement StepFeatures::judge(const BoxOfVertices& boxes, StopGate& gate,
   const Workers workers{static_cast<int>(found.size()), &gate};
   for_each(boxes, workers, [&](const FeaturePair& pair, int worker) {
     FoundPairs& mine = found[worker];
-    const auto [is_contact, first, rung] = answer(pair);
+    const auto [is_contact, first, rung] = answer(points_of(motion_, pair.feature), pair.feature);
     ++mine.candidates;
     mine.rungs.add(rung);
     if (!is_contact || !passes(counted_, pair)) return;
@@ -220,9 +197,9 @@ bool StepFeatures::counts(std::int32_t s, std::int32_t t) const {
   return may_count(s, t) && (!counted_ || counted_->counts_faces(s, t));
 }
 
-bool StepFeatures::some_of(const Holders& of_first, const Holders& of_second, Says says) const {
-  for (const std::int32_t s : of_first) {
-    for (const std::int32_t t : of_second) {
+bool StepFeatures::some_of(const FeaturePair& pair, Says says) const {
+  for (const std::int32_t s : pair.of_first) {
+    for (const std::int32_t t : pair.of_second) {
       if ((this->*says)(s, t)) return true;
     }
   }
@@ -234,14 +211,14 @@ bool StepFeatures::some_of(const Holders& of_first, const Holders& of_second, Sa
 bool StepFeatures::passes(const Relation& relation, const FeaturePair& pair) {
   if (!relation || !relation->is_of_features()) return true;
   const auto& v = pair.feature.vertices;
-  return pair.points.first_group == 1
+  return pair.feature.kind == FeatureKind::vertex_face
              ? relation->counts_vertex_face(v[0], static_cast<std::size_t>(pair.of_second[0]))
              : relation->counts_edges({v[0], v[1]}, {v[2], v[3]});
 }
 
 bool StepFeatures::is_asked(const FeaturePair& pair) const {
-  const auto kind =
-      pair.points.first_group == 1 ? AskedFeatures::vertex_face : AskedFeatures::edge_edge;
+  const auto kind = pair.feature.kind == FeatureKind::vertex_face ? AskedFeatures::vertex_face
+                                                                  : AskedFeatures::edge_edge;
   return (options_.features == kind || asks_piercing()) && passes(tested_, pair);
 }
 
@@ -249,8 +226,8 @@ StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options) {
   StopGate gate(options.stop);
   return StepFeatures(motion, triangles, options)
-      .judge(swept_boxes(motion), gate, [](const FeaturePair& pair) {
-        return contact_of(pair.points, detector::Want::first_time);
+      .judge(swept_boxes(motion), gate, [](const detector::FourPoints& points, const Feature&) {
+        return contact_of(points, detector::Want::first_time);
       });
 }
 

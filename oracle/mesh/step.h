@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "detector/mesh/counted_pairs.h"
@@ -60,13 +59,6 @@ struct StepJudgement {
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
-// Two features of a mesh as a question, with their names and the triangles that hold them.
-struct FeaturePair {
-  detector::FourPoints points;
-  detector::Feature feature;
-  std::span<const std::int32_t> of_first, of_second;
-};
-
 // The features of a mesh over a step, and the pairs of them that counted pairs of triangles hold.
 class StepFeatures {
  public:
@@ -79,8 +71,7 @@ class StepFeatures {
   StepFeatures& operator=(const StepFeatures&) = delete;
 
   // Visits the pairs of features whose boxes meet, with the number of the calling thread.
-  using Visit = std::function<void(const FeaturePair& pair, int worker)>;
-  void for_each(const BoxOfVertices& boxes, const Workers& workers, const Visit& visit) const;
+  void for_each(const BoxOfVertices& boxes, const Workers& workers, const VisitPair& visit) const;
 
   // Visits the counted pairs of triangles that are in contact at t=0 without two features that
   // meet.
@@ -93,20 +84,19 @@ class StepFeatures {
   bool some_pair_counts(const FeaturePair& pair) const;
 
   // Judges the step by the answer to each pair of features whose boxes meet.
-  using AnswerPair = std::function<ContactAnswer(const FeaturePair& pair)>;
+  using AnswerPair =
+      std::function<ContactAnswer(const detector::FourPoints&, const detector::Feature&)>;
   StepJudgement judge(const BoxOfVertices& boxes, StopGate& gate, const AnswerPair& answer) const;
 
  private:
-  using Holders = std::span<const std::int32_t>;  // the triangles that hold a feature
-  using Relation = std::optional<PairRelation>;   // nothing: every pair passes
+  using Relation = std::optional<PairRelation>;  // nothing: every pair passes
   using Says = bool (StepFeatures::*)(std::int32_t s, std::int32_t t) const;
 
-  bool bodies_meet(std::int32_t u, std::int32_t v) const {
-    return !counted_ || counted_->bodies_meet(u, v);
-  }
+  void for_each_of(detector::FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
+                   const VisitPair& visit) const;
   bool may_count(std::int32_t s, std::int32_t t) const;  // but for the relation
   bool counts(std::int32_t s, std::int32_t t) const;
-  bool some_of(const Holders& of_first, const Holders& of_second, Says says) const;
+  bool some_of(const FeaturePair& pair, Says says) const;
   static bool passes(const Relation& relation, const FeaturePair& pair);
   bool asks_piercing() const { return tested_ && options_.features == AskedFeatures::all; }
   bool is_asked(const FeaturePair& pair) const;

@@ -55,8 +55,8 @@ class Second {
     if (judgement_.complete && !gate_.stopped()) {
       const MeshFeatures features = mesh_features(triangles_);
       const FeatureIndex mesh(features, boxes);
-      for_each_face_face(mesh, mesh, workers, [&](std::size_t a, std::size_t b, int worker) {
-        check_pair(a, b, of(worker));
+      for_each_face_face(mesh, workers, [&](std::int32_t a, std::int32_t b, int worker) {
+        check_pair({a, b}, of(worker));
       });
     }
     return collect();
@@ -68,9 +68,10 @@ class Second {
   }
 
   void ask(const FeaturePair& pair, SecondOpinion& found) const {
-    const auto& [points, feature, of_first, of_second] = pair;
+    const auto& [feature, of_first, of_second] = pair;
     const auto& v = feature.vertices;
     if (!chosen({v[0], v[1], v[2], v[3]})) return;
+    const auto points = points_of(motion_, feature);
     const bool judged = contact_of(points, detector::Want::yes_no).contact;
     if (!compare_query(feature, judged, referee(points, options_.referee), found)) return;
     for (const std::int32_t s : of_first) {
@@ -109,8 +110,7 @@ class Second {
         {ContradictionKind::missing_pair, feature, pair, {}, false, true});
   }
 
-  void check_pair(std::size_t item, std::size_t other, SecondOpinion& found) const {
-    const TrianglePair pair{static_cast<std::int32_t>(item), static_cast<std::int32_t>(other)};
+  void check_pair(TrianglePair pair, SecondOpinion& found) const {
     if (!chosen({pair.a, pair.b})) return;
     const detector::PairContact* judged = judged_pair(pair);
     for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {1, 2}, {1, 1}}) {

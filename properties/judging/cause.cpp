@@ -174,19 +174,15 @@ class PairOfStep {
   CauseShape shape(const PairContact& contact, bool of_distance) const {
     if (is_without_area(contact.time)) return CauseShape::without_area;
     return of_distance ? shape_of_distance(contact)
-                       : shape_of(oracle::shape_of(query_of(contact), contact.time));
+                       : shape_of(oracle::shape_of(oracle::points_of(motion_, contact.feature),
+                                                   contact.time));
   }
 
  private:
-  detector::FourPoints query_of(const PairContact& contact) const {
-    const auto& v = contact.feature.vertices;
-    return {{path(v[0]), path(v[1]), path(v[2]), path(v[3])},
-            contact.feature.kind == FeatureKind::vertex_face ? 1 : 2};
-  }
-
   CauseShape shape_of_distance(const PairContact& contact) const {
     const bool is_vertex_face = contact.feature.kind == FeatureKind::vertex_face;
-    const auto places = oracle::closest_places(query_of(contact), contact.time.lo);
+    const auto places =
+        oracle::closest_places(oracle::points_of(motion_, contact.feature), contact.time.lo);
     const auto is_inside = [](double share) { return 0 < share && share < 1; };
     const bool first = is_inside(places.first), second = is_inside(places.second);
     if (!is_vertex_face) {
