@@ -189,19 +189,27 @@ detector::Triangles stacked(const detector::TrianglesView& a, const detector::Tr
   return all;
 }
 
+// Numbers the classes of those members that `counts` accepts, in the order of their lowest members.
+// Gives the number of each member; -1 for the others. REQUIRES that no class holds both kinds.
+template <class Counts>
+std::vector<std::int32_t> numbered(Classes& classes, std::size_t size, const Counts& counts) {
+  std::vector<std::int32_t> number(size, -1);
+  std::int32_t next = 0;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(size); ++i) {
+    if (!counts(i)) continue;
+    const std::int32_t lowest = classes.lowest(i);
+    number[i] = lowest == i ? next++ : number[lowest];
+  }
+  return number;
+}
+
 std::vector<std::int32_t> components(const MeshFeatures& all) {
   Classes classes(all.faces.size());
   for (std::size_t v = 0; v < all.vertices.size(); ++v) {
     const auto holders = all.triangles_of_vertex.of(v);
     for (const std::int32_t t : holders) classes.join(holders[0], t);
   }
-  std::vector<std::int32_t> number(all.faces.size());
-  std::int32_t count = 0;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(number.size()); ++t) {
-    const std::int32_t lowest = classes.lowest(t);
-    number[t] = lowest == t ? count++ : number[lowest];
-  }
-  return number;
+  return numbered(classes, all.faces.size(), [](std::int32_t) { return true; });
 }
 
 // Whether the face has the directed edge from the lower to the higher vertex.
@@ -224,14 +232,7 @@ std::vector<std::int32_t> pieces(const MeshFeatures& all,
     const Edge& edge = all.edges[e];
     if (runs_upward(all.faces[s], edge) != runs_upward(all.faces[t], edge)) classes.join(s, t);
   }
-  std::vector<std::int32_t> number(touched.size(), -1);
-  std::int32_t next = 0;
-  for (std::int32_t t = 0; t < count; ++t) {
-    if (touched[t]) continue;
-    const std::int32_t lowest = classes.lowest(t);
-    number[t] = lowest == t ? next++ : number[lowest];
-  }
-  return number;
+  return numbered(classes, touched.size(), [&](std::int32_t t) { return !touched[t]; });
 }
 
 // The layers of the untouched triangles. They are found once for each piece, in the winding

@@ -61,7 +61,6 @@ struct LinearVector {
   Vector3<Number> s, e;
 };
 
-// A vector whose coordinates are quadratic on the piece: coefficients by axis.
 // The difference of two moving points, kept at both ends of the step.
 template <class Number>
 class MovingDifference {
@@ -111,6 +110,7 @@ class StepPieces {
   int size_ = 1;
 };
 
+// A vector whose coordinates are quadratic on the piece: coefficients by axis.
 template <class Number>
 using QuadraticVector = std::array<Bernstein<Number, 2>, 3>;
 
