@@ -228,7 +228,7 @@ std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, doubl
 
 }  // namespace
 
-FirstNear first_time_within(const FourPoints& q, const Separation& d, Want want) {
+ContactAnswer first_time_within(const FourPoints& q, const Separation& d, Want want) {
   require_exact_processor_state();
   if (separated_by_axis(q, rounded_up(d))) return {false, {}, Rung::axis};
   const Approach quick = approach(q, d);

@@ -44,15 +44,13 @@ StepFeatures features_of(const SteppedMesh& motion, const TrianglesView& triangl
 
 StepJudgement judge(const StepFeatures& features, const SteppedMesh& motion, const Separation& d,
                     const std::vector<double>& offsets, StopGate& gate) {
-  const auto answer = [&](const detector::FourPoints& points,
-                          const detector::Feature& feature) -> ContactAnswer {
+  const auto answer = [&](const detector::FourPoints& points, const detector::Feature& feature) {
     Separation within = d;
     if (!offsets.empty()) {
       const auto offset = [&](int i) { return offsets[detector::at(feature.vertices[i])]; };
       within = {offset(0), offset(points.first_group)};
     }
-    const FirstNear near = first_time_within(points, within);
-    return {near.near, near.first, near.rung};
+    return first_time_within(points, within);
   };
   return features.judge(grown_boxes(motion, half_of(d), offsets), gate, answer);
 }
@@ -102,8 +100,8 @@ LeastDistance least_distance(const SteppedMesh& motion, const TrianglesView& tri
                         if (now == 0) return;
                         const double nearer = now > within ? within : std::nextafter(now, 0);
                         const auto points = points_of(motion, pair.feature);
-                        if (!first_time_within(points, {nearer, 0}, detector::Want::yes_no).near)
-                          return;
+                        constexpr auto want = detector::Want::yes_no;
+                        if (!first_time_within(points, {nearer, 0}, want).contact) return;
                         if (features.some_pair_counts(pair))
                           lower_to(least, least_distance(points));
                       });

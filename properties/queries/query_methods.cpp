@@ -77,7 +77,7 @@ MethodAnswer contact_at_no_distance(const QueryTask& task) {
 MethodAnswer least_distance(const QueryTask& task) {
   const double least = oracle::least_distance(task.query);
   const auto is_within = [&](double distance) {
-    return oracle::first_time_within(task.query, {distance, 0}, Want::yes_no).near;
+    return oracle::first_time_within(task.query, {distance, 0}, Want::yes_no).contact;
   };
   if (std::isfinite(least) && !is_within(least))
     throw std::logic_error("farther apart than the least distance");
@@ -135,11 +135,8 @@ constexpr QueryMethod methods[] = {
 }  // namespace
 
 MethodAnswer oracle_answer(const QueryTask& task, Want want) {
-  if (task.within) {
-    const auto answer = oracle::first_time_within(task.query, *task.within, want);
-    return answer_of(answer.near, answer.first, answer.rung, want);
-  }
-  const auto answer = oracle::contact_of(task.query, want);
+  const auto answer = task.within ? oracle::first_time_within(task.query, *task.within, want)
+                                  : oracle::contact_of(task.query, want);
   return answer_of(answer.contact, answer.first, answer.rung, want);
 }
 

@@ -120,7 +120,7 @@ class KeepsDistance {
         {motion.path(0), motion.path(1), motion.path(2), motion.path(3)},
         kind == ASSAY_QUERY_VERTEX_FACE ? 1 : 2};
     const auto answer = oracle::first_time_within(q, {asked_distance(), 0});
-    if (!answer.near) return Result::free();
+    if (!answer.contact) return Result::free();
     if (told().has("no-edges") && has_foot_on_edge(q, answer.first.lo)) return Result::free();
     return Result::collision(answer.first.lo, answer.first.hi);
   }

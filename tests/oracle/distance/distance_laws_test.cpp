@@ -18,8 +18,8 @@ FourPoints query_of(Random& random, QueryKind kind, int first_group) {
   return {test::random_query(random, kind, first_group), first_group};
 }
 
-std::string says(const FirstNear& answer) {
-  return answer.near ? std::to_string(answer.first.lo) : "apart";
+std::string says(const ContactAnswer& answer) {
+  return answer.contact ? std::to_string(answer.first.lo) : "apart";
 }
 
 TEST(DistanceLaws, WithinZeroIsContact) {
@@ -33,9 +33,9 @@ TEST(DistanceLaws, WithinZeroIsContact) {
       const ContactAnswer contact =
           q.first_group == 1 ? vertex_face_contact(test::vertex_face(x), Want::first_time)
                              : edge_edge_contact(test::edge_edge(x), Want::first_time);
-      const FirstNear near = first_time_within(q, {0, 0});
-      ASSERT_EQ(near.near, contact.contact) << kind << " " << i;
-      if (near.near) {
+      const ContactAnswer near = first_time_within(q, {0, 0});
+      ASSERT_EQ(near.contact, contact.contact) << kind << " " << i;
+      if (near.contact) {
         ASSERT_EQ(near.first, contact.first) << kind << " " << i;
       }
       contacts += contact.contact;
@@ -120,20 +120,20 @@ TEST(DistanceLaws, AgreesWithRationalTimes) {
       }
       const Separation d = random_distance(random);
       const mpq_class sum = mpq_class(d.first) + mpq_class(d.second), squared = sum * sum;
-      const FirstNear answer = first_time_within(q, d);
-      ASSERT_EQ(first_time_within(q, d, Want::yes_no).near, answer.near);
+      const ContactAnswer answer = first_time_within(q, d);
+      ASSERT_EQ(first_time_within(q, d, Want::yes_no).contact, answer.contact);
       const auto is_within = [&](const mpq_class& t) {
         return squared_distance_at(q, t) <= squared;
       };
       const auto expect = [&](const mpq_class& t) {
         ++times;
         if (is_within(t)) {
-          ASSERT_TRUE(answer.near && mpq_class(answer.first.lo) <= t)
+          ASSERT_TRUE(answer.contact && mpq_class(answer.first.lo) <= t)
               << kind << " " << i << " " << t;
         }
       };
       for (int s = 0; s <= samples; ++s) expect(mpq_class(s, samples));
-      if (!answer.near) continue;
+      if (!answer.contact) continue;
       ++near;
       const auto [lo, hi] = answer.first;
       later += lo > 0;
@@ -161,7 +161,7 @@ TEST(DistanceLaws, TurnedAndMirroredQueriesAgree) {
     for (int i = 0; i < queries; ++i) {
       const FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
       const Separation d = random_distance(random);
-      const FirstNear answer = first_time_within(q, d);
+      const ContactAnswer answer = first_time_within(q, d);
       const auto expect_same = [&](const std::array<int, 4>& order, bool mirrored) {
         FourPoints other = q;
         for (int j = 0; j < 4; ++j) {
@@ -172,8 +172,8 @@ TEST(DistanceLaws, TurnedAndMirroredQueriesAgree) {
             other.points[j].t1[axis] = sign * q.points[order[j]].t1[k];
           }
         }
-        const FirstNear turned = first_time_within(other, {d.second, d.first});
-        ASSERT_EQ(turned.near, answer.near) << kind << " " << i;
+        const ContactAnswer turned = first_time_within(other, {d.second, d.first});
+        ASSERT_EQ(turned.contact, answer.contact) << kind << " " << i;
         ASSERT_EQ(turned.first, answer.first) << kind << " " << i << says(turned) << says(answer);
       };
       if (q.first_group == 1) {
@@ -196,10 +196,10 @@ TEST(DistanceLaws, LeastDistanceIsTheLeastThatIsReached) {
     for (int i = 0; i < queries; ++i) {
       const FourPoints q = query_of(random, static_cast<QueryKind>(kind), 1 + i % 2);
       const double least = least_distance(q);
-      ASSERT_TRUE(first_time_within(q, {least, 0}).near);
+      ASSERT_TRUE(first_time_within(q, {least, 0}).contact);
       if (least == 0) continue;
       ++above;
-      ASSERT_FALSE(first_time_within(q, {std::nextafter(least, 0), 0}).near);
+      ASSERT_FALSE(first_time_within(q, {std::nextafter(least, 0), 0}).contact);
       // Neither is it nearer at any sampled time.
       const mpq_class before(std::nextafter(least, 0));
       for (int s = 0; s <= 16; ++s) {
@@ -238,20 +238,20 @@ TEST(DistanceLaws, ExponentsOverAllDoubles) {
       const Separation d = {std::ldexp(1 + random.unit() / 2, random.below(2096) - 1074),
                             i % 4 == 0 ? std::ldexp(1.0, random.below(2096) - 1074) : 0};
       const auto begin = std::chrono::steady_clock::now();
-      const FirstNear answer = first_time_within(q, d);
+      const ContactAnswer answer = first_time_within(q, d);
       const double took =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       worst = std::max(worst, took);
       sum += took;
-      near += answer.near;
+      near += answer.contact;
       const ContactAnswer contact =
           q.first_group == 1 ? vertex_face_contact(test::vertex_face(q.points), Want::first_time)
                              : edge_edge_contact(test::edge_edge(q.points), Want::first_time);
-      const FirstNear zero = first_time_within(q, {0, 0});
-      ASSERT_EQ(zero.near, contact.contact) << i;
+      const ContactAnswer zero = first_time_within(q, {0, 0});
+      ASSERT_EQ(zero.contact, contact.contact) << i;
       ASSERT_EQ(zero.first, contact.first) << i;
       if (contact.contact) {
-        ASSERT_TRUE(answer.near && answer.first <= contact.first) << i;
+        ASSERT_TRUE(answer.contact && answer.first <= contact.first) << i;
       }
     }
     std::printf("%d of %d within d; worst %.1f ms, mean %.1f ms\n", near, queries, 1e3 * worst,
