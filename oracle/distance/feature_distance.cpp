@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "oracle/processor_state.h"
 #include "oracle/query/interval_sign.h"

@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 
-#include "oracle/instant/instant.h"
 #include "oracle/mesh/mesh_features.h"
 
 namespace assay::oracle {

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace assay::oracle {
 

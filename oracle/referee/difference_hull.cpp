@@ -2,7 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "oracle/referee/existence.h"
 

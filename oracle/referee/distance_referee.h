@@ -14,7 +14,6 @@
 // Thread safe. Ends the process when the processor does not round to nearest or flushes denormals.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "detector/mesh/step_types.h"

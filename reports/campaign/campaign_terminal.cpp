@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
@@ -14,7 +13,6 @@
 #include "reports/bench/cases.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/terminal/options.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "corpus/formats/sequences.h"
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/topology.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "oracle/referee/second_opinion.h"
@@ -17,7 +15,6 @@
 #include "properties/judging/verdict.h"
 #include "properties/numbering.h"
 #include "reports/steps/step_report.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 
 namespace assay::reports {
