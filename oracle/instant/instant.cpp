@@ -1,6 +1,5 @@
 #include "oracle/instant/instant.h"
 
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -95,26 +94,25 @@ BoxOfVertices boxes_at(const Instant& instant) {
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
-                                     const std::vector<std::int32_t>& component, int jobs) {
+                                     const std::vector<std::int32_t>& component) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
   const FeatureIndex mesh(mesh_parts, boxes_at(instant)), fans(fan_parts, boxes_at(instant));
   const auto meet = [&](const Feature& feature) {
     return features_meet(instant.points(), feature);
   };
-  // Elements are only ever set to 1, so the order of threads does not matter.
-  std::vector<std::atomic<std::uint8_t>> touched(count);
-  for_each_contact(mesh, mesh, meet, {jobs},
+  std::vector<std::uint8_t> touched(count);
+  for_each_contact(mesh, mesh, meet, {},
                    {[&](std::int32_t s, std::int32_t t) {
                       return s != t && component[s] == component[t] && !(touched[s] && touched[t]);
                     },
                     [&](std::int32_t s, std::int32_t t, int) { touched[s] = touched[t] = 1; }});
-  for_each_contact(mesh, fans, meet, {jobs},
+  for_each_contact(mesh, fans, meet, {},
                    {[&](std::int32_t t, std::int32_t g) {
                       return !touched[t] && component[t] == component[count + g];
                     },
                     [&](std::int32_t t, std::int32_t, int) { touched[t] = 1; }});
-  return {touched.begin(), touched.end()};
+  return touched;
 }
 
 namespace {

@@ -74,7 +74,7 @@ bool features_meet(StaticPoints x, const detector::Feature& feature);
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
-                                     const std::vector<std::int32_t>& component, int jobs = 1);
+                                     const std::vector<std::int32_t>& component);
 
 // Returns a pair of triangles that `counts` accepts and that is near, or nothing if there is none.
 // A pair is near if it is in contact at rest (detector/LAWS.md defines that), or if it holds a

@@ -289,13 +289,13 @@ std::vector<std::optional<Layer>> common_layers(const LayerState& state) {
 }  // namespace
 
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,
-                     const detector::TrianglesView& ghosts, int jobs) {
+                     const detector::TrianglesView& ghosts) {
   assert(closes(triangles, ghosts));
   const detector::Triangles all = stacked(triangles, ghosts);
   const MeshFeatures features = mesh_features(all);
   LayerState state;
   state.component = components(features);
-  state.touched = touched_at(instant, triangles, ghosts, state.component, jobs);
+  state.touched = touched_at(instant, triangles, ghosts, state.component);
   for (std::size_t t = 0; t < state.touched.size(); ++t) {
     const Face& f = features.faces[t];
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) state.touched[t] = 1;  // has no normal

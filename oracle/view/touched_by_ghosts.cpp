@@ -1,7 +1,6 @@
 #include "oracle/view/touched_by_ghosts.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 
 #include "oracle/instant/instant.h"
@@ -23,7 +22,7 @@ std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::PositionsView& apexes_t0,
                                             const detector::PositionsView& apexes_t1,
                                             const detector::TrianglesView& ghosts,
-                                            const GhostSweepOptions& options) {
+                                            bool static_at_start) {
   require_exact_processor_state();
   assert(motion.vertices_t0.rows() == motion.vertices_t1.rows() &&
          apexes_t0.rows() == apexes_t1.rows());
@@ -43,13 +42,12 @@ std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                ? features_meet(start.points(), feature)
                : contact_of(points_of(all, feature), detector::Want::yes_no).contact;
   };
-  // Elements are only ever set to 1, so the order of threads does not matter.
-  std::vector<std::atomic<std::uint8_t>> touched(static_cast<std::size_t>(triangles.rows()));
-  for_each_contact(mesh, fans, meet, {options.jobs},
+  std::vector<std::uint8_t> touched(static_cast<std::size_t>(triangles.rows()));
+  for_each_contact(mesh, fans, meet, {},
                    {[&](std::int32_t t, std::int32_t) { return !touched[t]; },
                     [&](std::int32_t t, std::int32_t, int) { touched[t] = 1; }},
-                   options.static_at_start);
-  return {touched.begin(), touched.end()};
+                   static_at_start);
+  return touched;
 }
 
 }  // namespace assay::oracle

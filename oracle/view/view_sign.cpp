@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/interval_sign.h"
@@ -25,23 +24,18 @@ ViewSign view_sign(const MovingTriangle& triangle, const detector::ViewPrimitive
 
 std::vector<ViewSign> view_signs(const detector::SteppedMesh& motion,
                                  const detector::TrianglesView& triangles,
-                                 std::span<const detector::ViewPrimitive> primitives, int jobs) {
+                                 std::span<const detector::ViewPrimitive> primitives) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(primitives.size() == 1 || primitives.size() == count);
-  std::vector<ViewSign> signs(count);
-  constexpr std::size_t triangles_at_once = 256;
-  StopGate never({});
-  for_each_chunk(count, triangles_at_once, jobs, never,
-                 [&](std::size_t begin, std::size_t end, int) {
-                   for (std::size_t t = begin; t < end; ++t) {
-                     auto corner = [&](int i) {
-                       return motion.path(triangles(static_cast<Eigen::Index>(t), i));
-                     };
-                     signs[t] = view_sign({corner(0), corner(1), corner(2)},
-                                          primitives[primitives.size() == 1 ? 0 : t]);
-                   }
-                 });
+  std::vector<ViewSign> signs;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto corner = [&](int i) {
+      return motion.path(triangles(static_cast<Eigen::Index>(t), i));
+    };
+    signs.push_back(
+        view_sign({corner(0), corner(1), corner(2)}, primitives[primitives.size() == 1 ? 0 : t]));
+  }
   return signs;
 }
 

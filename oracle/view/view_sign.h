@@ -41,8 +41,7 @@ detector::ViewSign view_sign(const MovingTriangle& triangle,
 // REQUIRES one primitive for all triangles, or one for each.
 std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
                                            const detector::TrianglesView& triangles,
-                                           std::span<const detector::ViewPrimitive> primitives,
-                                           int jobs);
+                                           std::span<const detector::ViewPrimitive> primitives);
 
 // K, the pairs among which the first contact is found (L3 and L10, detector/LAWS.md).
 //

@@ -168,10 +168,9 @@ TEST(ViewSigns, ExtremeNumbers) {
   EXPECT_EQ(sign_of(at_height(5e-324, 0), view_point({0, 0, 0})), ViewSign::zero);
 }
 
-std::vector<int> signs_of(const test::Step& step, const ViewPrimitive& primitive, int jobs) {
+std::vector<int> signs_of(const test::Step& step, const ViewPrimitive& primitive) {
   std::vector<int> result;
-  for (const ViewSign s :
-       view_signs({step.x_t0, step.x_t1}, step.f, std::span(&primitive, 1), jobs)) {
+  for (const ViewSign s : view_signs({step.x_t0, step.x_t1}, step.f, std::span(&primitive, 1))) {
     result.push_back(static_cast<int>(s));
   }
   return result;
@@ -179,12 +178,11 @@ std::vector<int> signs_of(const test::Step& step, const ViewPrimitive& primitive
 
 TEST(ViewSigns, Meshes) {
   const ViewPrimitive origin = view_point({0, 0, 0});
-  EXPECT_EQ(signs_of(test::turning_tetrahedron(), origin, 1), (std::vector{0, 0, 0, 0}));
-  EXPECT_EQ(signs_of(test::collapsing_octahedron(), origin, 2),
-            (std::vector{0, 1, 1, 0, 1, 0, 0, 1}));
-  EXPECT_EQ(signs_of(test::intersecting_octahedron(), origin, 2),
+  EXPECT_EQ(signs_of(test::turning_tetrahedron(), origin), (std::vector{0, 0, 0, 0}));
+  EXPECT_EQ(signs_of(test::collapsing_octahedron(), origin), (std::vector{0, 1, 1, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(signs_of(test::intersecting_octahedron(), origin),
             (std::vector{1, 1, 1, -1, 1, 1, 1, -1}));
-  EXPECT_EQ(signs_of(test::seven_vertices_about_a_line(), view_line({0, 0, -1}, {0, 0, 1}), 1),
+  EXPECT_EQ(signs_of(test::seven_vertices_about_a_line(), view_line({0, 0, -1}, {0, 0, 1})),
             (std::vector{1, 1, 1, 0, 1, 1, 1, 1, 1, 1}));
 }
 
@@ -192,7 +190,7 @@ TEST(ViewSigns, OnePrimitiveForEachTriangle) {
   const test::Step step = test::intersecting_octahedron();
   std::vector<ViewPrimitive> primitives(8, view_point({0, 0, 0}));
   primitives[0] = view_point({100, -100, 100});
-  const auto signs = view_signs({step.x_t0, step.x_t1}, step.f, primitives, 1);
+  const auto signs = view_signs({step.x_t0, step.x_t1}, step.f, primitives);
   EXPECT_NE(signs[0], ViewSign::positive);
   EXPECT_EQ(signs[1], ViewSign::positive);
   EXPECT_EQ(signs[3], ViewSign::negative);

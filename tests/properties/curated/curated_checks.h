@@ -57,7 +57,7 @@ class CuratedStep {
 
   std::vector<detector::ViewSign> signs_between(const detector::Positions& from,
                                                 const detector::Positions& to) const {
-    return oracle::view_signs({from, to}, triangles, {&primitive, 1}, 1);
+    return oracle::view_signs({from, to}, triangles, {&primitive, 1});
   }
   bool all_signs(detector::ViewSign wanted) const {
     return std::all_of(signs.begin(), signs.end(), [&](auto s) { return s == wanted; });
@@ -75,13 +75,12 @@ class CuratedStep {
   Flags swept() const { return touched(apexes_t0, apexes_t1); }
   // As a first step: also what is pierced at t=0 (L11).
   Flags swept_alone() const {
-    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts,
-                                     {1, true});
+    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts, true);
   }
   // Ghosts and mesh at one end of the step, piercing included.
   Flags at_rest(bool end) const {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
-    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, {1, true});
+    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, true);
   }
   Flags at_either_end() const {
     Flags flags = at_rest(false);

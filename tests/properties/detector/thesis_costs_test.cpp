@@ -127,7 +127,7 @@ TEST(ViewSets, WhatIsLeftOpenIsHardlyMoreThanTheOracleLeaves) {
         std::vector<ViewPrimitive> of_triangle;
         for (const auto c : mesh.component_of_triangle)
           of_triangle.push_back(exact.primitives[static_cast<std::size_t>(c)]);
-        const auto truth = oracle::view_signs({x0, x1}, scene.triangles, of_triangle, 1);
+        const auto truth = oracle::view_signs({x0, x1}, scene.triangles, of_triangle);
         for (std::size_t t = 0; t < truth.size(); ++t) {
           for (const auto& [result, beyond] :
                {std::pair(&exact, &beyond_exact), std::pair(&bounded, &beyond_bounded)}) {

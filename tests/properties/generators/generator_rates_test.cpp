@@ -191,7 +191,7 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
   const auto y_t0 = closed.at(x_t0), y_t1 = closed.at(x_t1);
   const auto given = corpus::view_of_step(c, s);
   const ViewPrimitive view = given ? *given : mean_of(x_t0, x_t1);
-  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1}, 1);
+  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1});
   const auto count = [&](ViewSign sign) { return std::count(signs.begin(), signs.end(), sign); };
   if (count(ViewSign::positive) == closed.all.rows()) {
     ++rates.positive;
@@ -215,8 +215,7 @@ Rates measure(const Family& family, int cases, TagTable& table) {
     rates.triangles += made.c.triangles.rows();
     const ClosedUp closed(made.c);
     const auto start = closed.at(made.c.frames.front());
-    const auto layers =
-        oracle::layers_at(oracle::Instant(start), made.c.triangles, closed.ghosts, 1);
+    const auto layers = oracle::layers_at(oracle::Instant(start), made.c.triangles, closed.ghosts);
     rates.clean_starts += std::count(layers.clean.begin(), layers.clean.end(), 0) == 0 ? 1 : 0;
     std::uint64_t collisions = 0;
     const auto steps = corpus::steps_of(made.c).size();
