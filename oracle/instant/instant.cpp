@@ -81,8 +81,6 @@ mpq_class Instant::in_units(const mpq_class& coordinate) const {
   return times_power_of_two(coordinate, -exponent_) * denominator_;
 }
 
-mpq_class Instant::in_units(double coordinate) const { return in_units(mpq_class(coordinate)); }
-
 namespace {
 
 BoxOfVertices boxes_at(const Instant& instant) {

@@ -29,8 +29,7 @@ class Instant {
   Instant(const detector::SteppedMesh& motion, const RationalTime& t);
 
   const std::vector<IntegerPoint>& points() const { return points_; }
-  // Returns a coordinate, given as a double or a rational, in the units of points().
-  mpq_class in_units(double coordinate) const;
+  // Returns a coordinate in the units of points().
   mpq_class in_units(const mpq_class& coordinate) const;
 
   // Returns a box of doubles that holds the place of a vertex. If a coordinate of the place is a

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <tuple>
 
+#include "oracle/referee/referee.h"
+
 namespace assay::oracle {
 
 namespace {
@@ -73,7 +75,7 @@ class Second {
     if (!chosen({v[0], v[1], v[2], v[3]})) return;
     const auto points = points_of(motion_, feature);
     const bool judged = contact_of(points, detector::Want::yes_no).contact;
-    if (!compare_query(feature, judged, referee(points, options_.referee), found)) return;
+    if (!compare_query(feature, judged, referee(points), found)) return;
     for (const std::int32_t s : of_first) {
       for (const std::int32_t t : of_second) demand_pair(feature, s, t, found);
     }

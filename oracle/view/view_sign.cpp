@@ -263,14 +263,6 @@ bool Candidates::holds(const detector::TrianglePair& pair) const {
   return !groups_.empty() && groups_[a] != groups_[b];
 }
 
-PairSplit split(const std::vector<PairContact>& pairs, const Candidates& candidates) {
-  PairSplit parts;
-  for (const PairContact& contact : pairs) {
-    (candidates.holds(contact.pair) ? parts.in_k : parts.outside).push_back(contact);
-  }
-  return parts;
-}
-
 bool holds_a_first_contact(const std::vector<PairContact>& pairs, const Candidates& candidates) {
   const auto first = std::min_element(pairs.begin(), pairs.end(),
                                       [](const auto& x, const auto& y) { return x.time < y.time; });

@@ -65,12 +65,6 @@ class Candidates {
   std::vector<std::int32_t> groups_;
 };
 
-struct PairSplit {
-  std::vector<detector::PairContact> in_k, outside;  // in the order given
-};
-
-PairSplit split(const std::vector<detector::PairContact>& pairs, const Candidates& candidates);
-
 // Returns whether L3 holds: some pair of `pairs` with the least time is in `candidates`. Returns
 // true if there are no pairs.
 bool holds_a_first_contact(const std::vector<detector::PairContact>& pairs,

@@ -420,7 +420,7 @@ class CheckRun {
     const double share = *question_.second_opinion;
     const auto [opinion, milliseconds] = answer_in(limits_, [&] {
       const detector::SteppedMesh motion = {step.x_t0, step.x_t1};
-      const oracle::SecondOpinionOptions options = {share, question_.jobs, stop, {}};
+      const oracle::SecondOpinionOptions options = {share, question_.jobs, stop};
       const auto* counted_pairs = steps_.counted();
       const bool asks_contacts = answers_.under_test().contract.separation == 0;
       if (asks_contacts && (!counted_pairs || counted_pairs->count_all()))

@@ -223,15 +223,13 @@ TEST(Candidates, L10_PairsOfTwoGroups) {
   EXPECT_TRUE(k.holds({1, 2}));
 }
 
-TEST(Candidates, SplitKeepsOrder) {
+TEST(Candidates, FirstContacts) {
   const std::vector<detector::PairContact> pairs = {
       {{0, 1}, {0.25, 0.25}, {}}, {{0, 2}, {0.5, 0.5}, {}}, {{1, 2}, {0.25, 0.25}, {}}};
   const Candidates k({P, P, M}, {});
-  const PairSplit parts = split(pairs, k);
-  ASSERT_EQ(parts.in_k.size(), 2u);
-  EXPECT_EQ(parts.in_k[0].pair, (detector::TrianglePair{0, 2}));
-  EXPECT_EQ(parts.in_k[1].pair, (detector::TrianglePair{1, 2}));
-  ASSERT_EQ(parts.outside.size(), 1u);
+  EXPECT_FALSE(k.holds(pairs[0].pair));
+  EXPECT_TRUE(k.holds(pairs[1].pair));
+  EXPECT_TRUE(k.holds(pairs[2].pair));
   EXPECT_TRUE(holds_a_first_contact(pairs, k));
   EXPECT_FALSE(holds_a_first_contact({pairs[0], pairs[1]}, k));
   EXPECT_TRUE(holds_a_first_contact({}, k));

@@ -102,16 +102,23 @@ class CuratedStep {
 
   // K with this Vv.
   oracle::Candidates k(Flags violated = {}) const { return {signs, std::move(violated)}; }
+  // The pairs in contact that these candidates hold, or those that they do not hold.
+  std::vector<detector::PairContact> pairs_of(const oracle::Candidates& candidates,
+                                              bool held) const {
+    std::vector<detector::PairContact> pairs;
+    for (const auto& c : judgement.pairs) {
+      if (candidates.holds(c.pair) == held) pairs.push_back(c);
+    }
+    return pairs;
+  }
   bool k_finds_nothing(Flags violated = {}) const {
-    return oracle::split(judgement.pairs, k(std::move(violated))).in_k.empty();
+    return pairs_of(k(std::move(violated)), true).empty();
   }
   bool k_finds_the_first(Flags violated = {}) const {
     return !judgement.pairs.empty() &&
            oracle::holds_a_first_contact(judgement.pairs, k(std::move(violated)));
   }
-  std::vector<detector::PairContact> pairs_outside_k() const {
-    return oracle::split(judgement.pairs, k()).outside;
-  }
+  std::vector<detector::PairContact> pairs_outside_k() const { return pairs_of(k(), false); }
   // The pairs of all feature contacts, first or later ones of their pairs, that K has no pair of.
   std::vector<detector::TrianglePair> lost_feature_pairs() const {
     const auto mesh = oracle::mesh_features(triangles);
@@ -234,7 +241,7 @@ inline bool only_block_of_name(const Facts& f) {
     return std::string(1, "MZP"[static_cast<int>(f.last().signs[t]) + 1]);
   };
   const std::string wanted = f.id.substr(f.id.size() - 2);
-  const auto in_k = oracle::split(f.last().judgement.pairs, f.last().k()).in_k;
+  const auto in_k = f.last().pairs_of(f.last().k(), true);
   return !in_k.empty() && std::all_of(in_k.begin(), in_k.end(), [&](const auto& c) {
     const std::string a = letter(c.pair.a), b = letter(c.pair.b);
     return a + b == wanted || b + a == wanted;
