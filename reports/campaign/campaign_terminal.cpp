@@ -145,6 +145,9 @@ class CampaignTerminal : public properties::CampaignObserver {
 }  // namespace
 
 void add_campaign_options(CLI::App& verb, CampaignWords& words) {
+  add(verb, "--campaign NAME|FILE", words.campaign,
+      "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
   add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
   add(verb, "--time SECONDS", words.time_limit,
       "Seconds by the clock for the campaign, in place of its own limit; what is left "
