@@ -242,7 +242,9 @@ ContactAnswer first_time_within(const FourPoints& q, const Separation& d, Want w
 }
 
 double least_distance(const FourPoints& q) {
-  const auto is_within = [&](double d) { return first_time_within(q, {d, 0}, Want::yes_no).near; };
+  const auto is_within = [&](double d) {
+    return first_time_within(q, {d, 0}, Want::yes_no).contact;
+  };
   constexpr double most = std::numeric_limits<double>::max();
   if (is_within(0)) return 0;
   if (!is_within(most)) return std::numeric_limits<double>::infinity();
