@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <new>
 
 #include "corpus/files.h"

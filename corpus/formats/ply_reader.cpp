@@ -185,37 +185,25 @@ class PlyBody {
         offset_(header.size),
         line_(header.lines + 1) {}
 
-  // The next value. Fails at the end of the file, and when a word is no number of that kind.
-  Expected<double> number(PlyType type) {
+  // The next value; `parse` reads it where it is a word. Fails at the end of the file, and when a
+  // word is no number of that kind. REQUIRES an integer type where the number is an integer.
+  template <class Number>
+  Expected<Number> read(PlyType type, std::optional<Number> (*parse)(std::string_view)) {
     if (is_ascii()) {
       const std::string_view text = word();
       if (text.empty()) return truncated();
-      const auto value = parse_double(text);
+      const auto value = parse(text);
       if (!value) return malformed(text);
       return *value;
     }
     if (!has_room(1, size_of(type))) return truncated();
     const std::uint64_t raw = bits(size_of(type));
-    if (type == PlyType::float64) return std::bit_cast<double>(raw);
+    if (type == PlyType::float64) return static_cast<Number>(std::bit_cast<double>(raw));
     if (type == PlyType::float32) {
-      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+      return static_cast<Number>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
     }
-    if (is_signed(type)) return static_cast<double>(sign_extended(raw, size_of(type)));
-    return static_cast<double>(raw);
-  }
-  // REQUIRES: is_integer(type).
-  Expected<std::int64_t> integer(PlyType type) {
-    if (is_ascii()) {
-      const std::string_view text = word();
-      if (text.empty()) return truncated();
-      const auto value = parse_integer(text);
-      if (!value) return malformed(text);
-      return *value;
-    }
-    if (!has_room(1, size_of(type))) return truncated();
-    const std::uint64_t raw = bits(size_of(type));
-    if (is_signed(type)) return sign_extended(raw, size_of(type));
-    return static_cast<std::int64_t>(raw);
+    if (is_signed(type)) return static_cast<Number>(sign_extended(raw, size_of(type)));
+    return static_cast<Number>(raw);
   }
   Expected<void> skip(PlyType type, std::uint64_t count) {
     if (!has_room(count, size_of(type))) return truncated();
@@ -364,7 +352,7 @@ class PlyReader {
       } else if (roles[i] == Role::skipped) {
         BOOST_OUTCOME_TRY(body_.skip(property.type, 1));
       } else {
-        BOOST_OUTCOME_TRY(value, body_.number(property.type));
+        BOOST_OUTCOME_TRY(value, body_.read(property.type, parse_double));
         x[static_cast<std::size_t>(roles[i])] = value;
       }
     }
@@ -373,7 +361,7 @@ class PlyReader {
   }
 
   Expected<void> read_list(const PlyProperty& property, Role role, const Place& place) {
-    BOOST_OUTCOME_TRY(count, body_.integer(*property.count_type));
+    BOOST_OUTCOME_TRY(count, body_.read(*property.count_type, parse_integer));
     if (count < 0) return builder_.problem(place, "a list of negative size");
     const auto items = static_cast<std::uint64_t>(count);
     if (!body_.has_room(items, size_of(property.type))) {
@@ -383,7 +371,7 @@ class PlyReader {
     if (role != Role::corners) return body_.skip(property.type, items);
     corners_.clear();
     for (std::uint64_t i = 0; i < items; ++i) {
-      BOOST_OUTCOME_TRY(vertex, body_.integer(property.type));
+      BOOST_OUTCOME_TRY(vertex, body_.read(property.type, parse_integer));
       corners_.push_back(vertex);
     }
     return builder_.add_polygon(corners_, place);

@@ -8,7 +8,6 @@
 #include <boost/outcome/try.hpp>
 #include <cstdint>
 #include <new>
-#include <string>
 
 #include "corpus/files.h"
 

@@ -49,7 +49,7 @@ Mesh layered_cloth(int size, double s) {
   for (int layer = 0; layer < layers; ++layer) {
     const double phase = spread(layer, 0), way = spread(layer, 1);
     const Point slid = {slide * s * cos_turn(way), slide * s * sin_turn(way), gap * layer};
-    add_sheet(maker, cells, cells, [&](int k, int i) {
+    add_sheet(maker, {cells, cells}, [&](int k, int i) {
       const double x = 2. * k / cells - 1, y = 2. * i / cells - 1;
       const double folded = fold * sin_turn(0.4 * x + 0.1) * cos_turn(0.35 * y);
       const double bulged = bulge * s * sin_turn(0.9 * x + phase) * cos_turn(1.1 * y + way);
@@ -123,7 +123,7 @@ Mesh combed_hair(int size, double s) {
     const int column = strip % side, row = strip / side;
     const double own = spread(strip, 0), across = stray * (2 * spread(strip, 1) - 1);
     const double to_the_side = combed + (column % 2 == 0 ? lean : -lean);
-    add_sheet(maker, 1, pieces, [&](int k, int i) {
+    add_sheet(maker, {1, pieces}, [&](int k, int i) {
       const double u = static_cast<double>(i) / pieces;
       const double waves = wave * u * sin_turn(2 * u + own);
       return Point{pitch * column + curl * u * u + s * (to_the_side * u * u + waves),

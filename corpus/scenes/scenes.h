@@ -14,13 +14,16 @@
 
 namespace assay::corpus {
 
+struct SceneOptions;
+
 struct SceneInfo {
   std::string_view name;
   std::string_view about;  // one line
   int default_size;        // triangles
   int default_frames;
-  bool closed;      // every edge of its own shape is matched
-  bool takes_mesh;  // may be applied to a user's mesh
+  bool closed;                                      // of its own shape: every edge is matched
+  bool takes_mesh;                                  // may be applied to a user's mesh
+  Sequence (*frames)(const SceneOptions& options);  // REQUIRES options that the scene takes
   // With at least this many frames, the statements about contacts hold; with fewer, steps cut
   // corners of the motion.
   int least_frames = 5;

@@ -55,17 +55,9 @@ using Shared = std::vector<Weighted>;
 // The rectangle between two corners in the plane z = 0: columns x rows squares of two triangles.
 Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
   MeshMaker maker;
-  for (int i = 0; i <= columns; ++i) {
-    for (int j = 0; j <= rows; ++j) {
-      maker.vertex({(hi[0] - lo[0]) * i / columns + lo[0], (hi[1] - lo[1]) * j / rows + lo[1], 0});
-    }
-  }
-  const auto at = [rows](int i, int j) { return i * (rows + 1) + j; };
-  for (int i = 0; i < columns; ++i) {
-    for (int j = 0; j < rows; ++j) {
-      maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
+  add_sheet(maker, {.columns = rows, .rows = columns, .is_turned = true}, [&](int j, int i) {
+    return Point{(hi[0] - lo[0]) * i / columns + lo[0], (hi[1] - lo[1]) * j / rows + lo[1], 0};
+  });
   return maker.mesh();
 }
 
@@ -110,18 +102,12 @@ Mesh tube_shape(int size, bool capped) {
       nearest_resolution(size, 3, [&](int n) { return 4 * n * n + (capped ? 2 * n : 0); });
   const int rows = 2 * m;
   MeshMaker maker;
-  for (int i = 0; i <= rows; ++i) {
-    const double z = length * i / rows - length / 2;
-    for (int j = 0; j < m; ++j) {
-      const double turn = static_cast<double>(j) / m;
-      maker.vertex({radius * cos_turn(turn), radius * sin_turn(turn), z});
-    }
-  }
-  const auto at = [m](int i, int j) { return i * m + j % m; };
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < m; ++j) maker.quad(at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
-  }
+  add_sheet(maker, {.columns = m, .rows = rows, .is_round = true}, [&](int j, int i) {
+    const double turn = static_cast<double>(j) / m;
+    return Point{radius * cos_turn(turn), radius * sin_turn(turn), length * i / rows - length / 2};
+  });
   if (capped) {
+    const auto at = [m](int i, int j) { return i * m + j % m; };
     const auto bottom = maker.vertex({0, 0, -length / 2});
     const auto top = maker.vertex({0, 0, length / 2});
     for (int j = 0; j < m; ++j) {
@@ -137,18 +123,11 @@ Mesh torus_shape(int size) {
   const int m = nearest_resolution(size, 3, [](int n) { return 4 * n * n; });
   const int rows = 2 * m;
   MeshMaker maker;
-  for (int i = 0; i < rows; ++i) {
-    const double around = static_cast<double>(i) / rows;
-    for (int j = 0; j < m; ++j) {
-      const double turn = static_cast<double>(j) / m;
-      const double r = wide + thin * cos_turn(turn);
-      maker.vertex({r * cos_turn(around), r * sin_turn(around), thin * sin_turn(turn)});
-    }
-  }
-  const auto at = [m, rows](int i, int j) { return i % rows * m + j % m; };
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < m; ++j) maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-  }
+  add_sheet(maker, {m, rows, true, true, true}, [&](int j, int i) {
+    const double around = static_cast<double>(i) / rows, turn = static_cast<double>(j) / m;
+    const double r = wide + thin * cos_turn(turn);
+    return Point{r * cos_turn(around), r * sin_turn(around), thin * sin_turn(turn)};
+  });
   return maker.mesh();
 }
 

@@ -38,22 +38,34 @@ int nearest_resolution(int size, int least, Count count) {
   return size - count(n) <= count(n + 1) - size ? n : n + 1;
 }
 
-// Adds a grid of (columns + 1) x (rows + 1) vertices, two triangles a cell, to a MeshMaker or
-// anything else with `vertex` and `quad`; place(k, i) says where the vertex of column k and row i
-// is. Returns the first vertex.
+// A grid of so many cells, two triangles each.
+struct Sheet {
+  int columns, rows;
+  bool is_round = false;   // the last column meets the first
+  bool is_ring = false;    // the last row meets the first
+  bool is_turned = false;  // its other side is the outer one
+};
+
+// Adds a sheet to a MeshMaker or anything else with `vertex` and `quad`; place(k, i) says where the
+// vertex of column k and row i is. Returns the first vertex.
 template <class Maker, class Place>
-std::int32_t add_sheet(Maker& maker, int columns, int rows, const Place& place) {
+std::int32_t add_sheet(Maker& maker, const Sheet& sheet, const Place& place) {
+  const int across = sheet.columns + (sheet.is_round ? 0 : 1);
+  const int along = sheet.rows + (sheet.is_ring ? 0 : 1);
   std::int32_t first = 0;
-  for (int i = 0; i <= rows; ++i) {
-    for (int k = 0; k <= columns; ++k) {
+  for (int i = 0; i < along; ++i) {
+    for (int k = 0; k < across; ++k) {
       const std::int32_t vertex = maker.vertex(place(k, i));
       if (i == 0 && k == 0) first = vertex;
     }
   }
-  const auto at = [&](int k, int i) { return first + i * (columns + 1) + k; };
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < columns; ++k)
-      maker.quad(at(k, i), at(k + 1, i), at(k + 1, i + 1), at(k, i + 1));
+  const auto at = [&](int k, int i) { return first + i % along * across + k % across; };
+  for (int i = 0; i < sheet.rows; ++i) {
+    for (int k = 0; k < sheet.columns; ++k) {
+      const std::int32_t beside = at(k + 1, i), above = at(k, i + 1);
+      maker.quad(at(k, i), sheet.is_turned ? above : beside, at(k + 1, i + 1),
+                 sheet.is_turned ? beside : above);
+    }
   }
   return first;
 }

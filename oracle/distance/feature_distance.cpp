@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "oracle/processor_state.h"
 #include "oracle/query/interval_sign.h"
+#include "oracle/query/rungs.h"
 #include "oracle/query/times/times.h"
 
 namespace assay::oracle {
@@ -26,22 +26,6 @@ double rounded_up(const Separation& d) {
   const double sum = d.first + d.second;
   if (d.first == 0 || d.second == 0) return sum;
   return std::nextafter(sum, std::numeric_limits<double>::infinity());
-}
-
-// -1: all of S lies more than `distance` before all of S' along the axis; 1: after; 0: neither.
-// If a difference, rounded to nearest, is greater than a double, so is the exact difference.
-int order_beyond(const FourPoints& q, Point detector::MovingPoint::*end, int axis,
-                 double distance) {
-  const auto at = [&](int i) { return (q.points[i].*end)[axis]; };
-  double s_min = at(0), s_max = at(0), r_min = at(3), r_max = at(3);
-  for (int i = 1; i < 3; ++i) {
-    double& least = i < q.first_group ? s_min : r_min;
-    double& greatest = i < q.first_group ? s_max : r_max;
-    least = std::min(least, at(i));
-    greatest = std::max(greatest, at(i));
-  }
-  if (r_min - s_max > distance) return -1;
-  return s_min - r_max > distance ? 1 : 0;
 }
 
 // The question, enclosed: the points seen from the first one, and d.
@@ -185,19 +169,6 @@ Approach walk(const FourPoints& q, const Separation& d) {
   return found;
 }
 
-// The rung "axis", exact: along some axis the features are more than d apart at both ends of the
-// step, in the same order, and so at all times. Comparisons of rounded differences: 0.03 us.
-bool apart_by_axis(const FourPoints& q, const Separation& d) {
-  const double distance = rounded_up(d);
-  for (int axis = 0; axis < 3; ++axis) {
-    const int at_t0 = order_beyond(q, &detector::MovingPoint::t0, axis, distance);
-    if (at_t0 != 0 && at_t0 == order_beyond(q, &detector::MovingPoint::t1, axis, distance)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 // Coordinates or distances of 2^250 or more are left to the next rung. 0.3 to 0.6 us for most
 // pairs.
 Approach approach(const FourPoints& q, const Separation& d) {
@@ -256,9 +227,9 @@ std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, doubl
 
 }  // namespace
 
-FirstNear first_time_within(const FourPoints& q, const Separation& d, Want want) {
+ContactAnswer first_time_within(const FourPoints& q, const Separation& d, Want want) {
   require_exact_processor_state();
-  if (apart_by_axis(q, d)) return {false, {}, Rung::axis};
+  if (separated_by_axis(q, rounded_up(d))) return {false, {}, Rung::axis};
   const Approach quick = approach(q, d);
   if (quick.decision == Decision::no) return {false, {}, Rung::interval};
   if (quick.decision == Decision::yes && (want == Want::yes_no || quick.near == 0)) {
@@ -271,7 +242,9 @@ FirstNear first_time_within(const FourPoints& q, const Separation& d, Want want)
 }
 
 double least_distance(const FourPoints& q) {
-  const auto is_within = [&](double d) { return first_time_within(q, {d, 0}, Want::yes_no).near; };
+  const auto is_within = [&](double d) {
+    return first_time_within(q, {d, 0}, Want::yes_no).contact;
+  };
   constexpr double most = std::numeric_limits<double>::max();
   if (is_within(0)) return 0;
   if (!is_within(most)) return std::numeric_limits<double>::infinity();
@@ -284,9 +257,7 @@ namespace {
 
 using detector::Point;
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The share of 0 in 0 is not defined; any value will do.
 double share(double part, double whole) {

@@ -22,18 +22,12 @@ namespace assay::oracle {
 
 using detector::Separation;
 
-struct FirstNear {
-  bool near = false;
-  // The first time within d; set only when near is true and a time was wanted.
-  detector::TimeEnclosure first;
-  // The rung that decided: axis, interval, or quadratic, which stands for integers (Regions). If
-  // interval found the features near, the time is then computed in integers.
-  Rung rung = Rung::axis;
-};
-
 // The features of a query are its two groups: a vertex and a face, or two edges, as in contact.h.
-FirstNear first_time_within(const detector::FourPoints& q, const Separation& d,
-                            detector::Want want = detector::Want::first_time);
+// In the answer `contact` says whether they come within d. Its rung is axis, interval, or integers
+// (Regions), which count as quadratic; if interval found the features near, the time is then
+// computed in integers.
+ContactAnswer first_time_within(const detector::FourPoints& q, const Separation& d,
+                                detector::Want want = detector::Want::first_time);
 
 // Returns the least double d that the features come within during the step. So the least distance
 // is at most d and greater than the double before d; if d is 0, it is 0. Returns infinity if no

@@ -13,10 +13,6 @@ namespace assay::oracle {
 
 namespace {
 
-PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 IntegerPolynomial square(const PolynomialVector& v) { return dot(v, v); }
 
 }  // namespace

@@ -14,7 +14,6 @@
 
 #include "detector/mesh/step_types.h"
 #include "oracle/distance/feature_distance.h"
-#include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"
 
 namespace assay::oracle {

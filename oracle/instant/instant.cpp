@@ -1,6 +1,5 @@
 #include "oracle/instant/instant.h"
 
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,9 @@
 #include "oracle/query/contact.h"
 
 namespace assay::oracle {
+
+using detector::Feature;
+using detector::FeatureKind;
 
 namespace {
 
@@ -79,16 +81,7 @@ mpq_class Instant::in_units(const mpq_class& coordinate) const {
   return times_power_of_two(coordinate, -exponent_) * denominator_;
 }
 
-mpq_class Instant::in_units(double coordinate) const { return in_units(mpq_class(coordinate)); }
-
 namespace {
-
-FeatureTests tests_at(const Instant& instant) {
-  const StaticPoints x = instant.points();
-  return {[x](std::int32_t v, const Face& f) { return vertex_meets_face(x, v, f); },
-          [x](const Edge& a, const Edge& b) { return edges_meet(x, a, b); },
-          [x](const Edge& e, const Face& f) { return edge_pierces_face(x, e, f); }};
-}
 
 BoxOfVertices boxes_at(const Instant& instant) {
   return [&](std::span<const std::int32_t> vertices) { return instant.box_of(vertices); };
@@ -99,24 +92,25 @@ BoxOfVertices boxes_at(const Instant& instant) {
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
-                                     const std::vector<std::int32_t>& component, int jobs) {
+                                     const std::vector<std::int32_t>& component) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
   const FeatureIndex mesh(mesh_parts, boxes_at(instant)), fans(fan_parts, boxes_at(instant));
-  const FeatureTests tests = tests_at(instant);
-  // Elements are only ever set to 1, so the order of threads does not matter.
-  std::vector<std::atomic<std::uint8_t>> touched(count);
-  for_each_contact(mesh, mesh, tests, {jobs},
+  const auto meet = [&](const Feature& feature) {
+    return features_meet(instant.points(), feature);
+  };
+  std::vector<std::uint8_t> touched(count);
+  for_each_contact(mesh, mesh, meet, {},
                    {[&](std::int32_t s, std::int32_t t) {
                       return s != t && component[s] == component[t] && !(touched[s] && touched[t]);
                     },
                     [&](std::int32_t s, std::int32_t t, int) { touched[s] = touched[t] = 1; }});
-  for_each_contact(mesh, fans, tests, {jobs},
+  for_each_contact(mesh, fans, meet, {},
                    {[&](std::int32_t t, std::int32_t g) {
                       return !touched[t] && component[t] == component[count + g];
                     },
                     [&](std::int32_t t, std::int32_t, int) { touched[t] = 1; }});
-  return {touched.begin(), touched.end()};
+  return touched;
 }
 
 namespace {
@@ -168,39 +162,20 @@ bool meet(const Rest& q) {
   return meet_on_a_line(q);
 }
 
-int orientation(StaticPoints x, std::int32_t o, std::int32_t a, std::int32_t b, std::int32_t c) {
-  return sgn(dot(x[a] - x[o], cross(x[b] - x[o], x[c] - x[o])));
-}
-
 }  // namespace
 
-IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Integer dot(const IntegerPoint& a, const IntegerPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face) {
-  return meet({{&x[vertex], &x[face[0]], &x[face[1]], &x[face[2]]}, 1});
-}
-
-bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b) {
-  return meet({{&x[a[0]], &x[a[1]], &x[b[0]], &x[b[1]]}, 2});
-}
-
-bool edge_pierces_face(StaticPoints x, const StaticEdge& e, const StaticFace& f) {
-  if (orientation(x, f[0], f[1], f[2], e[0]) * orientation(x, f[0], f[1], f[2], e[1]) >= 0) {
-    return false;
-  }
-  const int s = orientation(x, e[0], e[1], f[0], f[1]);
-  return s != 0 && s == orientation(x, e[0], e[1], f[1], f[2]) &&
-         s == orientation(x, e[0], e[1], f[2], f[0]);
+bool features_meet(StaticPoints x, const Feature& feature) {
+  const auto& v = feature.vertices;
+  if (feature.kind != FeatureKind::piercing)
+    return meet({{&x[v[0]], &x[v[1]], &x[v[2]], &x[v[3]]},
+                 feature.kind == FeatureKind::vertex_face ? 1 : 2});
+  const auto sign = [&](int o, int a, int b, int c) {
+    return sgn(dot(x[v[a]] - x[v[o]], cross(x[v[b]] - x[v[o]], x[v[c]] - x[v[o]])));
+  };
+  constexpr int e0 = 0, e1 = 1, f0 = 2, f1 = 3, f2 = 4;
+  if (sign(f0, f1, f2, e0) * sign(f0, f1, f2, e1) >= 0) return false;
+  const int s = sign(e0, e1, f0, f1);
+  return s != 0 && s == sign(e0, e1, f1, f2) && s == sign(e0, e1, f2, f0);
 }
 
 namespace {
@@ -224,16 +199,14 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
   const StaticPoints points = instant.points();
   std::vector<detector::Point> places;
   for (std::int32_t v = 0; v < x.rows(); ++v) places.push_back(detector::point_of(x, v));
-  const FeatureTests tests = {
-      [&](std::int32_t v, const Face& f) {
-        return vertex_meets_face(points, v, f) ||
-               (distance > 0 && vertex_nearer_than(places, v, f, distance));
-      },
-      [&](const Edge& a, const Edge& b) {
-        return edges_meet(points, a, b) ||
-               (distance > 0 && edges_nearer_than(places, a, b, distance));
-      },
-      [&](const Edge& e, const Face& f) { return edge_pierces_face(points, e, f); }};
+  const auto is_near = [&](const Feature& feature) {
+    if (features_meet(points, feature)) return true;
+    if (distance == 0 || feature.kind == FeatureKind::piercing) return false;
+    const auto& v = feature.vertices;
+    return feature.kind == FeatureKind::vertex_face
+               ? vertex_nearer_than(places, v[0], {v[1], v[2], v[3]}, distance)
+               : edges_nearer_than(places, {v[0], v[1]}, {v[2], v[3]}, distance);
+  };
   const MeshFeatures features = mesh_features(triangles);
   const FeatureIndex mesh(features, [&](std::span<const std::int32_t> vertices) {
     const Box box = instant.box_of(vertices);
@@ -241,7 +214,7 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
   });
   std::optional<detector::TrianglePair> found;
   StopGate gate([&] { return found.has_value(); });
-  for_each_contact(mesh, mesh, tests, {1, &gate},
+  for_each_contact(mesh, mesh, is_near, {1, &gate},
                    {[&](std::int32_t s, std::int32_t t) {
                       return !found && s != t && counts(std::min(s, t), std::max(s, t));
                     },

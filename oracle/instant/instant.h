@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,8 +29,7 @@ class Instant {
   Instant(const detector::SteppedMesh& motion, const RationalTime& t);
 
   const std::vector<IntegerPoint>& points() const { return points_; }
-  // Returns a coordinate, given as a double or a rational, in the units of points().
-  mpq_class in_units(double coordinate) const;
+  // Returns a coordinate in the units of points().
   mpq_class in_units(const mpq_class& coordinate) const;
 
   // Returns a box of doubles that holds the place of a vertex. If a coordinate of the place is a
@@ -60,23 +58,14 @@ class Instant {
 // complete as those of contact.h: they decide degenerate, coplanar, collinear and coinciding
 // features too. On degenerate features they are faster, 1 to 5 us, because no time has to be found.
 
-IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b);
-IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b);
-Integer dot(const IntegerPoint& a, const IntegerPoint& b);
-
 // Features name their vertices by index into the points.
 using StaticPoints = std::span<const IntegerPoint>;
-using StaticEdge = std::array<std::int32_t, 2>;
-using StaticFace = std::array<std::int32_t, 3>;
 
 // Returns whether two closed features have a point in common. A zero-area triangle is the segment
-// or point that it has become.
-bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face);
-bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
-
-// The condition of segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides
-// of the plane of the face, and the line passes strictly inside all three of its edges.
-bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace& face);
+// or point that it has become. Of a piercing edge, returns the condition of
+// segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides of the plane of
+// the face, and the line passes strictly inside all three of its edges.
+bool features_meet(StaticPoints x, const detector::Feature& feature);
 
 // Element t of the result is 1 when triangle t meets another triangle of its own component, or a
 // ghost of that component. REQUIRES that triangles and ghosts name vertices of this instant.
@@ -84,10 +73,7 @@ bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace&
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
-                                     const std::vector<std::int32_t>& component, int jobs = 1);
-
-// Says whether a pair of triangles, the lower index first, is to be looked at.
-using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
+                                     const std::vector<std::int32_t>& component);
 
 // Returns a pair of triangles that `counts` accepts and that is near, or nothing if there is none.
 // A pair is near if it is in contact at rest (detector/LAWS.md defines that), or if it holds a

@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 
-#include "oracle/instant/instant.h"
 #include "oracle/mesh/mesh_features.h"
 
 namespace assay::oracle {
@@ -22,10 +21,6 @@ constexpr int run_exponent = 20;
 
 IntegerPoint direction_vector(int k) {
   return {Integer(1) << run_exponent, Integer(k), Integer(k) * k};
-}
-
-Integer determinant(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
-  return dot(a, cross(b, c));
 }
 
 double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
@@ -138,13 +133,13 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
     if (t == skipped) continue;
     const IntegerPoint a = ray.to(x[cycle_(t, 0)]), b = ray.to(x[cycle_(t, 1)]),
                        c = ray.to(x[cycle_(t, 2)]);
-    const int ab = sgn(determinant(d, a, b)), bc = sgn(determinant(d, b, c)),
-              ca = sgn(determinant(d, c, a));
+    const int ab = sgn(dot(d, cross(a, b))), bc = sgn(dot(d, cross(b, c))),
+              ca = sgn(dot(d, cross(c, a)));
     if (std::min({ab, bc, ca}) < 0 && std::max({ab, bc, ca}) > 0) continue;
     if (ab != 0 && ab == bc && bc == ca) {
       // The line crosses the inside, and d.N has the sign ab. The crossing is ahead when a.N has
-      // that sign, too.
-      if (sgn(determinant(a, b, c)) == ab) w += ab;
+      // it too.
+      if (sgn(dot(a, cross(b, c))) == ab) w += ab;
       continue;
     }
     const IntegerPoint normal = cross(b - a, c - a);
@@ -161,7 +156,7 @@ bool WindingField::on_surface(const Ray& ray) const {
   for (const std::int32_t t : candidates) {
     std::array<IntegerPoint, 4> points = {here};
     for (int i = 0; i < 3; ++i) points[i + 1] = ray.to(instant_.points()[cycle_(t, i)]);
-    if (vertex_meets_face(points, 0, {1, 2, 3})) return true;
+    if (features_meet(points, {detector::FeatureKind::vertex_face, {0, 1, 2, 3, -1}})) return true;
   }
   return false;
 }
@@ -193,19 +188,27 @@ detector::Triangles stacked(const detector::TrianglesView& a, const detector::Tr
   return all;
 }
 
+// Numbers the classes of those members that `counts` accepts, in the order of their lowest members.
+// Gives the number of each member; -1 for the others. REQUIRES that no class holds both kinds.
+template <class Counts>
+std::vector<std::int32_t> numbered(Classes& classes, std::size_t size, const Counts& counts) {
+  std::vector<std::int32_t> number(size, -1);
+  std::int32_t next = 0;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(size); ++i) {
+    if (!counts(i)) continue;
+    const std::int32_t lowest = classes.lowest(i);
+    number[i] = lowest == i ? next++ : number[lowest];
+  }
+  return number;
+}
+
 std::vector<std::int32_t> components(const MeshFeatures& all) {
   Classes classes(all.faces.size());
   for (std::size_t v = 0; v < all.vertices.size(); ++v) {
     const auto holders = all.triangles_of_vertex.of(v);
     for (const std::int32_t t : holders) classes.join(holders[0], t);
   }
-  std::vector<std::int32_t> number(all.faces.size());
-  std::int32_t count = 0;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(number.size()); ++t) {
-    const std::int32_t lowest = classes.lowest(t);
-    number[t] = lowest == t ? count++ : number[lowest];
-  }
-  return number;
+  return numbered(classes, all.faces.size(), [](std::int32_t) { return true; });
 }
 
 // Whether the face has the directed edge from the lower to the higher vertex.
@@ -228,14 +231,7 @@ std::vector<std::int32_t> pieces(const MeshFeatures& all,
     const Edge& edge = all.edges[e];
     if (runs_upward(all.faces[s], edge) != runs_upward(all.faces[t], edge)) classes.join(s, t);
   }
-  std::vector<std::int32_t> number(touched.size(), -1);
-  std::int32_t next = 0;
-  for (std::int32_t t = 0; t < count; ++t) {
-    if (touched[t]) continue;
-    const std::int32_t lowest = classes.lowest(t);
-    number[t] = lowest == t ? next++ : number[lowest];
-  }
-  return number;
+  return numbered(classes, touched.size(), [&](std::int32_t t) { return !touched[t]; });
 }
 
 // The layers of the untouched triangles. They are found once for each piece, in the winding
@@ -293,13 +289,13 @@ std::vector<std::optional<Layer>> common_layers(const LayerState& state) {
 }  // namespace
 
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,
-                     const detector::TrianglesView& ghosts, int jobs) {
+                     const detector::TrianglesView& ghosts) {
   assert(closes(triangles, ghosts));
   const detector::Triangles all = stacked(triangles, ghosts);
   const MeshFeatures features = mesh_features(all);
   LayerState state;
   state.component = components(features);
-  state.touched = touched_at(instant, triangles, ghosts, state.component, jobs);
+  state.touched = touched_at(instant, triangles, ghosts, state.component);
   for (std::size_t t = 0; t < state.touched.size(); ++t) {
     const Face& f = features.faces[t];
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) state.touched[t] = 1;  // has no normal

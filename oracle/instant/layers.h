@@ -81,6 +81,6 @@ struct LayerState {
 // triangle has a normal: one of zero area is always touched, by the triangle or ghost at its
 // longest edge, and one that repeats an index counts as touched.
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,
-                     const detector::TrianglesView& ghosts, int jobs = 1);
+                     const detector::TrianglesView& ghosts);
 
 }  // namespace assay::oracle

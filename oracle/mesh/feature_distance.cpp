@@ -4,19 +4,33 @@
 #include <utility>
 
 #include "oracle/query/contact.h"
+#include "oracle/query/integer_polynomial.h"
 
 namespace assay::oracle {
 
 namespace {
 
+using Place = std::array<mpq_class, 3>;
+
+Place place_of(const detector::Point& x) {
+  return {mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])};
+}
+
+mpq_class squared(const Place& a) { return dot(a, a); }
+
+Place along(const Place& from, const Place& direction, const mpq_class& share) {
+  return {from[0] + share * direction[0], from[1] + share * direction[1],
+          from[2] + share * direction[2]};
+}
+
 mpq_class squared_distance_to(const Place& p, const Place& a, const Place& b) {
-  const Place edge = minus(b, a), to = minus(p, a);
+  const Place edge = b - a, to = p - a;
   const mpq_class length = squared(edge);
   if (length == 0) return squared(to);
-  const mpq_class share = product(to, edge) / length;
+  const mpq_class share = dot(to, edge) / length;
   if (share <= 0) return squared(to);
-  if (share >= 1) return squared(minus(p, b));
-  return squared(minus(to, along({}, edge, share)));
+  if (share >= 1) return squared(p - b);
+  return squared(to - along({}, edge, share));
 }
 
 // The squared distance is a convex function of the two places on the edges, so it is least at an
@@ -25,14 +39,13 @@ mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place&
                                     const Place& d) {
   mpq_class least = std::min({squared_distance_to(a, c, d), squared_distance_to(b, c, d),
                               squared_distance_to(c, a, b), squared_distance_to(d, a, b)});
-  const Place u = minus(b, a), v = minus(d, c), w = minus(a, c);
-  const mpq_class uu = squared(u), vv = squared(v), uv = product(u, v), uw = product(u, w),
-                  vw = product(v, w);
+  const Place u = b - a, v = d - c, w = a - c;
+  const mpq_class uu = squared(u), vv = squared(v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
   const mpq_class determinant = uu * vv - uv * uv;
   if (determinant == 0) return least;  // parallel, or points
   const mpq_class s = (uv * vw - vv * uw) / determinant, t = (uu * vw - uv * uw) / determinant;
   if (s < 0 || s > 1 || t < 0 || t > 1) return least;
-  return std::min(least, squared(minus(along(a, u, s), along(c, v, t))));
+  return std::min(least, squared(along(a, u, s) - along(c, v, t)));
 }
 
 // If the point is above the inside of the face, this is its distance to the plane, else that to an
@@ -40,14 +53,14 @@ mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place&
 mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& b, const Place& c) {
   mpq_class least = std::min(
       {squared_distance_to(p, a, b), squared_distance_to(p, b, c), squared_distance_to(p, c, a)});
-  const Place normal = normal_to(minus(b, a), minus(c, a));
+  const Place normal = cross(b - a, c - a);
   const mpq_class length = squared(normal);
   if (length == 0) return least;
   const auto is_inside = [&](const Place& from, const Place& to) {
-    return product(normal, normal_to(minus(to, from), minus(p, from))) >= 0;
+    return dot(normal, cross(to - from, p - from)) >= 0;
   };
   if (!is_inside(a, b) || !is_inside(b, c) || !is_inside(c, a)) return least;
-  const mpq_class height = product(normal, minus(p, a));
+  const mpq_class height = dot(normal, p - a);
   return std::min(least, mpq_class(height * height / length));
 }
 

@@ -6,9 +6,12 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
+#include <optional>
 #include <utility>
 
 namespace assay::oracle {
+
+using detector::FeatureKind;
 
 namespace {
 
@@ -53,9 +56,9 @@ namespace {
 
 constexpr std::size_t features_at_once = 128;  // features a thread takes at once
 
-template <class BoxOf, class Accept>
+template <class BoxOf, class Visit>
 void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree,
-                      const Workers& workers, const Accept& accept, const VisitFeatures& visit) {
+                      const Workers& workers, const Visit& visit) {
   StopGate never({});
   StopGate& gate = workers.gate ? *workers.gate : never;
   std::vector<std::vector<std::int32_t>> partners(std::max(workers.jobs, 1));
@@ -65,7 +68,7 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
                      tree.meeting(box_of(item), partners[worker]);
                      for (const std::int32_t other : partners[worker]) {
                        if (gate.stopped()) return;
-                       if (accept(item, other)) visit(item, other, worker);
+                       visit(item, other, worker);
                      }
                    }
                  });
@@ -109,110 +112,91 @@ const BoxTree& FeatureIndex::edges() const {
   return *edges_;
 }
 
-void for_each_vertex_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                          const VisitFeatures& visit) {
-  const auto& vertices = a.features().vertices;
-  const auto& faces = b.features().faces;
-  for_each_meeting(
-      vertices.size(), [&](std::size_t i) { return a.box_of(std::array{vertices[i]}); }, b.faces(),
-      workers, [&](std::size_t i, std::int32_t f) { return !holds(faces[f], vertices[i]); }, visit);
-}
-
-void for_each_edge_edge(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit) {
-  const auto &of_a = a.features().edges, &of_b = b.features().edges;
-  const bool same = &a == &b;
-  for_each_meeting(
-      of_a.size(), [&](std::size_t i) { return a.box_of(of_a[i]); }, b.edges(), workers,
-      [&](std::size_t i, std::int32_t j) {
-        return !(same && i >= static_cast<std::size_t>(j)) && !share_vertex(of_a[i], of_b[j]);
-      },
-      visit);
-}
-
-void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit) {
-  const auto& edges = a.features().edges;
-  const auto& faces = b.features().faces;
-  for_each_meeting(
-      edges.size(), [&](std::size_t i) { return a.box_of(edges[i]); }, b.faces(), workers,
-      [&](std::size_t i, std::int32_t f) {
-        return !holds(faces[f], edges[i][0]) && !holds(faces[f], edges[i][1]);
-      },
-      visit);
-}
-
-void for_each_face_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit) {
-  const auto& faces = a.features().faces;
-  const bool same = &a == &b;
-  for_each_meeting(
-      faces.size(), [&](std::size_t i) { return a.box_of(faces[i]); }, b.faces(), workers,
-      [&](std::size_t i, std::int32_t j) { return !(same && i >= static_cast<std::size_t>(j)); },
-      visit);
-}
-
-namespace {
-
-using Holders = std::span<const std::int32_t>;  // the triangles that hold a feature
-
-template <class Test>
-void judge(const Holders& of_a, const Holders& of_b, const PairVisitor& visitor, int worker,
-           const Test& test) {
-  auto some_wanted = [&] {
-    for (const std::int32_t s : of_a) {
-      for (const std::int32_t t : of_b) {
-        if (visitor.matters(s, t)) return true;
-      }
-    }
-    return false;
-  };
-  if (!some_wanted() || !test()) return;
-  for (const std::int32_t s : of_a) {
-    for (const std::int32_t t : of_b) {
-      if (visitor.matters(s, t)) visitor.meet(s, t, worker);
-    }
-  }
-}
-
-// Tests vertices and edges of a against faces of b.
-void against_faces(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
-                   const Workers& workers, const PairVisitor& visitor) {
+void for_each_pair(const FeatureIndex& a, const FeatureIndex& b, FeatureKind kind,
+                   const Workers& workers, const VisitPair& visit) {
   const MeshFeatures &fa = a.features(), &fb = b.features();
-  for_each_vertex_face(a, b, workers, [&](std::size_t i, std::size_t f, int worker) {
-    const auto face = static_cast<std::int32_t>(f);
-    judge(fa.triangles_of_vertex.of(i), {&face, 1}, visitor, worker,
-          [&] { return tests.vertex_face(fa.vertices[i], fb.faces[f]); });
-  });
-  if (!tests.piercing) return;
-  for_each_edge_face(a, b, workers, [&](std::size_t i, std::size_t f, int worker) {
-    const auto face = static_cast<std::int32_t>(f);
-    judge(fa.triangles_of_edge.of(i), {&face, 1}, visitor, worker,
-          [&] { return tests.piercing(fa.edges[i], fb.faces[f]); });
-  });
+  if (kind == FeatureKind::vertex_face) {
+    for_each_meeting(
+        fa.vertices.size(), [&](std::size_t i) { return a.box_of(std::array{fa.vertices[i]}); },
+        b.faces(), workers,
+        [&](std::size_t i, std::int32_t j, int worker) {
+          const std::int32_t v = fa.vertices[i];
+          const Face& f = fb.faces[j];
+          if (holds(f, v)) return;
+          visit({{kind, {v, f[0], f[1], f[2], -1}}, fa.triangles_of_vertex.of(i), {&j, 1}}, worker);
+        });
+    return;
+  }
+  const auto box_of = [&](std::size_t i) { return a.box_of(fa.edges[i]); };
+  if (kind == FeatureKind::piercing) {
+    for_each_meeting(
+        fa.edges.size(), box_of, b.faces(), workers,
+        [&](std::size_t i, std::int32_t j, int worker) {
+          const Edge& e = fa.edges[i];
+          const Face& f = fb.faces[j];
+          if (holds(f, e[0]) || holds(f, e[1])) return;
+          visit({{kind, {e[0], e[1], f[0], f[1], f[2]}}, fa.triangles_of_edge.of(i), {&j, 1}},
+                worker);
+        });
+    return;
+  }
+  for_each_meeting(fa.edges.size(), box_of, b.edges(), workers,
+                   [&](std::size_t i, std::int32_t j, int worker) {
+                     const auto other = static_cast<std::size_t>(j);
+                     const Edge &e = fa.edges[i], &o = fb.edges[other];
+                     if ((&a == &b && i >= other) || share_vertex(e, o)) return;
+                     visit({{kind, {e[0], e[1], o[0], o[1], -1}},
+                            fa.triangles_of_edge.of(i),
+                            fb.triangles_of_edge.of(other)},
+                           worker);
+                   });
 }
 
-}  // namespace
+void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const VisitFaces& visit) {
+  const auto& faces = mesh.features().faces;
+  for_each_meeting(
+      faces.size(), [&](std::size_t i) { return mesh.box_of(faces[i]); }, mesh.faces(), workers,
+      [&](std::size_t i, std::int32_t other, int worker) {
+        const auto face = static_cast<std::int32_t>(i);
+        if (face < other) visit(face, other, worker);
+      });
+}
 
-void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
-                      const Workers& workers, const PairVisitor& visitor) {
+void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeaturesMeet& test,
+                      const Workers& workers, const PairVisitor& visitor, bool asks_piercing) {
   const MeshFeatures &fa = a.features(), &fb = b.features();
   if (fa.faces.empty() || fb.faces.empty()) return;
-  against_faces(a, b, tests, workers, visitor);
+  const auto judge = [&](const FeatureIndex& one, const FeatureIndex& other, FeatureKind kind,
+                         const PairVisitor& of) {
+    for_each_pair(one, other, kind, workers, [&](const FeaturePair& pair, int worker) {
+      std::optional<bool> meet;  // tested where some pair of triangles matters
+      for (const std::int32_t s : pair.of_first) {
+        for (const std::int32_t t : pair.of_second) {
+          if (!of.matters(s, t)) continue;
+          if (!meet) meet = test(pair.feature);
+          if (!*meet) return;
+          of.meet(s, t, worker);
+        }
+      }
+    });
+  };
+  const auto against_faces = [&](const FeatureIndex& one, const FeatureIndex& other,
+                                 const PairVisitor& of) {
+    judge(one, other, FeatureKind::vertex_face, of);
+    if (asks_piercing) judge(one, other, FeatureKind::piercing, of);
+  };
+  against_faces(a, b, visitor);
   if (&a == &b) {
     for (const auto& [s, t] : same_vertices_pairs(fa.faces)) {
       if (visitor.matters(s, t)) visitor.meet(s, t, 0);
     }
   } else {
-    const PairVisitor swapped = {
-        [&](std::int32_t s, std::int32_t t) { return visitor.matters(t, s); },
-        [&](std::int32_t s, std::int32_t t, int worker) { visitor.meet(t, s, worker); }};
-    against_faces(b, a, tests, workers, swapped);
+    against_faces(
+        b, a,
+        {[&](std::int32_t s, std::int32_t t) { return visitor.matters(t, s); },
+         [&](std::int32_t s, std::int32_t t, int worker) { visitor.meet(t, s, worker); }});
   }
-  for_each_edge_edge(a, b, workers, [&](std::size_t i, std::size_t j, int worker) {
-    judge(fa.triangles_of_edge.of(i), fb.triangles_of_edge.of(j), visitor, worker,
-          [&] { return tests.edge_edge(fa.edges[i], fb.edges[j]); });
-  });
+  judge(a, b, FeatureKind::edge_edge, visitor);
 }
 
 }  // namespace assay::oracle

@@ -81,38 +81,44 @@ class FeatureIndex {
   mutable std::unique_ptr<BoxTree> faces_, edges_;
 };
 
-// Called with the index of each of the two features in its list of MeshFeatures; `worker` is as in
-// parallel_chunks.h.
-using VisitFeatures = std::function<void(std::size_t item, std::size_t other, int worker)>;
+// Two features whose boxes meet and that share no vertex, and the triangles that hold each.
+struct FeaturePair {
+  detector::Feature feature;
+  std::span<const std::int32_t> of_first, of_second;
+};
+
+// The two features as a query. REQUIRES a vertex and a face, or two edges.
+inline detector::FourPoints points_of(const detector::SteppedMesh& motion,
+                                      const detector::Feature& feature) {
+  const auto& v = feature.vertices;
+  return {{motion.path(v[0]), motion.path(v[1]), motion.path(v[2]), motion.path(v[3])},
+          feature.kind == detector::FeatureKind::vertex_face ? 1 : 2};
+}
 
 struct Workers {
   int jobs = 1;
   StopGate* gate = nullptr;  // once it has stopped, no further pair is visited; null: no stop
 };
 
-// Visits vertices of a with faces of b.
-void for_each_vertex_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                          const VisitFeatures& visit);
-// Visits edges of a with edges of b. If a and b are the same object, each pair comes once, the
-// lower edge first.
-void for_each_edge_edge(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit);
-// Visits edges of a with faces of b.
-void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit);
-// Visits faces of a with faces of b, also faces that share vertices. If a and b are the same
-// object, each pair comes once, the lower face first.
-void for_each_face_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
-                        const VisitFeatures& visit);
+// `worker` is as in parallel_chunks.h.
+using VisitPair = std::function<void(const FeaturePair& pair, int worker)>;
+using VisitFaces = std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)>;
 
-// Triangle pairs whose features meet, by tests that the caller chooses (at rest or over a step).
+// Visits vertices of a with faces of b, or edges of a with edges of b, or (piercing) edges of a
+// with faces of b. If a and b are the same object, two edges come once, the lower edge first.
+void for_each_pair(const FeatureIndex& a, const FeatureIndex& b, detector::FeatureKind kind,
+                   const Workers& workers, const VisitPair& visit);
+// Visits faces of a mesh whose boxes meet, also faces that share vertices: two come once, the lower
+// face first.
+void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const VisitFaces& visit);
 
-// Exact tests of two features, each given by its vertices: whether they meet.
-struct FeatureTests {
-  std::function<bool(std::int32_t, const Face&)> vertex_face;
-  std::function<bool(const Edge&, const Edge&)> edge_edge;
-  std::function<bool(const Edge&, const Face&)> piercing;  // empty: not asked
-};
+// Says of two triangles, the lower first, whether they count.
+using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
+
+// Triangle pairs whose features meet, by a test that the caller chooses (at rest or over a step).
+
+// An exact test of two features: whether they meet.
+using FeaturesMeet = std::function<bool(const detector::Feature& feature)>;
 
 struct PairVisitor {
   // Says whether a contact of these two triangles matters. Two features are tested only if a
@@ -125,8 +131,10 @@ struct PairVisitor {
 
 // Finds the pairs in contact, a triangle of a with one of b, as detector/LAWS.md defines contact:
 // closed faces of the two triangles that share no vertex meet. If a and b are the same object,
-// triangles with the same three vertices are in contact too.
-void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
-                      const Workers& workers, const PairVisitor& visitor);
+// triangles with the same three vertices are in contact too. asks_piercing: edges are tested with
+// faces too.
+void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeaturesMeet& test,
+                      const Workers& workers, const PairVisitor& visitor,
+                      bool asks_piercing = true);
 
 }  // namespace assay::oracle

@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "oracle/mesh/feature_pairs.h"
-#include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
 namespace assay::oracle {
@@ -16,200 +14,59 @@ namespace {
 using detector::Feature;
 using detector::FeatureKind;
 
-class StepJudge {
- public:
-  StepJudge(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
-            const JudgeOptions& options)
-      : motion_(motion),
-        features_(mesh_features(triangles)),
-        gate_(options.stop),
-        asked_features_(options.features),
-        workers_(std::max(options.jobs, 1)) {
-    if (options.counted && !options.counted->count_all())
-      counted_.emplace(*options.counted, features_);
-    if (options.tested && !options.tested->count_all()) tested_.emplace(*options.tested, features_);
-    tells_apart_ = asked_features_ != AskedFeatures::all || tested_;
-  }
-
-  StepJudgement run() {
-    judge_same_vertices();
-    judge_vertices_and_faces();
-    judge_edges();
-    judge_piercing();
-    return judgement_of(workers_, counted_, tested_, !gate_.was_stopped());
-  }
-
- private:
-  // The features with their boxes over the step, or at t=0 alone if the mesh at rest is given.
-  // Each phase makes its own, so that no more than one tree is in memory at a time.
-  FeatureIndex index_over(const detector::SteppedMesh& motion) const {
-    return {features_, swept_boxes(motion)};
-  }
-
-  Workers workers() { return {static_cast<int>(workers_.size()), &gate_}; }
-
-  void judge_same_vertices() {
-    for (const auto& [a, b] : same_vertices_pairs(features_.faces)) {
-      const Face& f = features_.faces[a];
-      const Feature feature{FeatureKind::same_vertices, {f[0], f[1], f[2], -1, -1}};
-      add_at_start(a, b, feature, workers_[0]);
-    }
-  }
-
-  void judge_vertices_and_faces() {
-    if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_over(motion_);
-    for_each_vertex_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
-      judge_vertex_face(a, b, workers_[worker]);
-    });
-  }
-
-  void judge_edges() {
-    if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_over(motion_);
-    for_each_edge_edge(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
-      judge_edge_edge(a, b, workers_[worker]);
-    });
-  }
-
-  void judge_piercing() {
-    if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_over(motion_.at_start());
-    for_each_edge_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
-      judge_edge_face_at_start(a, b, workers_[worker]);
-    });
-  }
-
-  detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
-
-  void judge_vertex_face(std::size_t item, std::size_t face, FoundPairs& worker) {
-    const std::int32_t v = features_.vertices[item];
-    const Face& f = features_.faces[face];
-    if (!bodies_meet(v, f[0])) return;
-    ++worker.candidates;
-    const ContactAnswer answer = vertex_face_contact(
-        {path(v), {path(f[0]), path(f[1]), path(f[2])}}, detector::Want::first_time);
-    worker.rungs.add(answer.rung);
-    const auto counts = [&](const PairRelation& in) { return in.counts_vertex_face(v, face); };
-    if (!answer.contact || !passes(counted_, counts)) return;
-    const bool is_asked = asks(AskedFeatures::vertex_face) && passes(tested_, counts);
-    const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
-    for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
-      worker.pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
-      if (is_asked)
-        worker.asked_pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
-    }
-  }
-
-  void judge_edge_edge(std::size_t item, std::size_t other, FoundPairs& worker) {
-    const Edge &a = features_.edges[item], &b = features_.edges[other];
-    if (!bodies_meet(a[0], b[0])) return;
-    ++worker.candidates;
-    const ContactAnswer answer = edge_edge_contact(
-        {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}}, detector::Want::first_time);
-    worker.rungs.add(answer.rung);
-    const auto counts = [&](const PairRelation& in) { return in.counts_edges(a, b); };
-    if (!answer.contact || !passes(counted_, counts)) return;
-    const bool is_asked = asks(AskedFeatures::edge_edge) && passes(tested_, counts);
-    const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
-    for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
-      for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
-        worker.pairs.add(s, t, answer.first, feature);
-        if (is_asked) worker.asked_pairs.add(s, t, answer.first, feature);
-      }
-    }
-  }
-
-  void judge_edge_face_at_start(std::size_t item, std::size_t face, FoundPairs& worker) {
-    const Edge& e = features_.edges[item];
-    const Face& f = features_.faces[face];
-    if (!bodies_meet(e[0], f[0])) return;
-    auto at = [&](std::int32_t vertex) { return motion_.start(vertex); };
-    if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
-    const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
-    for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
-      add_at_start(t, static_cast<std::int32_t>(face), feature, worker);
-    }
-  }
-
-  bool bodies_meet(std::int32_t u, std::int32_t v) const {
-    return !counted_ || counted_->bodies_meet(u, v);
-  }
-  bool asks(AskedFeatures kind) const {
-    return tells_apart_ && (asked_features_ == kind || asked_features_ == AskedFeatures::all);
-  }
-  // A relation of features is asked before a contact is kept. A relation of triangles is asked once
-  // for each pair in contact, at the end (judgement_of).
-  using Relation = std::optional<PairRelation>;  // nothing: every pair passes
-  template <class Counts>
-  static bool passes(const Relation& relation, const Counts& counts) {
-    return !relation || !relation->is_of_features() || counts(*relation);
-  }
-
-  // A contact that shows only at the start belongs to no kind of features, so it counts only if all
-  // kinds do.
-  void add_at_start(std::int32_t a, std::int32_t b, const Feature& feature,
-                    FoundPairs& worker) const {
-    const auto counts = [&](const PairRelation& in) { return in.counts_faces(a, b); };
-    if (!passes(counted_, counts)) return;
-    worker.pairs.add(a, b, {0, 0}, feature);
-    if (tells_apart_ && asked_features_ == AskedFeatures::all && passes(tested_, counts))
-      worker.asked_pairs.add(a, b, {0, 0}, feature);
-  }
-
-  const detector::SteppedMesh& motion_;
-  const MeshFeatures features_;
-  StopGate gate_;
-  const AskedFeatures asked_features_;
-  Relation counted_, tested_;
-  bool tells_apart_ = false;  // whether asked_pairs is asked for
-  std::vector<FoundPairs> workers_;
-};
-
-}  // namespace
-
-StepJudgement judge_step(const detector::SteppedMesh& motion,
-                         const detector::TrianglesView& triangles, const JudgeOptions& options) {
-  require_exact_processor_state();
-  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
-  assert(triangles.size() == 0 ||
-         (triangles.minCoeff() >= 0 && triangles.maxCoeff() < motion.size()));
-  return StepJudge(motion, triangles, options).run();
-}
-
-namespace {
-
 auto key(const detector::PairContact& c) {
   return std::tie(c.pair.a, c.pair.b, c.time.lo, c.time.hi, c.feature.kind, c.feature.vertices);
 }
 
-}  // namespace
+// Pairs of triangles, each with the first of its times that were found.
+//
+// Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
+// vertices. That is a total order, so the contact that is kept does not depend on the order of
+// add().
+class PairStore {
+ public:
+  // REQUIRES a != b. Their order does not matter.
+  void add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
+           const Feature& feature) {
+    contacts_.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
+    if (contacts_.size() >= tidy_at_) keep_least();
+  }
 
-void PairStore::add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-                    const detector::Feature& feature) {
-  contacts_.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
-  if (contacts_.size() >= tidy_at_) keep_least();
-}
+  // Moves all contacts of another store into this one.
+  void merge(PairStore& other) {
+    contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
+    other.contacts_ = {};
+  }
 
-void PairStore::merge(PairStore& other) {
-  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
-  other.contacts_ = {};
-}
+  // Returns the kept contacts, ascending by pair; the store is empty afterwards.
+  std::vector<detector::PairContact> take() {
+    keep_least();
+    return std::exchange(contacts_, {});
+  }
 
-std::vector<detector::PairContact> PairStore::take() {
-  keep_least();
-  return std::exchange(contacts_, {});
-}
+ private:
+  void keep_least() {
+    std::sort(contacts_.begin(), contacts_.end(),
+              [](const auto& x, const auto& y) { return key(x) < key(y); });
+    contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
+                                [](const auto& x, const auto& y) { return x.pair == y.pair; }),
+                    contacts_.end());
+    tidy_at_ = std::max(tidy_at_, 2 * contacts_.size());
+  }
 
-void PairStore::keep_least() {
-  std::sort(contacts_.begin(), contacts_.end(),
-            [](const auto& x, const auto& y) { return key(x) < key(y); });
-  contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
-                              [](const auto& x, const auto& y) { return x.pair == y.pair; }),
-                  contacts_.end());
-  tidy_at_ = std::max(tidy_at_, 2 * contacts_.size());
-}
+  std::vector<detector::PairContact> contacts_;
+  std::size_t tidy_at_ = 1 << 16;  // at this size, only the least of each pair stay
+};
 
+// The findings of one thread. Candidates are judged as they are met and never stored.
+struct FoundPairs {
+  PairStore pairs, asked_pairs;
+  RungCounts rungs;
+  std::uint64_t candidates = 0;
+};
+
+// Puts together the findings of all threads. Relations of triangles are asked here, once for each
+// pair.
 StepJudgement judgement_of(std::vector<FoundPairs>& found,
                            const std::optional<PairRelation>& counted,
                            const std::optional<PairRelation>& tested, bool complete) {
@@ -236,6 +93,142 @@ StepJudgement judgement_of(std::vector<FoundPairs>& found,
         return x.time < y.time;
       })->time;
   return result;
+}
+
+}  // namespace
+
+StepFeatures::StepFeatures(const detector::SteppedMesh& motion,
+                           const detector::TrianglesView& triangles, const JudgeOptions& options,
+                           bool neighbours, WantedPair also_asked)
+    : motion_(motion),
+      features_(mesh_features(triangles)),
+      options_(options),
+      neighbours_(neighbours),
+      also_asked_(std::move(also_asked)) {
+  require_exact_processor_state();
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
+  assert(triangles.size() == 0 ||
+         (triangles.minCoeff() >= 0 && triangles.maxCoeff() < motion.size()));
+  if (options.counted && !options.counted->count_all())
+    counted_.emplace(*options.counted, features_);
+  if (options.tested && !options.tested->count_all()) tested_.emplace(*options.tested, features_);
+}
+
+void StepFeatures::for_each(const BoxOfVertices& boxes, const Workers& workers,
+                            const VisitPair& visit) const {
+  for (const auto kind : {FeatureKind::vertex_face, FeatureKind::edge_edge})
+    for_each_of(kind, boxes, workers, visit);
+}
+
+// Visits the pairs of one kind that counted pairs of triangles may hold. Each kind has an index of
+// its own, so that no more than one tree is in memory at a time.
+void StepFeatures::for_each_of(FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
+                               const VisitPair& visit) const {
+  if (workers.gate->stopped()) return;
+  const FeatureIndex mesh(features_, boxes);
+  const int second = kind == FeatureKind::vertex_face ? 1 : 2;  // place of the second feature
+  for_each_pair(mesh, mesh, kind, workers, [&](const FeaturePair& pair, int worker) {
+    const auto& v = pair.feature.vertices;
+    if (counted_ && !counted_->bodies_meet(v[0], v[second])) return;
+    if (some_of(pair, &StepFeatures::may_count)) visit(pair, worker);
+  });
+}
+
+void StepFeatures::for_each_pierced_at_start(const Workers& workers,
+                                             const VisitPierced& visit) const {
+  for_each_of(FeatureKind::piercing, swept_boxes(motion_.at_start()), workers,
+              [&](const FeaturePair& pair, int worker) {
+                const auto at = [&](int i) { return motion_.start(pair.feature.vertices[i]); };
+                if (!segment_pierces_triangle(at(0), at(1), {at(2), at(3), at(4)})) return;
+                const std::int32_t face = pair.of_second[0];
+                for (const std::int32_t t : pair.of_first) {
+                  if (counts(t, face)) visit(t, face, pair.feature, worker);
+                }
+              });
+  for (const auto& [s, t] : same_vertices_pairs(features_.faces)) {
+    if (!counts(s, t)) continue;
+    const Face& f = features_.faces[s];
+    visit(s, t, Feature{FeatureKind::same_vertices, {f[0], f[1], f[2], -1, -1}}, 0);
+  }
+}
+
+bool StepFeatures::some_pair_counts(const FeaturePair& pair) const {
+  return passes(counted_, pair) &&
+         ((counted_ && counted_->is_of_features()) || some_of(pair, &StepFeatures::counts));
+}
+
+StepJudgement StepFeatures::judge(const BoxOfVertices& boxes, StopGate& gate,
+                                  const AnswerPair& answer) const {
+  std::vector<FoundPairs> found(std::max(options_.jobs, 1));
+  const Workers workers{static_cast<int>(found.size()), &gate};
+  for_each(boxes, workers, [&](const FeaturePair& pair, int worker) {
+    FoundPairs& mine = found[worker];
+    const auto [is_contact, first, rung] = answer(points_of(motion_, pair.feature), pair.feature);
+    ++mine.candidates;
+    mine.rungs.add(rung);
+    if (!is_contact || !passes(counted_, pair)) return;
+    const bool asked = is_asked(pair);
+    for (const std::int32_t s : pair.of_first) {
+      for (const std::int32_t t : pair.of_second) {
+        if (!may_count(s, t)) continue;
+        mine.pairs.add(s, t, first, pair.feature);
+        if (asked) mine.asked_pairs.add(s, t, first, pair.feature);
+      }
+    }
+  });
+  // What pierces at the start is of no kind of features: it is asked for where all kinds are.
+  for_each_pierced_at_start(
+      workers, [&](std::int32_t s, std::int32_t t, const Feature& feature, int worker) {
+        found[worker].pairs.add(s, t, {0, 0}, feature);
+        if (asks_piercing() && tested_->counts_faces(s, t))
+          found[worker].asked_pairs.add(s, t, {0, 0}, feature);
+      });
+  return judgement_of(found, counted_, tested_, !gate.was_stopped());
+}
+
+bool StepFeatures::may_count(std::int32_t s, std::int32_t t) const {
+  if (s == t) return false;
+  const Face &a = features_.faces[s], &b = features_.faces[t];
+  if (!neighbours_ && (holds(b, a[0]) || holds(b, a[1]) || holds(b, a[2]))) return false;
+  return !also_asked_ || also_asked_(std::min(s, t), std::max(s, t));
+}
+
+bool StepFeatures::counts(std::int32_t s, std::int32_t t) const {
+  return may_count(s, t) && (!counted_ || counted_->counts_faces(s, t));
+}
+
+bool StepFeatures::some_of(const FeaturePair& pair, Says says) const {
+  for (const std::int32_t s : pair.of_first) {
+    for (const std::int32_t t : pair.of_second) {
+      if ((this->*says)(s, t)) return true;
+    }
+  }
+  return false;
+}
+
+// A relation of features is asked before a contact is kept. A relation of triangles is asked once
+// for each pair in contact, at the end.
+bool StepFeatures::passes(const Relation& relation, const FeaturePair& pair) {
+  if (!relation || !relation->is_of_features()) return true;
+  const auto& v = pair.feature.vertices;
+  return pair.feature.kind == FeatureKind::vertex_face
+             ? relation->counts_vertex_face(v[0], static_cast<std::size_t>(pair.of_second[0]))
+             : relation->counts_edges({v[0], v[1]}, {v[2], v[3]});
+}
+
+bool StepFeatures::is_asked(const FeaturePair& pair) const {
+  const auto kind = pair.feature.kind == FeatureKind::vertex_face ? AskedFeatures::vertex_face
+                                                                  : AskedFeatures::edge_edge;
+  return (options_.features == kind || asks_piercing()) && passes(tested_, pair);
+}
+
+StepJudgement judge_step(const detector::SteppedMesh& motion,
+                         const detector::TrianglesView& triangles, const JudgeOptions& options) {
+  StopGate gate(options.stop);
+  return StepFeatures(motion, triangles, options)
+      .judge(swept_boxes(motion), gate, [](const detector::FourPoints& points, const Feature&) {
+        return contact_of(points, detector::Want::first_time);
+      });
 }
 
 }  // namespace assay::oracle

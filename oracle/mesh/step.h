@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "detector/mesh/counted_pairs.h"
 #include "detector/mesh/step_types.h"
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/mesh/pair_relation.h"
 #include "oracle/query/contact.h"
 
@@ -57,39 +59,54 @@ struct StepJudgement {
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
-// Pairs of triangles, each with the first of its times that were found.
-//
-// Keeps one contact for each pair of triangles: the least by time, then feature kind, then feature
-// vertices. That is a total order, so the contact that is kept does not depend on the order of
-// add().
-class PairStore {
+// The features of a mesh over a step, and the pairs of them that counted pairs of triangles hold.
+class StepFeatures {
  public:
-  // REQUIRES a != b. Their order does not matter.
-  void add(std::int32_t a, std::int32_t b, const detector::TimeEnclosure& time,
-           const detector::Feature& feature);
-  // Moves all contacts of another store into this one.
-  void merge(PairStore& other);
-  // Returns the kept contacts, ascending by pair; the store is empty afterwards.
-  std::vector<detector::PairContact> take();
+  // If `neighbours` is false, triangles that share a vertex do not count. `also_asked` says of a
+  // pair whether it counts; empty: every pair does. REQUIRES indices in range, finite positions,
+  // equal row counts, and a motion that outlives it.
+  StepFeatures(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+               const JudgeOptions& options, bool neighbours = true, WantedPair also_asked = {});
+  StepFeatures(const StepFeatures&) = delete;
+  StepFeatures& operator=(const StepFeatures&) = delete;
+
+  // Visits the pairs of features whose boxes meet, with the number of the calling thread.
+  void for_each(const BoxOfVertices& boxes, const Workers& workers, const VisitPair& visit) const;
+
+  // Visits the counted pairs of triangles that are in contact at t=0 without two features that
+  // meet.
+  using VisitPierced =
+      std::function<void(std::int32_t, std::int32_t, const detector::Feature&, int worker)>;
+  void for_each_pierced_at_start(const Workers& workers, const VisitPierced& visit) const;
+
+  // Says whether a counted pair of triangles holds the two features. Relations take time, so this
+  // is asked about what is near, and not about every pair that is visited.
+  bool some_pair_counts(const FeaturePair& pair) const;
+
+  // Judges the step by the answer to each pair of features whose boxes meet.
+  using AnswerPair =
+      std::function<ContactAnswer(const detector::FourPoints&, const detector::Feature&)>;
+  StepJudgement judge(const BoxOfVertices& boxes, StopGate& gate, const AnswerPair& answer) const;
 
  private:
-  void keep_least();
+  using Relation = std::optional<PairRelation>;  // nothing: every pair passes
+  using Says = bool (StepFeatures::*)(std::int32_t s, std::int32_t t) const;
 
-  std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;  // at this size, only the least of each pair stay
+  void for_each_of(detector::FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
+                   const VisitPair& visit) const;
+  bool may_count(std::int32_t s, std::int32_t t) const;  // but for the relation
+  bool counts(std::int32_t s, std::int32_t t) const;
+  bool some_of(const FeaturePair& pair, Says says) const;
+  static bool passes(const Relation& relation, const FeaturePair& pair);
+  bool asks_piercing() const { return tested_ && options_.features == AskedFeatures::all; }
+  bool is_asked(const FeaturePair& pair) const;
+
+  const detector::SteppedMesh& motion_;
+  const MeshFeatures features_;
+  const JudgeOptions options_;
+  const bool neighbours_;
+  const WantedPair also_asked_;
+  Relation counted_, tested_;
 };
-
-// The findings of one thread. Candidates are judged as they are met and never stored.
-struct FoundPairs {
-  PairStore pairs, asked_pairs;
-  RungCounts rungs;
-  std::uint64_t candidates = 0;
-};
-
-// Puts together the findings of all threads. REQUIRES one thread or more. Relations of triangles
-// are asked here, once for each pair.
-StepJudgement judgement_of(std::vector<FoundPairs>& found,
-                           const std::optional<PairRelation>& counted,
-                           const std::optional<PairRelation>& tested, bool complete);
 
 }  // namespace assay::oracle

@@ -2,6 +2,8 @@
 
 #include <CGAL/Interval_nt.h>
 
+#include <algorithm>
+
 #include "oracle/processor_state.h"
 #include "oracle/query/contact_events.h"
 #include "oracle/query/interval_sign.h"
@@ -64,14 +66,6 @@ using Interval = CGAL::Interval_nt<false>;
 // The five points of the question, all at rest: e0, e1, f0, f1, f2.
 using Configuration = std::array<MovingPoint, 5>;
 
-template <class Number>
-Number determinant(const Vector3<Number>& a, const Vector3<Number>& b, const Vector3<Number>& c) {
-  const Number x = b[1] * c[2] - b[2] * c[1];
-  const Number y = b[2] * c[0] - b[0] * c[2];
-  const Number z = b[0] * c[1] - b[1] * c[0];
-  return a[0] * x + a[1] * y + a[2] * z;
-}
-
 // Calls sign(a, b, c, d), the orientation of four of the points, until the answer is known: 1 yes,
 // 0 no, -1 when an orientation of the given precision is not certain. A sign is 2 when uncertain.
 template <class Orientation>
@@ -98,7 +92,7 @@ int pierces(const Orientation& sign) {
       for (int k = 0; k < 3; ++k) v[k] = Interval(c[i].t0[k]) - Interval(c[o].t0[k]);
       return v;
     };
-    const Interval value = determinant(edge(a), edge(b), edge(d));
+    const Interval value = dot(edge(a), cross(edge(b), edge(d)));
     const int s = sure_sign(value);
     if (s != 0) return s;
     return value.inf() == 0 && value.sup() == 0 ? 0 : 2;
@@ -113,7 +107,7 @@ int pierces_by_integers(const Configuration& c) {
       for (int k = 0; k < 3; ++k) v[k] = scale(c[i].t0[k]) - scale(c[o].t0[k]);
       return v;
     };
-    return sgn(determinant<Integer>(edge(a), edge(b), edge(d)));
+    return sgn(dot(edge(a), cross(edge(b), edge(d))));
   });
 }
 
@@ -140,49 +134,38 @@ bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) 
   return sign_at(slope, first.lo) * sign_at(slope, first.hi) <= 0;
 }
 
-bool meets_edge_at(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
-                   const TimeEnclosure& first) {
-  const auto answer = vertex_face_contact({p, {a, b, b}}, detector::Want::first_time);
-  return answer.contact && answer.first == first;
-}
-
-// The shape of a contact whose edges are not parallel. at_end() says whether the contact is at the
-// end of a feature.
-template <class AtEnd>
-ContactShape shape_by(const FourPoints& points, const TimeEnclosure& first, const AtEnd& at_end) {
-  ContactPolynomials polynomials(points);
-  const IntegerPolynomial& f = polynomials.coplanarity();
-  if (f.is_zero()) return ContactShape::coplanar_throughout;
-  if (has_double_root_at(f, first)) return ContactShape::double_root;
-  return at_end() ? ContactShape::at_end_of_feature : ContactShape::generic;
-}
-
-bool are_parallel(const detector::EdgeEdge& q) {
-  const std::array<MovingPoint, 4> points = {q.a[0], q.a[1], q.b[0], q.b[1]};
-  const IntegerScale scale(points);
+bool are_parallel(const std::array<MovingPoint, 4>& x) {
+  const IntegerScale scale(x);
   const auto normal =
-      cross(moving_difference(scale, q.a[0], q.a[1]), moving_difference(scale, q.b[0], q.b[1]));
+      cross(moving_difference(scale, x[0], x[1]), moving_difference(scale, x[2], x[3]));
   return normal[0].is_zero() && normal[1].is_zero() && normal[2].is_zero();
+}
+
+bool is_at_end_of_feature(const FourPoints& q, const TimeEnclosure& first) {
+  struct PointAndEdge {
+    int p, a, b;
+  };
+  constexpr PointAndEdge of_face[] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}},
+                         of_edges[] = {{0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}};
+  const auto meets = [&](const PointAndEdge& of) {
+    const auto& x = q.points;
+    const auto answer =
+        contact_of({{x[of.p], x[of.a], x[of.b], x[of.b]}, 1}, detector::Want::first_time);
+    return answer.contact && answer.first == first;
+  };
+  return q.first_group == 1 ? std::ranges::any_of(of_face, meets)
+                            : std::ranges::any_of(of_edges, meets);
 }
 
 }  // namespace
 
-ContactShape shape_of(const detector::VertexFace& q, const TimeEnclosure& first) {
-  return shape_by(four_points(q), first, [&] {
-    return meets_edge_at(q.vertex, q.face[0], q.face[1], first) ||
-           meets_edge_at(q.vertex, q.face[1], q.face[2], first) ||
-           meets_edge_at(q.vertex, q.face[2], q.face[0], first);
-  });
-}
-
-ContactShape shape_of(const detector::EdgeEdge& q, const TimeEnclosure& first) {
-  if (are_parallel(q)) return ContactShape::parallel_edges;
-  return shape_by(four_points(q), first, [&] {
-    return meets_edge_at(q.a[0], q.b[0], q.b[1], first) ||
-           meets_edge_at(q.a[1], q.b[0], q.b[1], first) ||
-           meets_edge_at(q.b[0], q.a[0], q.a[1], first) ||
-           meets_edge_at(q.b[1], q.a[0], q.a[1], first);
-  });
+ContactShape shape_of(const FourPoints& q, const TimeEnclosure& first) {
+  if (q.first_group == 2 && are_parallel(q.points)) return ContactShape::parallel_edges;
+  ContactPolynomials polynomials(q);
+  const IntegerPolynomial& f = polynomials.coplanarity();
+  if (f.is_zero()) return ContactShape::coplanar_throughout;
+  if (has_double_root_at(f, first)) return ContactShape::double_root;
+  return is_at_end_of_feature(q, first) ? ContactShape::at_end_of_feature : ContactShape::generic;
 }
 
 }  // namespace assay::oracle

@@ -64,7 +64,6 @@ enum class ContactShape : std::uint8_t {
 
 // Returns the shape of the first contact of a query. REQUIRES that the query has a contact and that
 // `first` encloses its first time. About 50 us; in degenerate queries a few ms.
-ContactShape shape_of(const detector::VertexFace& query, const detector::TimeEnclosure& first);
-ContactShape shape_of(const detector::EdgeEdge& query, const detector::TimeEnclosure& first);
+ContactShape shape_of(const detector::FourPoints& query, const detector::TimeEnclosure& first);
 
 }  // namespace assay::oracle

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace assay::oracle {
 
@@ -162,19 +161,6 @@ PolynomialVector moving_difference(const IntegerScale& scale, const detector::Mo
     u[k] = linear(scale(to.t0[k]) - scale(from.t0[k]), scale(to.t1[k]) - scale(from.t1[k]));
   }
   return u;
-}
-
-PolynomialVector cross(const PolynomialVector& u, const PolynomialVector& v) {
-  PolynomialVector w;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    w[k] = u[i] * v[j] - u[j] * v[i];
-  }
-  return w;
-}
-
-IntegerPolynomial dot(const PolynomialVector& u, const PolynomialVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 namespace {

@@ -86,7 +86,20 @@ using PolynomialVector = std::array<IntegerPolynomial, 3>;
 PolynomialVector moving_difference(const IntegerScale& scale, const detector::MovingPoint& from,
                                    const detector::MovingPoint& to);
 
-PolynomialVector cross(const PolynomialVector& u, const PolynomialVector& v);
-IntegerPolynomial dot(const PolynomialVector& u, const PolynomialVector& v);
+// The operations of vectors, whether their coordinates are integers, rationals, polynomials,
+// intervals or doubles.
+template <class Number>
+std::array<Number, 3> operator-(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+}
+template <class Number>
+std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]),
+          Number(a[0] * b[1] - a[1] * b[0])};
+}
+template <class Number>
+Number dot(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 }  // namespace assay::oracle

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "detector/mesh/types.h"
+
 namespace assay::oracle {
 
 // Returns 1 or -1 when every number of the interval has that sign; 0 when that is not certain.
@@ -57,6 +59,55 @@ using Vector3 = std::array<Number, 3>;
 template <class Number>
 struct LinearVector {
   Vector3<Number> s, e;
+};
+
+// The difference of two moving points, kept at both ends of the step.
+template <class Number>
+class MovingDifference {
+ public:
+  MovingDifference(const detector::MovingPoint& from, const detector::MovingPoint& to) {
+    for (int k = 0; k < 3; ++k) {
+      t0_[k] = Number(to.t0[k]) - Number(from.t0[k]);
+      t1_[k] = Number(to.t1[k]) - Number(from.t1[k]);
+    }
+  }
+  LinearVector<Number> on(double s, double e) const { return {at(s), at(e)}; }
+
+ private:
+  Vector3<Number> at(double t) const {
+    if (t == 0) return t0_;
+    if (t == 1) return t1_;
+    Vector3<Number> u;
+    for (int k = 0; k < 3; ++k) u[k] = Number(1 - t) * t0_[k] + Number(t) * t1_[k];
+    return u;
+  }
+  Vector3<Number> t0_, t1_;
+};
+
+// A piece of the step that was cut out of it by `depth` cuts.
+struct StepPiece {
+  double s = 0, e = 1;
+  int depth = 0;
+};
+
+// The pieces of the step that are still to be judged, the earliest first; at first the whole step.
+// They are cut beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up input
+// and a zero at the end of a piece can never be settled. Each cut adds 5 bits to the ends, so up to
+// a depth of 9 they and 1 minus them are still exact doubles.
+template <int most_depth>
+class StepPieces {
+ public:
+  bool empty() const { return size_ == 0; }
+  StepPiece take() { return stack_[--size_]; }
+  void cut(const StepPiece& piece) {
+    const double middle = piece.s + (piece.e - piece.s) * (15.0 / 32.0);
+    stack_[size_++] = {middle, piece.e, piece.depth + 1};
+    stack_[size_++] = {piece.s, middle, piece.depth + 1};
+  }
+
+ private:
+  std::array<StepPiece, most_depth + 2> stack_;  // later pieces below earlier ones
+  int size_ = 1;
 };
 
 // A vector whose coordinates are quadratic on the piece: coefficients by axis.

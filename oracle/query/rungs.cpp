@@ -12,29 +12,30 @@ namespace assay::oracle {
 
 namespace {
 
-// -1: all of S lies strictly before all of S' along the axis; 1: strictly after; 0: neither.
-int strict_order(const FourPoints& q, detector::Point detector::MovingPoint::*end, int axis) {
-  auto at = [&](int i) { return (q.points[i].*end)[axis]; };
-  double s_min = at(0), s_max = at(0);
-  for (int i = 1; i < q.first_group; ++i) {
-    s_min = std::min(s_min, at(i));
-    s_max = std::max(s_max, at(i));
+// -1: all of S lies more than `distance` before all of S' along the axis; 1: after; 0: neither.
+// Where a difference that is rounded to nearest is greater than a double, so is the exact one.
+int order_beyond(const FourPoints& q, detector::Point detector::MovingPoint::*end, int axis,
+                 double distance) {
+  const auto at = [&](int i) { return (q.points[i].*end)[axis]; };
+  double s_min = at(0), s_max = at(0), r_min = at(3), r_max = at(3);
+  for (int i = 1; i < 3; ++i) {
+    double& least = i < q.first_group ? s_min : r_min;
+    double& greatest = i < q.first_group ? s_max : r_max;
+    least = std::min(least, at(i));
+    greatest = std::max(greatest, at(i));
   }
-  double r_min = at(3), r_max = at(3);
-  for (int i = q.first_group; i < 3; ++i) {
-    r_min = std::min(r_min, at(i));
-    r_max = std::max(r_max, at(i));
-  }
-  if (s_max < r_min) return -1;
-  return r_max < s_min ? 1 : 0;
+  if (r_min - s_max > distance) return -1;
+  return s_min - r_max > distance ? 1 : 0;
 }
 
 }  // namespace
 
-bool separated_by_axis(const FourPoints& q) {
+bool separated_by_axis(const FourPoints& q, double distance) {
   for (int axis = 0; axis < 3; ++axis) {
-    const int at_t0 = strict_order(q, &detector::MovingPoint::t0, axis);
-    if (at_t0 != 0 && at_t0 == strict_order(q, &detector::MovingPoint::t1, axis)) return true;
+    const int at_t0 = order_beyond(q, &detector::MovingPoint::t0, axis, distance);
+    if (at_t0 != 0 && at_t0 == order_beyond(q, &detector::MovingPoint::t1, axis, distance)) {
+      return true;
+    }
   }
   return false;
 }
@@ -46,38 +47,9 @@ using Linear = LinearVector<Interval>;
 
 // Differences stay below 2^301 and F, the largest expression, below 2^910: no overflow.
 constexpr double largest_coordinate = 0x1p300;
-// Pieces are split beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up
-// input and a zero of F at the end of a piece can never be settled. Each split adds 5 bits to the
-// ends, so at the greatest depth they and 1 minus them are still exact doubles.
-constexpr double split_at = 15.0 / 32.0;
 constexpr int most_depth = 9;
 // If a query needs more pieces, the rung "quadratic" is the cheaper one.
 constexpr int most_pieces = 40;
-
-struct Piece {
-  double s, e;
-  int depth;
-};
-
-// u_1, u_2, u_3 at the ends of the step, enclosed.
-struct Differences {
-  explicit Differences(const FourPoints& q) {
-    for (int j = 0; j < 3; ++j) {
-      for (int k = 0; k < 3; ++k) {
-        t0[j][k] = Interval(q.points[j + 1].t0[k]) - Interval(q.points[0].t0[k]);
-        t1[j][k] = Interval(q.points[j + 1].t1[k]) - Interval(q.points[0].t1[k]);
-      }
-    }
-  }
-  Vector3<Interval> at(int j, double t) const {
-    if (t == 0) return t0[j];
-    if (t == 1) return t1[j];
-    Vector3<Interval> u;
-    for (int k = 0; k < 3; ++k) u[k] = Interval(1 - t) * t0[j][k] + Interval(t) * t1[j][k];
-    return u;
-  }
-  std::array<Vector3<Interval>, 3> t0, t1;
-};
 
 // The rung "axis" again, on a piece. The four points are taken as 0, u_1, u_2, u_3.
 bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
@@ -139,16 +111,17 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
 
 // Not inlined, because nothing of it may move out of the region that rounds upward.
 [[gnu::noinline]] IntervalAnswer judge_pieces(const FourPoints& q, detector::Want want) {
-  const Differences differences(q);
-  std::array<Piece, most_depth + 2> stack;  // later pieces below earlier ones
-  int size = 0, judged = 0;
-  stack[size++] = {0, 1, 0};
+  using Difference = MovingDifference<Interval>;
+  const std::array<Difference, 3> differences = {
+      Difference{q.points[0], q.points[1]}, {q.points[0], q.points[2]}, {q.points[0], q.points[3]}};
+  StepPieces<most_depth> pieces;
+  int judged = 0;
   bool all_free = true;
-  while (size > 0) {
-    const Piece piece = stack[--size];
+  while (!pieces.empty()) {
+    const StepPiece piece = pieces.take();
     if (++judged > most_pieces) return {};
     std::array<Linear, 3> u;
-    for (int j = 0; j < 3; ++j) u[j] = {differences.at(j, piece.s), differences.at(j, piece.e)};
+    for (int j = 0; j < 3; ++j) u[j] = differences[j].on(piece.s, piece.e);
     const PieceDecision inside = judge_piece(u, q.first_group);
     if (inside.decision == detector::Decision::no) continue;
     if (inside.decision == detector::Decision::yes) {
@@ -160,9 +133,7 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
       all_free = false;
       continue;
     }
-    const double middle = piece.s + (piece.e - piece.s) * split_at;
-    stack[size++] = {middle, piece.e, piece.depth + 1};
-    stack[size++] = {piece.s, middle, piece.depth + 1};
+    pieces.cut(piece);
   }
   return {all_free ? detector::Decision::no : detector::Decision::open};
 }

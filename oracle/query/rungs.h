@@ -6,14 +6,14 @@
 
 namespace assay::oracle {
 
-// The first rung of the oracle's elementary test. It only compares inputs, so it is exact for
-// every finite input. About 0.03 us.
+// The first rung of the oracle's elementary test. It only compares differences of inputs, so it is
+// exact for every finite input. About 0.03 us.
 
 // Returns true when along some axis one group of points (the vertex and the face, or the two edges)
-// lies strictly before the other at t=0 and at t=1.
+// lies more than `distance` before the other at t=0 and at t=1.
 // It then does so at every time, because each difference of two coordinates is linear in time, so
-// there is no contact.
-bool separated_by_axis(const FourPoints& q);
+// the two never come within that distance.
+bool separated_by_axis(const FourPoints& q, double distance = 0);
 
 // The rung "interval" finds signs in interval arithmetic on pieces of the step, each piece
 // computed from the original coordinates. 1 to 2 us a query. It never guesses: an answer that it

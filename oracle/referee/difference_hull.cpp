@@ -2,7 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "oracle/referee/existence.h"
 
@@ -18,40 +17,10 @@ struct Corners {
   int count;
 };
 
-Corners corners_of(const detector::VertexFace& q) {
-  const auto* v = &q.vertex;
-  return {{v, v, v, v}, {&q.face[0], &q.face[1], &q.face[2], &q.face[2]}, 3};
-}
-
-Corners corners_of(const detector::EdgeEdge& q) {
-  return {{&q.a[0], &q.a[1], &q.a[0], &q.a[1]}, {&q.b[0], &q.b[0], &q.b[1], &q.b[1]}, 4};
-}
-
-DoubleHull double_hull(const Corners& c) {
-  DoubleHull hull;
-  hull.t0.corners = hull.t1.corners = c.count;
-  double largest = 0;
-  for (int i = 0; i < c.count; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      hull.t0.corner[i][k] = c.first[i]->t0[k] - c.second[i]->t0[k];
-      hull.t1.corner[i][k] = c.first[i]->t1[k] - c.second[i]->t1[k];
-      largest =
-          std::max({largest, std::fabs(hull.t0.corner[i][k]), std::fabs(hull.t1.corner[i][k])});
-    }
-  }
-  hull.usable = std::isfinite(largest);
-  if (!hull.usable) return hull;
-  std::frexp(largest, &hull.exponent);
-  hull.size.fill(0x1p-900);
-  for (int i = 0; i < c.count; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      for (double* x : {&hull.t0.corner[i][k], &hull.t1.corner[i][k]}) {
-        *x = std::ldexp(*x, -hull.exponent);
-        hull.size[k] = std::max(hull.size[k], std::fabs(*x));
-      }
-    }
-  }
-  return hull;
+Corners corners_of(const detector::FourPoints& q) {
+  const auto* x = q.points.data();
+  if (q.first_group == 1) return {{x, x, x, x}, {x + 1, x + 2, x + 3, x + 3}, 3};
+  return {{x, x + 1, x, x + 1}, {x + 2, x + 2, x + 3, x + 3}, 4};
 }
 
 // x = mantissa * 2^exponent with an odd mantissa, or 0.
@@ -74,29 +43,6 @@ mpz_class scaled(double x, int unit) {
   mpz_class value = static_cast<long>(parts.mantissa);
   if (parts.mantissa != 0) value <<= static_cast<mp_bitcnt_t>(parts.exponent - unit);
   return value;
-}
-
-IntegerHull integer_hull(const Corners& c) {
-  int unit = std::numeric_limits<int>::max();
-  for (int i = 0; i < c.count; ++i) {
-    for (const auto* point : {c.first[i], c.second[i]}) {
-      for (int k = 0; k < 3; ++k) {
-        unit = std::min({unit, parts_of(point->t0[k]).exponent, parts_of(point->t1[k]).exponent});
-      }
-    }
-  }
-  IntegerHull hull;
-  // All zero: any unit will do.
-  if (unit == std::numeric_limits<int>::max()) unit = 0;
-  hull.unit = unit;
-  hull.t0.corners = hull.t1.corners = c.count;
-  for (int i = 0; i < c.count; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      hull.t0.corner[i][k] = scaled(c.first[i]->t0[k], unit) - scaled(c.second[i]->t0[k], unit);
-      hull.t1.corner[i][k] = scaled(c.first[i]->t1[k], unit) - scaled(c.second[i]->t1[k], unit);
-    }
-  }
-  return hull;
 }
 
 // Nearest point of the triangle of corners a, b, c, by the regions of its vertices and edges.
@@ -136,13 +82,54 @@ NearestPoint nearest_of_triangle(const Hull<double>& hull, int a, int b, int c) 
 
 }  // namespace
 
-DoubleHull double_hull(const detector::VertexFace& query) { return double_hull(corners_of(query)); }
-DoubleHull double_hull(const detector::EdgeEdge& query) { return double_hull(corners_of(query)); }
-IntegerHull integer_hull(const detector::VertexFace& query) {
-  return integer_hull(corners_of(query));
+DoubleHull double_hull(const detector::FourPoints& query) {
+  const Corners c = corners_of(query);
+  DoubleHull hull;
+  hull.t0.corners = hull.t1.corners = c.count;
+  double largest = 0;
+  for (int i = 0; i < c.count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      hull.t0.corner[i][k] = c.first[i]->t0[k] - c.second[i]->t0[k];
+      hull.t1.corner[i][k] = c.first[i]->t1[k] - c.second[i]->t1[k];
+      largest =
+          std::max({largest, std::fabs(hull.t0.corner[i][k]), std::fabs(hull.t1.corner[i][k])});
+    }
+  }
+  hull.usable = std::isfinite(largest);
+  if (!hull.usable) return hull;
+  std::frexp(largest, &hull.exponent);
+  hull.size.fill(0x1p-900);
+  for (int i = 0; i < c.count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      for (double* x : {&hull.t0.corner[i][k], &hull.t1.corner[i][k]}) {
+        *x = std::ldexp(*x, -hull.exponent);
+        hull.size[k] = std::max(hull.size[k], std::fabs(*x));
+      }
+    }
+  }
+  return hull;
 }
-IntegerHull integer_hull(const detector::EdgeEdge& query) {
-  return integer_hull(corners_of(query));
+
+IntegerHull integer_hull(const detector::FourPoints& query) {
+  const Corners c = corners_of(query);
+  int unit = std::numeric_limits<int>::max();
+  for (const auto& point : query.points) {
+    for (int k = 0; k < 3; ++k) {
+      unit = std::min({unit, parts_of(point.t0[k]).exponent, parts_of(point.t1[k]).exponent});
+    }
+  }
+  IntegerHull hull;
+  // All zero: any unit will do.
+  if (unit == std::numeric_limits<int>::max()) unit = 0;
+  hull.unit = unit;
+  hull.t0.corners = hull.t1.corners = c.count;
+  for (int i = 0; i < c.count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      hull.t0.corner[i][k] = scaled(c.first[i]->t0[k], unit) - scaled(c.second[i]->t0[k], unit);
+      hull.t1.corner[i][k] = scaled(c.first[i]->t1[k], unit) - scaled(c.second[i]->t1[k], unit);
+    }
+  }
+  return hull;
 }
 
 Hull<double> DoubleHull::at(double t) const {

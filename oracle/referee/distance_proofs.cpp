@@ -9,8 +9,7 @@ namespace assay::oracle {
 
 // The scaled terms of d have at most 2^-1075 of error each, from underflow, and their sum one
 // rounding: the neighbour of the sum is beyond the exact sum, apart from that underflow.
-template <class Query>
-DoubleReach double_reach(const Query& query, const detector::Separation& d) {
+DoubleReach double_reach(const detector::FourPoints& query, const detector::Separation& d) {
   constexpr double infinity = std::numeric_limits<double>::infinity(), underflow = 0x1p-1070;
   DoubleReach reach{double_hull(query)};
   const int exponent = reach.hull.exponent;
@@ -20,11 +19,7 @@ DoubleReach double_reach(const Query& query, const detector::Separation& d) {
   reach.most = std::nextafter(sum, infinity) + underflow;
   return reach;
 }
-template DoubleReach double_reach(const detector::VertexFace&, const detector::Separation&);
-template DoubleReach double_reach(const detector::EdgeEdge&, const detector::Separation&);
-
-template <class Query>
-IntegerReach integer_reach(const Query& query, const detector::Separation& d) {
+IntegerReach integer_reach(const detector::FourPoints& query, const detector::Separation& d) {
   IntegerReach reach{integer_hull(query), 0};
   mpq_class scaled = mpq_class(d.first) + mpq_class(d.second);
   const int unit = reach.hull.unit;
@@ -37,9 +32,6 @@ IntegerReach integer_reach(const Query& query, const detector::Separation& d) {
   }
   return reach;
 }
-template IntegerReach integer_reach(const detector::VertexFace&, const detector::Separation&);
-template IntegerReach integer_reach(const detector::EdgeEdge&, const detector::Separation&);
-
 namespace {
 
 // Places on one line of sight from the origin have the same unit vector. Zero stays zero.

@@ -33,10 +33,9 @@ RationalTime in_lowest_terms(const Fraction& f) {
   return {f.p / common, f.q / common};
 }
 
-template <class Query>
 class DistanceReferee {
  public:
-  DistanceReferee(const Query& query, const detector::Separation& d,
+  DistanceReferee(const detector::FourPoints& query, const detector::Separation& d,
                   const DistanceRefereeOptions& options)
       : query_(query),
         d_(d),
@@ -192,7 +191,7 @@ class DistanceReferee {
     }
   }
 
-  const Query& query_;
+  const detector::FourPoints& query_;
   const detector::Separation& d_;
   const DistanceRefereeOptions options_;
   const int deepest_;
@@ -211,13 +210,7 @@ class DistanceReferee {
 
 }  // namespace
 
-DistanceVerdict distance_referee(const detector::VertexFace& query, const detector::Separation& d,
-                                 const DistanceRefereeOptions& options) {
-  require_exact_processor_state();
-  return DistanceReferee(query, d, options).run();
-}
-
-DistanceVerdict distance_referee(const detector::EdgeEdge& query, const detector::Separation& d,
+DistanceVerdict distance_referee(const detector::FourPoints& query, const detector::Separation& d,
                                  const DistanceRefereeOptions& options) {
   require_exact_processor_state();
   return DistanceReferee(query, d, options).run();

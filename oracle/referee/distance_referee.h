@@ -13,7 +13,6 @@
 // Thread safe. Ends the process when the processor does not round to nearest or flushes denormals.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "detector/mesh/step_types.h"
@@ -43,9 +42,7 @@ struct DistanceVerdict {
   std::uint64_t cells = 0;  // the pieces of the step that were looked at
 };
 
-DistanceVerdict distance_referee(const detector::VertexFace& query, const detector::Separation& d,
-                                 const DistanceRefereeOptions& options = {});
-DistanceVerdict distance_referee(const detector::EdgeEdge& query, const detector::Separation& d,
+DistanceVerdict distance_referee(const detector::FourPoints& query, const detector::Separation& d,
                                  const DistanceRefereeOptions& options = {});
 
 // The distance referee's two proofs: that the hull of differences comes within d of the origin at
@@ -75,10 +72,8 @@ struct IntegerReach {
   std::size_t bits() const;  // of the longest number
 };
 
-template <class Query>
-DoubleReach double_reach(const Query& query, const detector::Separation& d);
-template <class Query>
-IntegerReach integer_reach(const Query& query, const detector::Separation& d);
+DoubleReach double_reach(const detector::FourPoints& query, const detector::Separation& d);
+IntegerReach integer_reach(const detector::FourPoints& query, const detector::Separation& d);
 
 // Returns whether the hull is within d at t: yes is proved. no says that the hull, as doubles see
 // it, is further away than d by more than `slack` (in the hull's unit); it is no proof.

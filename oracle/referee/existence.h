@@ -79,10 +79,8 @@ struct IntegerHull {
   Hull<mpz_class> at(std::int64_t p, std::int64_t q) const;
 };
 
-DoubleHull double_hull(const detector::VertexFace& query);
-DoubleHull double_hull(const detector::EdgeEdge& query);
-IntegerHull integer_hull(const detector::VertexFace& query);
-IntegerHull integer_hull(const detector::EdgeEdge& query);
+DoubleHull double_hull(const detector::FourPoints& query);
+IntegerHull integer_hull(const detector::FourPoints& query);
 
 // Returns a hull of doubles that is near a positive multiple of the integer hull: all coordinates
 // are divided by one power of two, and each is rounded once. For guesses only.

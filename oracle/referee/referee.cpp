@@ -15,10 +15,9 @@ namespace assay::oracle {
 
 namespace {
 
-template <class Query>
 class Referee {
  public:
-  Referee(const Query& query, const RefereeOptions& options)
+  Referee(const detector::FourPoints& query, const RefereeOptions& options)
       : query_(query), options_(options), hull_(double_hull(query)) {}
 
   detector::Decision run() {
@@ -103,7 +102,7 @@ class Referee {
     return crossing_in_a_box(exact(), *guess, options_.until);
   }
 
-  const Query& query_;
+  const detector::FourPoints& query_;
   const RefereeOptions options_;
   const DoubleHull hull_;
   std::optional<IntegerHull> exact_;
@@ -113,25 +112,13 @@ class Referee {
 
 }  // namespace
 
-detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options) {
-  require_exact_processor_state();
-  return Referee(query, options).run();
-}
-
-detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options) {
-  require_exact_processor_state();
-  return Referee(query, options).run();
-}
-
 detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options) {
-  const auto& p = query.points;
-  return query.first_group == 1 ? referee(detector::VertexFace{p[0], {p[1], p[2], p[3]}}, options)
-                                : referee(detector::EdgeEdge{{p[0], p[1]}, {p[2], p[3]}}, options);
+  require_exact_processor_state();
+  return Referee(query, options).run();
 }
 
 namespace {
 
-using detector::four_points;
 using detector::FourPoints;
 
 using Rational = mpq_class;

@@ -30,8 +30,6 @@ struct RefereeOptions {
 
 // A greater depth may decide a query that was open; it never turns a no into a yes or a yes into a
 // no.
-detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options = {});
-detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options = {});
 detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options = {});
 
 // A proof of contact by rational arithmetic between two times.

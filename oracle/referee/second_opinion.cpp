@@ -5,16 +5,13 @@
 #include <initializer_list>
 #include <tuple>
 
-#include "oracle/mesh/feature_pairs.h"
-#include "oracle/parallel_chunks.h"
-#include "oracle/processor_state.h"
+#include "oracle/referee/referee.h"
 
 namespace assay::oracle {
 
 namespace {
 
 using detector::Feature;
-using detector::FeatureKind;
 using detector::TrianglePair;
 
 // Equal for equal indices in equal order, otherwise as good as random (splitmix64's mixing).
@@ -45,26 +42,23 @@ class Second {
         triangles_(triangles),
         judgement_(judgement),
         options_(options),
-        features_(mesh_features(triangles)),
         gate_(options.stop),
         found_(std::max(options.jobs, 1)) {}
 
   SecondOpinion run() {
-    const FeatureIndex mesh(features_, swept_boxes(motion_));
     const Workers workers = {static_cast<int>(found_.size()), &gate_};
-    if (!gate_.stopped()) {
-      for_each_vertex_face(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
-        ask_vertex_face(a, b, found_[static_cast<std::size_t>(worker)]);
-      });
-      if (judgement_.complete) {
-        for_each_face_face(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
-          check_pair(a, b, found_[static_cast<std::size_t>(worker)]);
-        });
-      }
-    }
-    if (!gate_.stopped()) {
-      for_each_edge_edge(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
-        ask_edge_edge(a, b, found_[static_cast<std::size_t>(worker)]);
+    const auto of = [this](int worker) -> auto& {
+      return found_[static_cast<std::size_t>(worker)];
+    };
+    const auto boxes = swept_boxes(motion_);
+    StepFeatures(motion_, triangles_, {})
+        .for_each(boxes, workers,
+                  [&](const FeaturePair& pair, int worker) { ask(pair, of(worker)); });
+    if (judgement_.complete && !gate_.stopped()) {
+      const MeshFeatures features = mesh_features(triangles_);
+      const FeatureIndex mesh(features, boxes);
+      for_each_face_face(mesh, workers, [&](std::int32_t a, std::int32_t b, int worker) {
+        check_pair({a, b}, of(worker));
       });
     }
     return collect();
@@ -75,32 +69,15 @@ class Second {
     return hash_to_unit(indices) < options_.share;
   }
 
-  detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
-
-  void ask_vertex_face(std::size_t item, std::size_t face, SecondOpinion& found) const {
-    const std::int32_t v = features_.vertices[item];
-    const Face& f = features_.faces[face];
-    if (!chosen({v, f[0], f[1], f[2]})) return;
-    const detector::VertexFace query = {path(v), {path(f[0]), path(f[1]), path(f[2])}};
-    const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
-    const bool judged = vertex_face_contact(query, detector::Want::yes_no).contact;
-    if (!compare_query(feature, judged, referee(query, options_.referee), found)) return;
-    for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
-      demand_pair(feature, t, static_cast<std::int32_t>(face), found);
-    }
-  }
-
-  void ask_edge_edge(std::size_t item, std::size_t other, SecondOpinion& found) const {
-    const Edge &a = features_.edges[item], &b = features_.edges[other];
-    if (!chosen({a[0], a[1], b[0], b[1]})) return;
-    const detector::EdgeEdge query = {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}};
-    const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
-    const bool judged = edge_edge_contact(query, detector::Want::yes_no).contact;
-    if (!compare_query(feature, judged, referee(query, options_.referee), found)) return;
-    for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
-      for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
-        demand_pair(feature, s, t, found);
-      }
+  void ask(const FeaturePair& pair, SecondOpinion& found) const {
+    const auto& [feature, of_first, of_second] = pair;
+    const auto& v = feature.vertices;
+    if (!chosen({v[0], v[1], v[2], v[3]})) return;
+    const auto points = points_of(motion_, feature);
+    const bool judged = contact_of(points, detector::Want::yes_no).contact;
+    if (!compare_query(feature, judged, referee(points), found)) return;
+    for (const std::int32_t s : of_first) {
+      for (const std::int32_t t : of_second) demand_pair(feature, s, t, found);
     }
   }
 
@@ -135,8 +112,7 @@ class Second {
         {ContradictionKind::missing_pair, feature, pair, {}, false, true});
   }
 
-  void check_pair(std::size_t item, std::size_t other, SecondOpinion& found) const {
-    const TrianglePair pair{static_cast<std::int32_t>(item), static_cast<std::int32_t>(other)};
+  void check_pair(TrianglePair pair, SecondOpinion& found) const {
     if (!chosen({pair.a, pair.b})) return;
     const detector::PairContact* judged = judged_pair(pair);
     for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {1, 2}, {1, 1}}) {
@@ -188,7 +164,6 @@ class Second {
   const detector::TrianglesView& triangles_;
   const StepJudgement& judgement_;
   const SecondOpinionOptions& options_;
-  const MeshFeatures features_;
   StopGate gate_;
   std::vector<SecondOpinion> found_;  // by thread
 };
@@ -198,8 +173,6 @@ class Second {
 SecondOpinion second_opinion(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles,
                              const StepJudgement& judgement, const SecondOpinionOptions& options) {
-  require_exact_processor_state();
-  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(options.share > 0 && options.share <= 1);
   return Second(motion, triangles, judgement, options).run();
 }

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "oracle/mesh/step.h"
-#include "oracle/referee/referee.h"
 #include "oracle/referee/static_check.h"
 
 namespace assay::oracle {
@@ -22,7 +21,6 @@ struct SecondOpinionOptions {
   double share = 1;             // of queries and of triangle pairs, in (0,1]
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // asked from one thread at a time
-  RefereeOptions referee;
 };
 
 enum class ContradictionKind : std::uint8_t {

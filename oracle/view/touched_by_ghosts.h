@@ -7,12 +7,6 @@
 
 namespace assay::oracle {
 
-struct GhostSweepOptions {
-  int jobs = 1;
-  // True: edges that pierce a face at t=0 count too. Needed at the first step and after a reset.
-  bool static_at_start = false;
-};
-
 // Element t of the result is 1 when some ghost touches triangle t of the mesh at any time in
 // [0,1]: closed faces of the two that share no vertex meet (vertex against triangle both ways,
 // edge against edge). So a triangle next to the loop is tested through the features that it does
@@ -23,13 +17,14 @@ struct GhostSweepOptions {
 // It moves linearly from apexes_t0.row(k) at t=0 to apexes_t1.row(k) at t=1. REQUIRES indices in
 // range, finite positions. Features that do not move are judged by integers. Each other pair of
 // features whose swept boxes meet costs what contact.h says, until the triangle is known to be
-// touched.
+// touched. If `static_at_start`, edges that pierce a face at t=0 count too, which is needed at the
+// first step and after a reset.
 std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::TrianglesView& triangles,
                                             const detector::PositionsView& apexes_t0,
                                             const detector::PositionsView& apexes_t1,
                                             const detector::TrianglesView& ghosts,
-                                            const GhostSweepOptions& options = {});
+                                            bool static_at_start = false);
 
 // Returns the rows of the mesh, followed by those of the apexes: the numbering that ghosts use.
 detector::Positions with_apexes(const detector::PositionsView& x,

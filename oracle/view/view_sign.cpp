@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 #include "oracle/query/integer_polynomial.h"
 #include "oracle/query/interval_sign.h"
@@ -25,23 +24,18 @@ ViewSign view_sign(const MovingTriangle& triangle, const detector::ViewPrimitive
 
 std::vector<ViewSign> view_signs(const detector::SteppedMesh& motion,
                                  const detector::TrianglesView& triangles,
-                                 std::span<const detector::ViewPrimitive> primitives, int jobs) {
+                                 std::span<const detector::ViewPrimitive> primitives) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(primitives.size() == 1 || primitives.size() == count);
-  std::vector<ViewSign> signs(count);
-  constexpr std::size_t triangles_at_once = 256;
-  StopGate never({});
-  for_each_chunk(count, triangles_at_once, jobs, never,
-                 [&](std::size_t begin, std::size_t end, int) {
-                   for (std::size_t t = begin; t < end; ++t) {
-                     auto corner = [&](int i) {
-                       return motion.path(triangles(static_cast<Eigen::Index>(t), i));
-                     };
-                     signs[t] = view_sign({corner(0), corner(1), corner(2)},
-                                          primitives[primitives.size() == 1 ? 0 : t]);
-                   }
-                 });
+  std::vector<ViewSign> signs;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto corner = [&](int i) {
+      return motion.path(triangles(static_cast<Eigen::Index>(t), i));
+    };
+    signs.push_back(
+        view_sign({corner(0), corner(1), corner(2)}, primitives[primitives.size() == 1 ? 0 : t]));
+  }
   return signs;
 }
 
@@ -124,39 +118,12 @@ namespace {
 
 using Interval = CGAL::Interval_nt<false>;
 using Linear = LinearVector<Interval>;
+using Difference = MovingDifference<Interval>;
 
 // hm is of fifth degree in differences below 2^151, with fewer than 2^10 terms: no overflow.
 constexpr double largest_coordinate = 0x1p150;
-constexpr double split_at = 15.0 / 32.0;  // as in the interval rung of contacts
 constexpr int most_depth = 8;
 constexpr int most_pieces = 48;
-
-struct Piece {
-  double s, e;
-  int depth;
-};
-
-// A difference of two moving points, kept at both ends of the step.
-class Difference {
- public:
-  Difference(const MovingPoint& from, const MovingPoint& to) {
-    for (int k = 0; k < 3; ++k) {
-      t0_[k] = Interval(to.t0[k]) - Interval(from.t0[k]);
-      t1_[k] = Interval(to.t1[k]) - Interval(from.t1[k]);
-    }
-  }
-  Linear on(const Piece& piece) const { return {at(piece.s), at(piece.e)}; }
-
- private:
-  Vector3<Interval> at(double t) const {
-    if (t == 0) return t0_;
-    if (t == 1) return t1_;
-    Vector3<Interval> u;
-    for (int k = 0; k < 3; ++k) u[k] = Interval(1 - t) * t0_[k] + Interval(t) * t1_[k];
-    return u;
-  }
-  Vector3<Interval> t0_, t1_;
-};
 
 bool surely_zero(const Interval& x) { return x.inf() == 0 && x.sup() == 0; }
 
@@ -199,31 +166,32 @@ class ViewFunctions {
         from_q0_{Difference{q.q0, p[0]}, {q.q0, p[1]}, {q.q0, p[2]}},
         from_q1_{Difference{q.q1, p[0]}, {q.q1, p[1]}, {q.q1, p[2]}} {}
 
-  PieceSigns on(const Piece& piece) const {
-    const QuadraticVector<Interval> normal = cross(u1_.on(piece), u2_.on(piece));
-    const Bernstein<Interval, 3> h0 = dot(from_q0_[0].on(piece), normal);
+  PieceSigns on(const StepPiece& piece) const {
+    const QuadraticVector<Interval> normal =
+        cross(u1_.on(piece.s, piece.e), u2_.on(piece.s, piece.e));
+    const Bernstein<Interval, 3> h0 = dot(from_q0_[0].on(piece.s, piece.e), normal);
     const int sign_h0 = sure_sign(h0);
     PieceSigns signs{true, true};
     if (is_point_) {
       signs.add(sign_h0, sure_sign(h0[0]), surely_zero(h0[0]));
       return signs;
     }
-    const Bernstein<Interval, 3> h1 = dot(from_q1_[0].on(piece), normal);
+    const Bernstein<Interval, 3> h1 = dot(from_q1_[0].on(piece.s, piece.e), normal);
     const int sign_h1 = sure_sign(h1);
     if (sign_h0 != 0 && sign_h0 == sign_h1) {
       signs.add(sign_h0, 0, false);
       return signs;
     }
-    const Linear d = d_.on(piece);
+    const Linear d = d_.on(piece.s, piece.e);
     for (int i = 0; i < 3; ++i) add_vertex(i, piece, d, h0, h1, signs);
     return signs;
   }
 
  private:
-  void add_vertex(int i, const Piece& piece, const Linear& d, const Bernstein<Interval, 3>& h0,
+  void add_vertex(int i, const StepPiece& piece, const Linear& d, const Bernstein<Interval, 3>& h0,
                   const Bernstein<Interval, 3>& h1, PieceSigns& signs) const {
-    const Bernstein<Interval, 2> g0 = dot(from_q0_[i].on(piece), d);
-    const Bernstein<Interval, 2> g1 = dot(from_q1_[i].on(piece), d);
+    const Bernstein<Interval, 2> g0 = dot(from_q0_[i].on(piece.s, piece.e), d);
+    const Bernstein<Interval, 2> g1 = dot(from_q1_[i].on(piece.s, piece.e), d);
     const Bernstein<Interval, 5> hm = difference(product(h1, g0), product(h0, g1));
     const SignsOnRange whole{sure_sign(h0), sure_sign(h1), sure_sign(g0), sure_sign(g1),
                              sure_sign(hm)};
@@ -244,12 +212,11 @@ class ViewFunctions {
 [[gnu::noinline]] std::optional<ViewSign> judge_pieces(const MovingTriangle& triangle,
                                                        const detector::ViewPrimitive& primitive) {
   const ViewFunctions functions(triangle, primitive);
-  std::array<Piece, most_depth + 2> stack;
-  int size = 0, judged = 0;
-  stack[size++] = {0, 1, 0};
+  StepPieces<most_depth> pieces;
+  int judged = 0;
   bool positive = false, negative = false, settled = true;
-  while (size > 0) {
-    const Piece piece = stack[--size];
+  while (!pieces.empty()) {
+    const StepPiece piece = pieces.take();
     if (++judged > most_pieces) return {};
     const PieceSigns signs = functions.on(piece);
     positive = positive || signs.some_positive;
@@ -262,9 +229,7 @@ class ViewFunctions {
       settled = false;
       continue;
     }
-    const double middle = piece.s + (piece.e - piece.s) * split_at;
-    stack[size++] = {middle, piece.e, piece.depth + 1};
-    stack[size++] = {piece.s, middle, piece.depth + 1};
+    pieces.cut(piece);
   }
   if (!settled) return {};
   return positive ? ViewSign::positive : ViewSign::negative;
@@ -296,14 +261,6 @@ bool Candidates::holds(const detector::TrianglePair& pair) const {
   if (signs_[a] != signs_[b]) return true;
   if (!violated_.empty() && (violated_[a] || violated_[b])) return true;
   return !groups_.empty() && groups_[a] != groups_[b];
-}
-
-PairSplit split(const std::vector<PairContact>& pairs, const Candidates& candidates) {
-  PairSplit parts;
-  for (const PairContact& contact : pairs) {
-    (candidates.holds(contact.pair) ? parts.in_k : parts.outside).push_back(contact);
-  }
-  return parts;
 }
 
 bool holds_a_first_contact(const std::vector<PairContact>& pairs, const Candidates& candidates) {

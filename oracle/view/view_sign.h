@@ -41,8 +41,7 @@ detector::ViewSign view_sign(const MovingTriangle& triangle,
 // REQUIRES one primitive for all triangles, or one for each.
 std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
                                            const detector::TrianglesView& triangles,
-                                           std::span<const detector::ViewPrimitive> primitives,
-                                           int jobs);
+                                           std::span<const detector::ViewPrimitive> primitives);
 
 // K, the pairs among which the first contact is found (L3 and L10, detector/LAWS.md).
 //
@@ -65,12 +64,6 @@ class Candidates {
   std::vector<std::uint8_t> violated_;
   std::vector<std::int32_t> groups_;
 };
-
-struct PairSplit {
-  std::vector<detector::PairContact> in_k, outside;  // in the order given
-};
-
-PairSplit split(const std::vector<detector::PairContact>& pairs, const Candidates& candidates);
 
 // Returns whether L3 holds: some pair of `pairs` with the least time is in `candidates`. Returns
 // true if there are no pairs.

@@ -48,7 +48,7 @@ void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
                  height = 0.8 + random.unit();
     const Point slide = any_vector(random);
     const auto first = draft.vertices();
-    add_sheet(draft, cells, cells, [&](int k, int i) {
+    add_sheet(draft, {cells, cells}, [&](int k, int i) {
       return Point{static_cast<double>(k), static_cast<double>(i), gap * layer};
     });
     for (auto v = first; v < draft.vertices(); ++v) {
@@ -67,7 +67,7 @@ void crumpled_sheet(Random& random, int triangles, Draft& draft, Points& end) {
   const int cells = nearest_resolution(triangles, 2 * wall, [](int k) { return 2 * k * k; });
   const double press = 0.25 + 0.2 * random.unit(), rough = 0.4 + 0.4 * random.unit();
   // Walls that stand upright side by side, joined by their lower and upper edges in turn.
-  add_sheet(draft, cells, cells, [&](int k, int i) {
+  add_sheet(draft, {cells, cells}, [&](int k, int i) {
     const int period = wall + 1, pleat = k / period, along = k % period;
     const double height = pleat % 2 == 0 ? along : wall - along;
     return Point{gap * pleat, static_cast<double>(i), height};
@@ -191,7 +191,7 @@ void add_ground(Draft& draft, Points& end, Random& random, int triangles, double
   const int cells = nearest_resolution(triangles, 1, [](int k) { return 2 * k * k; });
   const double phase = random.unit();
   const auto first = draft.vertices();
-  add_sheet(draft, cells, cells, [&](int k, int i) {
+  add_sheet(draft, {cells, cells}, [&](int k, int i) {
     return Point{1. * k, 1. * i, height + 0.1 * sin_turn(0.07 * (k + i) + phase)};
   });
   for (auto v = first; v < draft.vertices(); ++v) {

@@ -152,25 +152,18 @@ class PairOfStep {
   }
 
   // Tells what is special about the contact of these two features.
-  const char* shape(const PairContact& contact, bool of_distance) const {
-    if (is_without_area(contact.time)) return without_area;
-    const auto& v = contact.feature.vertices;
-    if (of_distance) return shape_of_distance(contact);
-    if (contact.feature.kind == FeatureKind::vertex_face) {
-      return word_of(oracle::shape_of(
-          detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}}, contact.time));
-    }
-    return word_of(oracle::shape_of(
-        detector::EdgeEdge{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}}, contact.time));
+  CauseShape shape(const PairContact& contact, bool of_distance) const {
+    if (is_without_area(contact.time)) return CauseShape::without_area;
+    return of_distance ? shape_of_distance(contact)
+                       : shape_of(oracle::shape_of(oracle::points_of(motion_, contact.feature),
+                                                   contact.time));
   }
 
  private:
-  const char* shape_of_distance(const PairContact& contact) const {
-    const auto& v = contact.feature.vertices;
+  CauseShape shape_of_distance(const PairContact& contact) const {
     const bool is_vertex_face = contact.feature.kind == FeatureKind::vertex_face;
-    const auto places = oracle::closest_places(
-        {{path(v[0]), path(v[1]), path(v[2]), path(v[3])}, is_vertex_face ? 1 : 2},
-        contact.time.lo);
+    const auto places =
+        oracle::closest_places(oracle::points_of(motion_, contact.feature), contact.time.lo);
     const auto is_inside = [](double share) { return 0 < share && share < 1; };
     const bool first = is_inside(places.first), second = is_inside(places.second);
     if (!is_vertex_face) {

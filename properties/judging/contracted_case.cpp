@@ -241,25 +241,19 @@ StepJudgement judge_query(const FourPoints& query, const Contract& contract) {
   judgement.complete = true;
   judgement.feature_candidates = 1;
   // The two features as a pair, if they meet.
-  const auto pair_at = [&](bool meet, const TimeEnclosure& first) {
-    std::vector<PairContact> pairs;
-    if (!meet) return pairs;
-    pairs.push_back({{0, 1}, first, features_of(query)});
+  const auto pairs_of = [&](const oracle::ContactAnswer& answer) {
+    std::vector<detector::PairContact> pairs;
+    if (answer.contact) pairs.push_back({{0, 1}, answer.first, features_of(query)});
     return pairs;
   };
-  if (contract.separation > 0) {
-    const auto answer = oracle::first_time_within(query, {contract.separation, 0});
-    judgement.rungs.add(answer.rung);
-    judgement.pairs = pair_at(answer.near, answer.first);
-  } else {
-    const auto answer = oracle::contact_of(query, Want::first_time);
-    judgement.rungs.add(answer.rung);
-    judgement.pairs = pair_at(answer.contact, answer.first);
-  }
-  if (contract.margin > 0) {
-    const auto slack = oracle::first_time_within(query, {contract.separation, contract.margin});
-    judgement.within_slack = pair_at(slack.near, slack.first);
-  }
+  const auto answer = contract.separation > 0
+                          ? oracle::first_time_within(query, {contract.separation, 0})
+                          : oracle::contact_of(query, detector::Want::first_time);
+  judgement.rungs.add(answer.rung);
+  judgement.pairs = pairs_of(answer);
+  if (contract.margin > 0)
+    judgement.within_slack =
+        pairs_of(oracle::first_time_within(query, {contract.separation, contract.margin}));
   judgement.asked_pairs = judgement.pairs;
   judgement.answer = judgement.pairs.empty() ? Answer::free : Answer::collision;
   if (!judgement.pairs.empty()) judgement.first = judgement.pairs.front().time;

@@ -47,20 +47,10 @@ MethodAnswer detector_integers(const QueryTask& task) {
   return answer_of(answer.contact, answer.time, answer.rung, Want::first_time);
 }
 
-oracle::DistanceVerdict ask_distance_referee(const QueryTask& task,
-                                             const oracle::DistanceRefereeOptions& options) {
-  const auto& x = task.query.points;
-  if (task.query.first_group == 2)
-    return oracle::distance_referee(detector::EdgeEdge{{x[0], x[1]}, {x[2], x[3]}}, *task.within,
-                                    options);
-  return oracle::distance_referee(detector::VertexFace{x[0], {x[1], x[2], x[3]}}, *task.within,
-                                  options);
-}
-
-// For a distance no first time is asked for, so any bracket of it will do.
+// Of a distance no time is asked for, so that any bracket of it will do.
 MethodAnswer referee(const QueryTask& task) {
   if (!task.within) return {oracle::referee(task.query)};
-  return {ask_distance_referee(task, {.bits = 0}).within};
+  return {oracle::distance_referee(task.query, *task.within, {.bits = 0}).within};
 }
 
 // The limits are small, because a query that is not settled soon is mostly a touch, which no
@@ -70,7 +60,7 @@ MethodAnswer second_referee(const QueryTask& task) {
 }
 
 MethodAnswer distance_referee(const QueryTask& task) {
-  const auto verdict = ask_distance_referee(task, {});
+  const auto verdict = oracle::distance_referee(task.query, *task.within);
   return {.decision = verdict.within, .proof = verdict};
 }
 
@@ -84,7 +74,7 @@ MethodAnswer contact_at_no_distance(const QueryTask& task) {
 MethodAnswer least_distance(const QueryTask& task) {
   const double least = oracle::least_distance(task.query);
   const auto is_within = [&](double distance) {
-    return oracle::first_time_within(task.query, {distance, 0}, Want::yes_no).near;
+    return oracle::first_time_within(task.query, {distance, 0}, Want::yes_no).contact;
   };
   if (std::isfinite(least) && !is_within(least))
     throw std::logic_error("farther apart than the least distance");
@@ -142,11 +132,8 @@ constexpr QueryMethod methods[] = {
 }  // namespace
 
 MethodAnswer oracle_answer(const QueryTask& task, Want want) {
-  if (task.within) {
-    const auto answer = oracle::first_time_within(task.query, *task.within, want);
-    return answer_of(answer.near, answer.first, answer.rung, want);
-  }
-  const auto answer = oracle::contact_of(task.query, want);
+  const auto answer = task.within ? oracle::first_time_within(task.query, *task.within, want)
+                                  : oracle::contact_of(task.query, want);
   return answer_of(answer.contact, answer.first, answer.rung, want);
 }
 

@@ -280,7 +280,7 @@ class Check {
 
   // The law that does not hold, or null if all hold.
   const char* check_laws(std::size_t orientation, const ViewPrimitive& q) {
-    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1}, 1);
+    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1});
     const auto all = [&](ViewSign sign) {
       return std::ranges::all_of(signs, [=](ViewSign s) { return s == sign; });
     };

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/ledger/binding.h"
@@ -14,7 +13,6 @@
 #include "reports/bench/cases.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/terminal/options.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 
@@ -147,6 +145,9 @@ class CampaignTerminal : public properties::CampaignObserver {
 }  // namespace
 
 void add_campaign_options(CLI::App& verb, CampaignWords& words) {
+  add(verb, "--campaign NAME|FILE", words.campaign,
+      "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
   add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
   add(verb, "--time SECONDS", words.time_limit,
       "Seconds by the clock for the campaign, in place of its own limit; what is left "

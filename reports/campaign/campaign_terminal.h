@@ -36,8 +36,8 @@ struct CampaignWords {
   std::uint64_t shares = 1;  // 8: an eighth of the campaign is done
 };
 
-// Adds an option for each member but --campaign, --out and --share, which each verb describes in
-// its own way.
+// Adds an option for each member but --out and --share, which each verb describes in its own way.
+// The campaign that `words` names is the default.
 void add_campaign_options(CLI::App& verb, CampaignWords& words);
 
 // Turns the words into a request. From this call on ctrl-C ends the program, and stored rows stay.

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/findings.h"
-#include "properties/campaign/gates/gates.h"
 #include "properties/campaign/ledger/tally.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 namespace {

@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "corpus/digest.h"
 #include "corpus/files.h"
 #include "corpus/json_fields.h"
-#include "properties/campaign/gates/findings.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/terminal/words.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

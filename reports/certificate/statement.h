@@ -14,7 +14,6 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/problem.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "corpus/formats/sequences.h"
 #include "detector/mesh/mesh_checks.h"
-#include "detector/mesh/topology.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "oracle/referee/second_opinion.h"
@@ -17,7 +15,6 @@
 #include "properties/judging/verdict.h"
 #include "properties/numbering.h"
 #include "reports/steps/step_report.h"
-#include "reports/terminal/option_words.h"
 #include "reports/terminal/work.h"
 
 namespace assay::reports {
@@ -423,7 +420,7 @@ class CheckRun {
     const double share = *question_.second_opinion;
     const auto [opinion, milliseconds] = answer_in(limits_, [&] {
       const detector::SteppedMesh motion = {step.x_t0, step.x_t1};
-      const oracle::SecondOpinionOptions options = {share, question_.jobs, stop, {}};
+      const oracle::SecondOpinionOptions options = {share, question_.jobs, stop};
       const auto* counted_pairs = steps_.counted();
       const bool asks_contacts = answers_.under_test().contract.separation == 0;
       if (asks_contacts && (!counted_pairs || counted_pairs->count_all()))

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/judging/step_measures.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 

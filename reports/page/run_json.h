@@ -3,13 +3,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"
-#include "reports/pictures/case_scene.h"
 
 namespace assay::reports {
 

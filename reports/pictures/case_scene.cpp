@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "detector/contact_place.h"
@@ -10,8 +9,6 @@
 #include "properties/judging/case_options.h"
 #include "properties/judging/exam.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/terminal/option_words.h"
-#include "reports/terminal/work.h"
 
 namespace assay::reports {
 

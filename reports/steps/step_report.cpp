@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "detector/step_result.h"
 #include "properties/fields.h"
-#include "properties/judging/agreement.h"
 
 namespace assay::detector {
 

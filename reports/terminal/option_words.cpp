@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <boost/assert.hpp>
 #include <cmath>
 #include <thread>

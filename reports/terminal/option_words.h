@@ -2,8 +2,6 @@
 // the detector that words name, the built-in one or a plug-in, and describes a plug-in to people.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,5 @@
 #include "reports/terminal/words.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/Version.hpp>

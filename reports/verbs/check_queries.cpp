@@ -81,12 +81,10 @@ bool is_label_disputed(const properties::QueryMethod& method, const properties::
 
 class QueryScore {
  public:
-  QueryScore(const properties::QueryMethod& method, std::vector<std::string> files)
-      : QueryScore(std::string(method.word), std::move(files)) {
-    method_ = &method;
-  }
-  // The score of a plug-in. Its answers are added by add_answer.
-  QueryScore(std::string name, std::vector<std::string> files) {
+  // Without a method it is the score of a plug-in, whose answers are added by add_answer.
+  QueryScore(std::string name, std::vector<std::string> files,
+             const properties::QueryMethod* method)
+      : method_(method) {
     report_.method = std::move(name);
     report_.files = std::move(files);
   }
@@ -222,8 +220,8 @@ class QueryScore {
   }
 
  private:
-  const properties::QueryMethod* method_ = nullptr;  // null for a plug-in
-  QueryReport report_;                               // of the answers that were added
+  const properties::QueryMethod* const method_;  // null for a plug-in
+  QueryReport report_;                           // of the answers that were added
   std::vector<double> microseconds_;
   std::array<std::uint64_t, 5> rungs_ = {};
   std::size_t of_distance_ = 0;  // queries that were asked with a separation
@@ -280,7 +278,7 @@ Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet
   }
   fmt::print("{}\n", detector.title());
   std::fflush(stdout);
-  QueryScore score(detector.name(), task.files);
+  QueryScore score(detector.name(), task.files, nullptr);
   for (std::size_t i = 0; i < sets.size(); ++i) {
     BOOST_OUTCOME_TRY(ask_plugin(detector, task.files[i], sets[i], score));
   }
@@ -331,7 +329,7 @@ Expected<int> check_queries(const QueryQuestion& task) {
   }
   if (!task.detector.library.empty()) return check_plugin(task, sets);
   BOOST_OUTCOME_TRY(check_method(task, sets));
-  QueryScore score(*task.method, task.files);
+  QueryScore score(task.method->word, task.files, task.method);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(task.files[i], sets[i]);
   score.print();
   BOOST_OUTCOME_TRY(write_report(task.json_file, score, nullptr));

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <set>
 
 #include "corpus/digest.h"
 #include "corpus/problem.h"
@@ -158,9 +157,6 @@ Expected<int> certify(const CampaignWords& words) {
 
 void add_certify_options(CLI::App& verb, CampaignWords& words) {
   words.campaign = "smoke";
-  add(verb, "--campaign NAME|FILE", words.campaign,
-      "smoke, quick, nightly, release, or a campaign file (.json)")
-      ->capture_default_str();
   add_campaign_options(verb, words);
   add(verb, "--out DIR", words.out, "Folder for the certificate")
       ->required()
@@ -231,9 +227,6 @@ std::optional<std::uint64_t> shares_of(const std::string& word) {
 
 void add_run_options(CLI::App& verb, CampaignWords& words) {
   words.campaign = "quick";
-  add(verb, "--campaign NAME|FILE", words.campaign,
-      "smoke, quick, nightly, release, or a campaign file (.json)")
-      ->capture_default_str();
   add_campaign_options(verb, words);
   add_choice(verb, "--share 1/N", words.shares, "1/N, with N from 1 to 1000000", shares_of,
              "1/N: do this share of the campaign under a seed of its own, with the checks and the "

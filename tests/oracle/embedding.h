@@ -18,16 +18,14 @@ namespace assay::oracle {
 inline std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
                                                        const detector::TrianglesView& triangles,
                                                        int jobs = 1) {
-  const StaticPoints x = instant.points();
-  const FeatureTests tests = {
-      [x](std::int32_t v, const Face& f) { return vertex_meets_face(x, v, f); },
-      [x](const Edge& a, const Edge& b) { return edges_meet(x, a, b); },
-      [x](const Edge& e, const Face& f) { return edge_pierces_face(x, e, f); }};
+  const auto meet = [&](const detector::Feature& feature) {
+    return features_meet(instant.points(), feature);
+  };
   const MeshFeatures features = mesh_features(triangles);
   const FeatureIndex mesh(
       features, [&](std::span<const std::int32_t> vertices) { return instant.box_of(vertices); });
   std::vector<std::vector<detector::TrianglePair>> found(std::max(jobs, 1));
-  for_each_contact(mesh, mesh, tests, {jobs},
+  for_each_contact(mesh, mesh, meet, {jobs},
                    {[](std::int32_t s, std::int32_t t) { return s != t; },
                     [&](std::int32_t s, std::int32_t t, int worker) {
                       found[worker].push_back({std::min(s, t), std::max(s, t)});

@@ -116,7 +116,7 @@ class KeepsDistance {
     const SteppedMesh motion{from, to};
     const auto q = features_of(motion, std::array{0, 1, 2, 3}, kind == ASSAY_QUERY_VERTEX_FACE);
     const auto answer = oracle::first_time_within(q, {asked_distance(), 0});
-    if (!answer.near) return Result::free();
+    if (!answer.contact) return Result::free();
     if (told().has("no-edges") && has_foot_on_edge(q, answer.first.lo)) return Result::free();
     return Result::collision(answer.first.lo, answer.first.hi);
   }

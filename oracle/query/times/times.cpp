@@ -1,10 +1,8 @@
 #include "oracle/query/times/times.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace assay::oracle {

@@ -128,7 +128,7 @@ const std::vector<ViewSign>& CaseFacts::signs(std::size_t s) {
       every[at(t)] = t;
     }
   }
-  signs = oracle::view_signs({all_t0(s), all_t1(s)}, rows_of(all, every), primitives, 1);
+  signs = oracle::view_signs({all_t0(s), all_t1(s)}, rows_of(all, every), primitives);
   return *signs;
 }
 
@@ -145,7 +145,7 @@ const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
     if (ghosts.empty()) continue;
     const auto part =
         oracle::touched_by_ghosts({x_t0(s), x_t1(s)}, rows_of(surface_.all(), own), apexes_t0,
-                                  apexes_t1, rows_of(surface_.all(), ghosts), {1, is_new});
+                                  apexes_t1, rows_of(surface_.all(), ghosts), is_new);
     for (std::size_t i = 0; i < part.size(); ++i) (*touched)[at(own[i])] = part[i];
   }
   return *touched;

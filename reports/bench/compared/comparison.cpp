@@ -10,7 +10,6 @@
 
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/exam.h"
-#include "properties/judging/step_measures.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {

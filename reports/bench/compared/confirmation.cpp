@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/referee/referee.h"
 #include "oracle/referee/static_check.h"
 #include "reports/bench/compared/comparison.h"
@@ -80,9 +81,7 @@ struct StepWitness {
   std::optional<detector::FourPoints> query_of(const detector::Feature& feature) const {
     if (feature.kind != FeatureKind::vertex_face && feature.kind != FeatureKind::edge_edge)
       return std::nullopt;
-    const auto path = [&](std::size_t i) { return motion.path(feature.vertices[i]); };
-    return detector::FourPoints{{path(0), path(1), path(2), path(3)},
-                                feature.kind == FeatureKind::vertex_face ? 1 : 2};
+    return oracle::points_of(motion, feature);
   }
 
   // Returns whether the features, or the whole triangles if these are taken, meet at this time. A

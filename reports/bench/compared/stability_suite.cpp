@@ -82,7 +82,7 @@ std::vector<ViewSign> signs_from(const std::vector<detector::ViewPrimitive>& pri
   std::vector<detector::ViewPrimitive> of_triangle;
   for (const auto component : mesh.component_of_triangle)
     of_triangle.push_back(primitives[static_cast<std::size_t>(component)]);
-  return oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, of_triangle, 1);
+  return oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, of_triangle);
 }
 
 // Returns whether the oracle agrees with the case's construction: answer, first time, view signs.
@@ -92,7 +92,7 @@ bool agrees_with_construction(const corpus::Case& c, const oracle::StepJudgement
   return judgement.answer == step.answer &&
          (!step.first_time || judgement.first == *step.first_time) &&
          (!step.view_signs || oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles,
-                                                 {&*view, 1}, 1) == *step.view_signs);
+                                                 {&*view, 1}) == *step.view_signs);
 }
 
 Cell cell_of(const Match& match, std::size_t subject) {

@@ -25,16 +25,16 @@ void expect_first(const MovingPoint& p, const MovingFace& f, double d, const Tim
   for (int i = 0; i < 3; ++i) {
     for (const int turn : {1, 2}) {
       const MovingFace turned = {f[i], f[(i + turn) % 3], f[(i + 2 * turn) % 3]};
-      const FirstNear answer = first_time_within(vertex_face(p, turned), {d, 0});
-      EXPECT_TRUE(answer.near) << d;
+      const ContactAnswer answer = first_time_within(vertex_face(p, turned), {d, 0});
+      EXPECT_TRUE(answer.contact) << d;
       EXPECT_EQ(answer.first, first) << d << " " << answer.first.lo;
     }
   }
 }
 
 void expect_apart(const FourPoints& q, const Separation& d) {
-  EXPECT_FALSE(first_time_within(q, d).near);
-  EXPECT_FALSE(first_time_within(q, d, detector::Want::yes_no).near);
+  EXPECT_FALSE(first_time_within(q, d).contact);
+  EXPECT_FALSE(first_time_within(q, d, detector::Want::yes_no).contact);
 }
 
 using MovingEdge = std::array<MovingPoint, 2>;
@@ -46,8 +46,8 @@ void expect_first(const MovingEdge& a, const MovingEdge& b, const Separation& d,
     for (const int j : {0, 1}) {
       for (const FourPoints& q : {FourPoints{{a[i], a[1 - i], b[j], b[1 - j]}, 2},
                                   FourPoints{{b[j], b[1 - j], a[i], a[1 - i]}, 2}}) {
-        const FirstNear answer = first_time_within(q, d);
-        EXPECT_TRUE(answer.near);
+        const ContactAnswer answer = first_time_within(q, d);
+        EXPECT_TRUE(answer.contact);
         EXPECT_EQ(answer.first, first) << answer.first.lo;
       }
     }
@@ -77,7 +77,7 @@ TEST(FeatureDistance, PointBesideAVertexOfAFace) {
   // 9 (1 - t) from the vertex 0. The line of the edge 0 1 is nearer, and is reached outside of it.
   const MovingPoint coming = {{-6, -3, -6}, {0, 0, 0}};
   expect_first(coming, test::resting_face, 4.5, half);
-  const FirstNear third = first_time_within(vertex_face(coming, test::resting_face), {3, 0});
+  const ContactAnswer third = first_time_within(vertex_face(coming, test::resting_face), {3, 0});
   EXPECT_EQ(third.first, (TimeEnclosure{2.0 / 3, std::nextafter(2.0 / 3, 1)}));
 }
 
@@ -124,9 +124,9 @@ TEST(FeatureDistance, NormalThatVanishesIsNoNearness) {
 // Far at both ends, near in between.
 TEST(FeatureDistance, NearOnlyInBetween) {
   // p = (24t - 10, 1, 1), within 2 of the edge x = 0 where |24t - 10| <= sqrt 3.
-  const FirstNear answer =
+  const ContactAnswer answer =
       first_time_within(vertex_face({{-10, 1, 1}, {14, 1, 1}}, test::resting_face), {2, 0});
-  ASSERT_TRUE(answer.near);
+  ASSERT_TRUE(answer.contact);
   EXPECT_NEAR(answer.first.lo, (10 - std::sqrt(3.0)) / 24, 1e-15);
   EXPECT_EQ(answer.first.hi, std::nextafter(answer.first.lo, 1));
 }
@@ -138,8 +138,9 @@ TEST(FeatureDistance, TouchAtExactlyD) {
   expect_first(passing, below, 3, half);
   expect_apart(vertex_face(passing, below), {std::nextafter(3.0, 0), 0});
   // At 1/3, which is no double.
-  const FirstNear third = first_time_within(vertex_face({{-1, 3, 0}, {2, 3, 0}}, below), {3, 0});
-  ASSERT_TRUE(third.near);
+  const ContactAnswer third =
+      first_time_within(vertex_face({{-1, 3, 0}, {2, 3, 0}}, below), {3, 0});
+  ASSERT_TRUE(third.contact);
   EXPECT_EQ(third.first, (TimeEnclosure{1.0 / 3, std::nextafter(1.0 / 3, 1)}));
   // Past the edge below z = 0 and past another edge.
   expect_first({{2, -3, -1}, {2, -3, 1}}, test::resting_face, 3, half);
@@ -159,14 +160,14 @@ TEST(FeatureDistance, SquareOfDIsExact) {
   const double d = 1 + 0x1p-52;
   const MovingFace below = {rest({0, 0, 0}), rest({1, 0, -5}), rest({0, 1, -5})};
   const auto at = [&](double x, double y) { return vertex_face(rest({0, -y, x}), below); };
-  EXPECT_TRUE(first_time_within(at(d, 0), {d, 0}).near);
+  EXPECT_TRUE(first_time_within(at(d, 0), {d, 0}).contact);
   expect_apart(at(d, 0x1p-60), {d, 0});
   // The sum of two doubles is no double.
-  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x1p-60}).near);
+  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x1p-60}).contact);
   expect_apart(at(1, 0x1p-40), {1, 0x1p-82});
-  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x3p-82}).near);
+  EXPECT_TRUE(first_time_within(at(1, 0x1p-40), {1, 0x3p-82}).contact);
   // 2 - 2t = 1 + 2^-60.
-  const FirstNear falling =
+  const ContactAnswer falling =
       first_time_within(vertex_face({{0, 0, 2}, {0, 0, 0}}, below), {1, 0x1p-60});
   EXPECT_EQ(falling.first, about(0.5));
 }
@@ -175,7 +176,7 @@ TEST(FeatureDistance, CollapsedFeatures) {
   const MovingPoint coming = {{-3, 4, 12}, {3, 4, 12}};  // 13 from the origin at both ends
   const MovingFace point = {rest({0, 0, 0}), rest({0, 0, 0}), rest({0, 0, 0})};
   expect_first(coming, point, 13, {0, 0});
-  const FirstNear in_between =
+  const ContactAnswer in_between =
       first_time_within(vertex_face({{-9, 4, 3}, {3, 4, 3}}, point), {5, 0});
   EXPECT_EQ(in_between.first, (TimeEnclosure{0.75, 0.75}));
   const MovingFace segment = {rest({-9, 0, 0}), rest({9, 0, 0}), rest({0, 0, 0})};
@@ -210,7 +211,7 @@ TEST(FeatureDistance, DenormalsAndGreatestDoubles) {
   };
   EXPECT_EQ(first_time_within(falling(3 * least, -least), {least, 0}).first, half);
   expect_apart(falling(3 * least, 2 * least), {least, 0});
-  EXPECT_TRUE(first_time_within(falling(3 * least, 2 * least), {least, least}).near);
+  EXPECT_TRUE(first_time_within(falling(3 * least, 2 * least), {least, least}).contact);
   EXPECT_EQ(least_distance(falling(3 * least, 2 * least)), 2 * least);
   EXPECT_EQ(first_time_within(falling(most, 0), {most / 2, 0}).first, half);
   EXPECT_EQ(first_time_within(falling(most, -most), {0, least}).first, about(0.5));
@@ -220,7 +221,7 @@ TEST(FeatureDistance, DenormalsAndGreatestDoubles) {
   const FourPoints farther_than_doubles = vertex_face(
       rest({most, 0, 0}), {rest({-most, 0, 0}), rest({-most, 1, 0}), rest({-most, 0, 1})});
   EXPECT_EQ(least_distance(farther_than_doubles), infinity);
-  EXPECT_TRUE(first_time_within(farther_than_doubles, {most, most}).near);
+  EXPECT_TRUE(first_time_within(farther_than_doubles, {most, most}).contact);
 }
 
 // Which rung decides.

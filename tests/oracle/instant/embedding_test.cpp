@@ -157,11 +157,11 @@ TEST(StaticContact, AgreesWithTheStepQueries) {
     auto at = [&](int v) { return detector::point_of(x, v); };
     const auto no_time = detector::Want::yes_no;
     const bool vf = vertex_face_contact({p(0), {p(1), p(2), p(3)}}, no_time).contact;
-    EXPECT_EQ(vertex_meets_face(points, 0, {1, 2, 3}), vf);
+    EXPECT_EQ(features_meet(points, {detector::FeatureKind::vertex_face, {0, 1, 2, 3, -1}}), vf);
     const bool ee = edge_edge_contact({{p(0), p(1)}, {p(2), p(3)}}, no_time).contact;
-    EXPECT_EQ(edges_meet(points, {0, 1}, {2, 3}), ee);
+    EXPECT_EQ(features_meet(points, {detector::FeatureKind::edge_edge, {0, 1, 2, 3, -1}}), ee);
     const bool through = segment_pierces_triangle(at(0), at(1), {at(2), at(3), at(4)});
-    EXPECT_EQ(edge_pierces_face(points, {0, 1}, {2, 3, 4}), through);
+    EXPECT_EQ(features_meet(points, {detector::FeatureKind::piercing, {0, 1, 2, 3, 4}}), through);
     contacts += vf + ee;
     pierced += through;
   }

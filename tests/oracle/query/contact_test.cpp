@@ -262,7 +262,7 @@ template <class Query>
 ContactShape shape(const Query& query) {
   const ContactAnswer answer = contact_of(four_points(query), Want::first_time);
   EXPECT_TRUE(answer.contact);
-  return shape_of(query, answer.first);
+  return shape_of(four_points(query), answer.first);
 }
 
 TEST(ContactShape, OfAVertexThatFallsOnAFace) {
@@ -293,8 +293,10 @@ TEST(ContactShape, OfEdges) {
 TEST(ContactShape, OfADoubleRoot) {
   const EdgeEdge q{{MovingPoint{{-1, -1, 0}, {-1, 1, 0}}, MovingPoint{{1, -1, 0}, {1, 1, 0}}},
                    {MovingPoint{{0, 0, -1}, {0, 0, 1}}, MovingPoint{{1, 1, -1}, {-1, -1, 1}}}};
-  EXPECT_EQ(edge_edge_contact(q, Want::first_time).first, at(0.5));
-  EXPECT_EQ(shape(q), ContactShape::double_root);
+  const auto answer = edge_edge_contact(q, detector::Want::first_time);
+  ASSERT_TRUE(answer.contact);
+  EXPECT_EQ(answer.first, (detector::TimeEnclosure{0.5, 0.5}));
+  EXPECT_EQ(shape_of(four_points(q), answer.first), ContactShape::double_root);
 }
 
 }  // namespace

@@ -17,13 +17,13 @@ Rational fraction(const RationalTime& t) { return {t.numerator, t.denominator}; 
 
 template <class Query>
 void expect_never(const Query& query, const detector::Separation& d) {
-  EXPECT_EQ(distance_referee(query, d).within, Decision::no);
+  EXPECT_EQ(distance_referee(four_points(query), d).within, Decision::no);
 }
 
 // The first time is `first`, a time that the referee finds itself.
 template <class Query>
 void expect_first_at(const Query& query, const detector::Separation& d, const Rational& first) {
-  const DistanceVerdict verdict = distance_referee(query, d);
+  const DistanceVerdict verdict = distance_referee(four_points(query), d);
   ASSERT_EQ(verdict.within, Decision::yes);
   EXPECT_EQ(fraction(verdict.by), first);
   EXPECT_TRUE(first == 0 ? fraction(verdict.after) == 0 : fraction(verdict.after) < first);
@@ -33,7 +33,7 @@ void expect_first_at(const Query& query, const detector::Separation& d, const Ra
 // The first time is between two doubles that differ by little.
 template <class Query>
 void expect_first_about(const Query& query, const detector::Separation& d, double first) {
-  const DistanceVerdict verdict = distance_referee(query, d);
+  const DistanceVerdict verdict = distance_referee(four_points(query), d);
   ASSERT_EQ(verdict.within, Decision::yes);
   EXPECT_LT(fraction(verdict.after), Rational(first + 0x1p-50));
   EXPECT_GE(fraction(verdict.by), Rational(first - 0x1p-50));
@@ -146,7 +146,7 @@ TEST(DistanceReferee, AllDoubles) {
 TEST(DistanceReferee, AShortTime) {
   const VertexFace corner = {{{-1, 3, 4}, {1.3, 3, 4}},
                              {rest({}), rest({0, -1, 0}), rest({0, 0, -1})}};
-  const DistanceVerdict verdict = distance_referee(corner, {5, 0x1p-64});
+  const DistanceVerdict verdict = distance_referee(four_points(corner), {5, 0x1p-64});
   ASSERT_EQ(verdict.within, Decision::yes);
   EXPECT_NEAR(static_cast<double>(fraction(verdict.by)), 1 / 2.3, 0x1p-28);
   expect_never(corner, {5, -0x1p-64});
@@ -155,7 +155,7 @@ TEST(DistanceReferee, AShortTime) {
 TEST(DistanceReferee, LessWorkOnlyLeavesMoreOpen) {
   Random random(71);
   for (int i = 0; i < 200; ++i) {
-    const VertexFace q = vertex_face(random_query(random, test::QueryKind::generic, 1));
+    const detector::FourPoints q = {random_query(random, test::QueryKind::generic, 1), 1};
     const detector::Separation d = {random.below(8) / 16., 0};
     const DistanceVerdict full = distance_referee(q, d);
     for (const DistanceRefereeOptions& less :
@@ -179,10 +179,7 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
     const auto kind = static_cast<test::Coordinates>(random.below(test::coordinate_kinds));
     std::array<MovingPoint, 4> x;
     for (auto& p : x) p = test::random_point(random, kind);
-    const VertexFace face = {x[0], {x[1], x[2], x[3]}};
-    const EdgeEdge edges = {{x[0], x[1]}, {x[2], x[3]}};
-    const bool is_face = i % 2 == 0;
-    const auto points = is_face ? detector::four_points(face) : detector::four_points(edges);
+    const detector::FourPoints points = {x, 1 + i % 2};
     const int depth = 1 + random.below(30);
     const std::int64_t k = random.below(1 << depth);
     const double s = std::ldexp(static_cast<double>(k), -depth), e = s + std::ldexp(1, -depth);
@@ -192,7 +189,7 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
     const double part = std::ldexp(random.below(2) == 0 ? 1 : -1, -30 - random.below(24));
     const double d = std::sqrt(static_cast<double>(std::min(at_s, at_e))) * (1 + part);
     if (!(d > 0)) continue;
-    const DoubleReach reach = is_face ? double_reach(face, {d, 0}) : double_reach(edges, {d, 0});
+    const DoubleReach reach = double_reach(points, {d, 0});
     const Rational limit = Rational(d) * Rational(d);
     const Decision quick = near_in_double(reach, s, 0);
     EXPECT_TRUE(quick != Decision::yes || at_s <= limit) << i;
@@ -204,7 +201,7 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
       EXPECT_GT(squared_distance(points, Rational(s / 2 + e / 2)), limit) << i;
       ++apart;
     }
-    const IntegerReach exact = is_face ? integer_reach(face, {d, 0}) : integer_reach(edges, {d, 0});
+    const IntegerReach exact = integer_reach(points, {d, 0});
     EXPECT_EQ(near_in_integers(exact, {k, std::int64_t{1} << depth}), at_s <= limit) << i;
   }
   EXPECT_GT(near, 200);
@@ -214,9 +211,11 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
 
 // A direction that turns with the face keeps the vertex away over the whole step.
 TEST(DistanceProofs, OneDirectionThatTurns) {
-  const VertexFace turning = {
-      rest({.5, 0, 3}),
-      {{{{-1, -1, 0}, {-1, -1, .5}}, {{2, -1, 0}, {2, -1, -.5}}, {{0, 2, 0}, {0, 2, 0}}}}};
+  const detector::FourPoints turning = {{{rest({.5, 0, 3}),
+                                          {{-1, -1, 0}, {-1, -1, .5}},
+                                          {{2, -1, 0}, {2, -1, -.5}},
+                                          rest({0, 2, 0})}},
+                                        1};
   EXPECT_EQ(apart_in_double(double_reach(turning, {2.7, 0}), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(apart_in_integers(integer_reach(turning, {2.7, 0}), 0, 0));
   EXPECT_NE(apart_in_double(double_reach(turning, {3, 0}), 0, 1), SeparationProof::separated);
@@ -235,10 +234,8 @@ TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
     const double whole = random.below(5);
     const detector::Separation d = {random.below(3) == 0 ? std::sqrt(whole) : whole / 2,
                                     random.below(8) == 0 ? 0x1p-60 : 0};
-    const DistanceVerdict verdict =
-        first_group == 1 ? distance_referee(vertex_face(x), d) : distance_referee(edge_edge(x), d);
-    const Rational sum = Rational(d.first) + Rational(d.second), limit = sum * sum,
-                   after = fraction(verdict.after), by = fraction(verdict.by);
+    const DistanceVerdict verdict = distance_referee(points, d);
+    const Rational limit = squared(d), after = fraction(verdict.after), by = fraction(verdict.by);
     const Rational any = Rational(random.below(61), 60);
     if (verdict.within == Decision::no) {
       ++far;

@@ -10,11 +10,10 @@ namespace assay::oracle {
 namespace {
 
 using detector::EdgeEdge, detector::MovingPoint, detector::Point, detector::VertexFace,
-    detector::Decision, detector::FourPoints, test::edge_edge, test::Points, test::QueryKind,
-    test::Random, test::rest, test::resting_face, test::vertex_face;
+    test::Points, test::QueryKind, test::Random, test::rest, test::resting_face;
 
-Decision over_resting_face(const Point& from, const Point& to) {
-  return referee(VertexFace{{from, to}, resting_face});
+detector::Decision over_resting_face(const Point& from, const Point& to) {
+  return referee(four_points(VertexFace{{from, to}, resting_face}));
 }
 
 TEST(Referee, VertexThroughAFace) {
@@ -35,7 +34,7 @@ TEST(Referee, TouchingCounts) {
 // Through a resting face at t = 1/2, and through one that rises meanwhile.
 TEST(Referee, AskedUpToATime) {
   const auto up_to = [](const VertexFace& query, double until) {
-    return referee(query, RefereeOptions{.until = until});
+    return referee(four_points(query), RefereeOptions{.until = until});
   };
   const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, resting_face};
   EXPECT_EQ(up_to(half, 1), Decision::yes);
@@ -62,8 +61,12 @@ TEST(Referee, OneUnitInTheLastPlaceDecides) {
 
 TEST(Referee, ParallelAndZeroLengthEdges) {
   const auto edges = [](const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
-    const auto falls = [](const Point& p) { return MovingPoint{p, {p[0], p[1], p[2] - 2}}; };
-    return referee(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}});
+    const auto falls = [](Point p) {
+      MovingPoint m = rest(p);
+      m.t1[2] -= 2;
+      return m;
+    };
+    return referee(four_points(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}}));
   };
   EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {1, 0, 0}, {3, 0, 0}), Decision::yes);
   EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {3, 0, 0}, {4, 0, 0}), Decision::no);
@@ -79,8 +82,8 @@ TEST(Referee, NoMotion) {
 TEST(Referee, ExtremeNumbers) {
   constexpr double huge = 0x1.fffffffffffffp1023, tiny = 0x1p-1074;
   const auto scaled = [](double s, double z) {
-    return referee(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
-                              {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}});
+    return referee(four_points(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
+                                          {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}}));
   };
   EXPECT_EQ(scaled(huge, huge), Decision::yes);
   EXPECT_EQ(scaled(4 * tiny, tiny), Decision::yes);
@@ -98,19 +101,19 @@ TEST(Referee, IrrationalTouchStaysOpen) {
   const ContactAnswer answer = vertex_face_contact(touch, detector::Want::first_time);
   ASSERT_TRUE(answer.contact);
   EXPECT_EQ(answer.first.lo, std::nextafter(std::sqrt(.5), 0));
-  EXPECT_EQ(referee(touch), Decision::open);
+  EXPECT_EQ(referee(four_points(touch)), detector::Decision::open);
 }
 
 TEST(Referee, LessDepthOnlyLeavesMoreOpen) {
   Random random(31);
   for (int i = 0; i < 300; ++i) {
     const Points x = random_query(random, QueryKind::generic, 1);
-    const Decision full = referee(vertex_face(x));
+    const detector::Decision full = referee({x, 1});
     for (const int depth : {0, 3, 8}) {
-      const Decision part = referee(vertex_face(x), {depth, 1000});
-      EXPECT_TRUE(part == full || part == Decision::open) << i << " depth " << depth;
+      const detector::Decision part = referee({x, 1}, {depth, 1000});
+      EXPECT_TRUE(part == full || part == detector::Decision::open) << i << " depth " << depth;
     }
-    EXPECT_TRUE(referee(vertex_face(x), {60, 0}) == Decision::open);
+    EXPECT_TRUE(referee({x, 1}, {60, 0}) == detector::Decision::open);
   }
 }
 
@@ -118,10 +121,11 @@ TEST(Referee, LessDepthOnlyLeavesMoreOpen) {
 TEST(Referee, DepthSeventeenConfirmsEveryNo) {
   Random random(32);
   for (int i = 0; i < 4000; ++i) {
-    const int first_group = 1 + i % 2;
-    const Points x = random_query(random, QueryKind::generic, first_group);
-    if (contact_of({x, first_group}, detector::Want::yes_no).contact) continue;
-    EXPECT_EQ(referee(FourPoints{x, first_group}, {17, 1000}), Decision::no) << i;
+    const Points x = random_query(random, QueryKind::generic, 1 + i % 2);
+    if (contact_of({x, 1 + i % 2}, detector::Want::yes_no).contact) continue;
+    const RefereeOptions options = {17, 1000};
+    EXPECT_EQ(referee({x, 1 + i % 2}, options), detector::Decision::no) << i;
+    ++confirmed;
   }
 }
 
@@ -134,11 +138,19 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
   Tally tally;
   for (int i = 0; i < queries; ++i) {
     const int first_group = 1 + i % 2;
-    const FourPoints q = {random_query(random, kind, first_group), first_group};
-    const Decision verdict = referee(q);
-    const bool contact = contact_of(q, detector::Want::yes_no).contact;
-    const bool is_open = verdict == Decision::open;
-    EXPECT_TRUE(is_open || contact == (verdict == Decision::yes))
+    const Points x = random_query(random, kind, first_group);
+    const auto begin = std::chrono::steady_clock::now();
+    const detector::Decision verdict = referee({x, first_group});
+    microseconds +=
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
+    const bool contact = contact_of({x, first_group}, detector::Want::yes_no).contact;
+    ++tally.queries;
+    if (verdict == detector::Decision::open) {
+      ++(contact ? tally.open_contact : tally.open_none);
+      continue;
+    }
+    ++(contact ? tally.contact : tally.no_contact);
+    EXPECT_EQ(verdict == detector::Decision::yes, contact)
         << test::name_of(kind) << ", seed " << seed << ", query " << i;
     tally.open += is_open;
     tally.contact += contact && !is_open;
@@ -159,10 +171,10 @@ TEST(Referee, AgreesAndLeavesLittleOpen) {
 
 TEST(SeparationProof, ADirectionThatTurnsAndOneThatStays) {
   // A vertex that passes over a face at a distance of 1: separated in one piece.
-  const VertexFace over = {{{0, 0, 1}, {4, 4, 1}}, resting_face};
+  const auto over = four_points(VertexFace{{{0, 0, 1}, {4, 4, 1}}, resting_face});
   EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), SeparationProof::separated);
   EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
-  const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
+  const auto through = four_points(VertexFace{{{1, 1, 1}, {1, 1, -1}}, resting_face});
   EXPECT_EQ(separated_in_double(double_hull(through), 0, 1), SeparationProof::not_found);
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 0, 0));
   EXPECT_FALSE(separated_in_integers(integer_hull(through), 1, 1));  // touches at 1/2
@@ -175,7 +187,7 @@ TEST(SeparationProof, DoublesDoNotClaimWhatTheyCannotTell) {
   const VertexFace q = {rest({1e6 + 1, 1e6 + 1, z}),
                         {rest({1e6, 1e6, 1e6}), rest({1e6 + 4, 1e6, 1e6}),
                          MovingPoint{{1e6, 1e6 + 4, 1e6}, {1e6, 1e6 + 4, z}}}};
-  EXPECT_TRUE(separated_in_integers(integer_hull(q), 0, 0));
+  EXPECT_TRUE(separated_in_integers(integer_hull(four_points(q)), 0, 0));
 }
 
 TEST(Existence, SimplestFractions) {
@@ -197,7 +209,7 @@ TEST(Existence, SimplestFractions) {
 TEST(Existence, OriginInDegenerateHulls) {
   const auto holds = [](const std::array<Point, 3>& face) {
     const VertexFace q = {rest({0, 0, 0}), {rest(face[0]), rest(face[1]), rest(face[2])}};
-    return contains_origin(integer_hull(q).t0);
+    return contains_origin(integer_hull(four_points(q)).t0);
   };
   EXPECT_TRUE(holds({{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}}));
   EXPECT_TRUE(holds({{{0, -1, 0}, {0, 1, 0}, {5, 0, 0}}}));  // on an edge
@@ -209,11 +221,11 @@ TEST(Existence, OriginInDegenerateHulls) {
 }
 
 TEST(Existence, BoxesProveCrossingsAndNothingElse) {
-  const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, resting_face};
+  const auto through = four_points(VertexFace{{{1, 1, 1}, {1.1, .9, -1.7}}, resting_face});
   const auto guess = guess_crossing(double_hull(through), 0, 1);
   ASSERT_TRUE(guess.has_value());
   EXPECT_TRUE(crossing_in_a_box(integer_hull(through), *guess));
-  const VertexFace beside = {{{3, 3, 1}, {3.1, 2.9, -1.7}}, resting_face};
+  const auto beside = four_points(VertexFace{{{3, 3, 1}, {3.1, 2.9, -1.7}}, resting_face});
   EXPECT_FALSE(guess_crossing(double_hull(beside), 0, 1).has_value());
   // A wrong guess proves nothing.
   EXPECT_FALSE(crossing_in_a_box(integer_hull(beside), *guess));

@@ -13,7 +13,7 @@ StepJudgement judge(const Step& step) { return judge_step({step.x_t0, step.x_t1}
 
 SecondOpinion ask(const Step& step, const StepJudgement& judgement, double share = 1,
                   int jobs = 1) {
-  return second_opinion({step.x_t0, step.x_t1}, step.f, judgement, {share, jobs, {}, {}});
+  return second_opinion({step.x_t0, step.x_t1}, step.f, judgement, {share, jobs, {}});
 }
 
 // A bumpy sheet, one half of which folds into the other: n x n squares.
@@ -123,7 +123,7 @@ TEST(SecondOpinion, StopsAndSaysSo) {
   const StepJudgement judgement = judge(step);
   std::atomic<int> calls = 0;
   const SecondOpinion opinion = second_opinion({step.x_t0, step.x_t1}, step.f, judgement,
-                                               {1, 2, [&] { return ++calls > 1; }, {}});
+                                               {1, 2, [&] { return ++calls > 1; }});
   EXPECT_FALSE(opinion.complete);
   EXPECT_TRUE(opinion.contradictions.empty());
 }

@@ -23,7 +23,7 @@ Flags touched(const Positions& x_t0, const Positions& x_t1, const Triangles& f,
               const Positions& apex_t0, const Positions& apex_t1, bool static_at_start = false) {
   const auto vertices = static_cast<std::int32_t>(x_t0.rows());
   const Triangles ghosts = ghost_triangles(boundary_loops(f), vertices);
-  return touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts, {1, static_at_start});
+  return touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts, static_at_start);
 }
 
 int count(const Flags& flags) { return std::accumulate(flags.begin(), flags.end(), 0); }
@@ -56,8 +56,8 @@ TEST(TouchedByGhosts, OnlyDuringTheStep) {
   f << box_triangles, triangles({{8, 9, 10}});
   const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
   const auto apex = positions({{0, 0, 4}});
-  EXPECT_EQ(count(touched_by_ghosts({x_t0, x_t0}, f, apex, apex, ghosts, {1, true})), 0);
-  EXPECT_EQ(count(touched_by_ghosts({x_t1, x_t1}, f, apex, apex, ghosts, {1, true})), 0);
+  EXPECT_EQ(count(touched_by_ghosts({x_t0, x_t0}, f, apex, apex, ghosts, true)), 0);
+  EXPECT_EQ(count(touched_by_ghosts({x_t1, x_t1}, f, apex, apex, ghosts, true)), 0);
   const Flags flags = touched_by_ghosts({x_t0, x_t1}, f, apex, apex, ghosts);
   EXPECT_EQ(count(flags), 1);
   EXPECT_EQ(flags[10], 1);
@@ -93,7 +93,7 @@ TEST(TouchedByGhosts, PiercingAtTheStartOnRequest) {
   const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
   const auto apex = positions({{0, 0, 4}});
   EXPECT_EQ(count(touched_by_ghosts({x, x}, f, apex, apex, ghosts)), 0);
-  const Flags flags = touched_by_ghosts({x, x}, f, apex, apex, ghosts, {1, true});
+  const Flags flags = touched_by_ghosts({x, x}, f, apex, apex, ghosts, true);
   EXPECT_EQ(count(flags), 1);
   EXPECT_EQ(flags[10], 1);
 }
@@ -131,8 +131,7 @@ TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
     }
     const Positions x_t0 = all_t0.topRows(vertices), x_t1 = all_t1.topRows(vertices);
     const Positions apex_t0 = all_t0.bottomRows(apexes), apex_t1 = all_t1.bottomRows(apexes);
-    EXPECT_EQ(touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts, {2, true}),
-              with_piercing);
+    EXPECT_EQ(touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts, true), with_piercing);
     const Flags swept = touched_by_ghosts({x_t0, x_t1}, f, apex_t0, apex_t1, ghosts);
     for (int t = 0; t < triangle_count; ++t) {
       EXPECT_LE(swept_at_least[t], swept[t]);

@@ -116,11 +116,11 @@ TEST(Allocation, NoneInTheDistanceOfFeaturesThatStayApartOrBeginNear) {
   const FourPoints query{
       {MovingPoint{{3, -1, 0}, {-1, 3, 0}}, still(0, 0), still(1, 0), still(0, 1)}, 1};
   for (const double d : {.5, 2.5}) {
-    oracle::FirstNear ours;
+    oracle::ContactAnswer ours;
     ContactResult detected;
     EXPECT_EQ(allocations_of([&] { ours = oracle::first_time_within(query, {d, 0}); }), 0u) << d;
     EXPECT_EQ(allocations_of([&] { detected = test_near(query, d, Want::first_time); }), 0u) << d;
-    EXPECT_EQ(ours.near, d > 1);
+    EXPECT_EQ(ours.contact, d > 1);
     EXPECT_EQ(ours.rung, oracle::Rung::interval);
     EXPECT_EQ(detected.contact, d > 1);
     EXPECT_EQ(detected.rung, ContactRung::filter);

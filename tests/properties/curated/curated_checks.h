@@ -62,7 +62,7 @@ class CuratedStep {
 
   std::vector<detector::ViewSign> signs_between(const detector::Positions& from,
                                                 const detector::Positions& to) const {
-    return oracle::view_signs({from, to}, triangles, {&primitive, 1}, 1);
+    return oracle::view_signs({from, to}, triangles, {&primitive, 1});
   }
   bool all_signs(detector::ViewSign wanted) const { return are_all(signs, wanted); }
   // Positive at t=0, 1/2, 1 when the places there are doubles.
@@ -76,13 +76,12 @@ class CuratedStep {
   Flags swept() const { return touched(apexes_t0, apexes_t1); }
   // As a first step: also what is pierced at t=0 (L11).
   Flags swept_alone() const {
-    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts,
-                                     {1, true});
+    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts, true);
   }
   // Ghosts and mesh at one end of the step, piercing included.
   Flags at_rest(bool end) const {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
-    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, {1, true});
+    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, true);
   }
   Flags at_either_end() const { return either(at_rest(false), at_rest(true)); }
   // Ghosts that stay behind, corners and all, at their places of t=0.
@@ -99,16 +98,23 @@ class CuratedStep {
 
   // K with this Vv.
   oracle::Candidates k(Flags violated = {}) const { return {signs, std::move(violated)}; }
+  // The pairs in contact that these candidates hold, or those that they do not hold.
+  std::vector<detector::PairContact> pairs_of(const oracle::Candidates& candidates,
+                                              bool held) const {
+    std::vector<detector::PairContact> pairs;
+    for (const auto& c : judgement.pairs) {
+      if (candidates.holds(c.pair) == held) pairs.push_back(c);
+    }
+    return pairs;
+  }
   bool k_finds_nothing(Flags violated = {}) const {
-    return oracle::split(judgement.pairs, k(std::move(violated))).in_k.empty();
+    return pairs_of(k(std::move(violated)), true).empty();
   }
   bool k_finds_the_first(Flags violated = {}) const {
     return !judgement.pairs.empty() &&
            oracle::holds_a_first_contact(judgement.pairs, k(std::move(violated)));
   }
-  std::vector<detector::PairContact> pairs_outside_k() const {
-    return oracle::split(judgement.pairs, k()).outside;
-  }
+  std::vector<detector::PairContact> pairs_outside_k() const { return pairs_of(k(), false); }
   // The pairs of all feature contacts, first or later ones of their pairs, that K has no pair of.
   std::vector<detector::TrianglePair> lost_feature_pairs() const {
     const auto mesh = oracle::mesh_features(triangles);
@@ -219,7 +225,7 @@ inline bool only_block_of_name(const Facts& f) {
     return std::string(1, "MZP"[static_cast<int>(f.last().signs[t]) + 1]);
   };
   const std::string wanted = f.id.substr(f.id.size() - 2);
-  const auto in_k = oracle::split(f.last().judgement.pairs, f.last().k()).in_k;
+  const auto in_k = f.last().pairs_of(f.last().k(), true);
   return !in_k.empty() && std::all_of(in_k.begin(), in_k.end(), [&](const auto& c) {
     const std::string a = letter(c.pair.a), b = letter(c.pair.b);
     return a + b == wanted || b + a == wanted;

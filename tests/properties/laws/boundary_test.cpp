@@ -56,9 +56,9 @@ std::vector<std::uint8_t> touched_of_own(const detector::Surface& surface, const
       list.bottomRows(1) = is_ghost ? ghosts.row(t - triangles.rows()) : triangles.row(t);
       if (!is_ghost) index.push_back(t);
     }
-    const auto part = oracle::touched_by_ghosts({step.x_t0, step.x_t1}, own, apexes_t0, apexes_t1,
-                                                own_ghosts, {1, true});
-    for (std::size_t i = 0; i < part.size(); ++i)
+    const auto part =
+        oracle::touched_by_ghosts({x_t0, x_t1}, own, apexes_t0, apexes_t1, own_ghosts, at_start);
+    for (std::size_t i = 0; i < part.size(); ++i) {
       touched[static_cast<std::size_t>(index[i])] = part[i];
   }
   return touched;
@@ -144,7 +144,7 @@ void compare(bool line) {
       });
       const auto triangles = tests::matrix_of<Triangles>(batch.mesh.triangles);
       ASSERT_EQ(found, oracle::view_signs({batch.x_t0, batch.x_t1}, triangles,
-                                          std::span(&batch.primitive, 1), 1))
+                                          std::span(&batch.primitive, 1)))
           << tests::batch_family_names[f] << ", batch " << b;
       count += found.size();
       lanes += counts.lanes;

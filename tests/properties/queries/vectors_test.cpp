@@ -100,8 +100,8 @@ void prove_distance(const FourPoints& query, const Json& one) {
   check_by_all({query, {}, detector::Separation{d, 0}}, one);
   const auto near = oracle::first_time_within(query, {d, 0});
   const auto less = oracle::first_time_within(query, {d, -d * 0x1p-60}, detector::Want::yes_no);
-  EXPECT_EQ(one["result"], word_of(near.near, less.near));
-  EXPECT_EQ(first_time(one), near.near ? std::optional(near.first) : std::nullopt);
+  EXPECT_EQ(one["result"], word_of(near.contact, less.contact));
+  EXPECT_EQ(first_time(one), near.contact ? std::optional(near.first) : std::nullopt);
   EXPECT_EQ(one.value("least_distance", std::numeric_limits<double>::infinity()),
             oracle::least_distance(query));
 }

@@ -40,7 +40,7 @@ struct ToyStep {
 };
 
 Signs exact_signs(const ToyStep& step) {
-  return oracle::view_signs({step.x_t0, step.x_t1}, step.mesh.triangles, {&step.view, 1}, 1);
+  return oracle::view_signs({step.x_t0, step.x_t1}, step.mesh.triangles, {&step.view, 1});
 }
 
 // The sign that all instants share; zero when they differ.
@@ -48,7 +48,7 @@ Signs sampled_signs(const ToyStep& step, const std::vector<double>& times) {
   Signs shared;
   for (const double t : times) {
     const Positions x = (1 - t) * step.x_t0 + t * step.x_t1;
-    const Signs now = oracle::view_signs({x, x}, step.mesh.triangles, {&step.view, 1}, 1);
+    const Signs now = oracle::view_signs({x, x}, step.mesh.triangles, {&step.view, 1});
     if (shared.empty()) shared = now;
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i] != shared[i]) shared[i] = ViewSign::zero;
@@ -239,8 +239,8 @@ Judge violated_not_carried_judge() {
         const oracle::Instant start(oracle::with_apexes(x_t0, a_t0));
         carried = not_clean(start, c.triangles, ghosts);
       }
-      auto violated = oracle::touched_by_ghosts({x_t0, x_t1}, c.triangles, a_t0, a_t1, ghosts,
-                                                {1, is_new_start});
+      auto violated =
+          oracle::touched_by_ghosts({x_t0, x_t1}, c.triangles, a_t0, a_t1, ghosts, is_new_start);
       for (std::size_t t = 0; t < violated.size(); ++t) violated[t] |= carried[t];
       const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), violated, s, is_new_start};

@@ -218,7 +218,7 @@ struct PlainPair {
     std::optional<detector::TimeEnclosure> first;
     if (separation_ > 0) {
       const auto near = oracle::first_time_within(features, {separation_, 0});
-      if (near.near) first = near.first;
+      if (near.contact) first = near.first;
     } else {
       const auto met = oracle::contact_of(features, detector::Want::first_time);
       if (met.contact) first = met.first;

@@ -167,7 +167,7 @@ bool comes_within(const corpus::Case& c) {
   const detector::SteppedMesh motion{start_of(c, step), end_of(c, step)};
   const auto path = [&](int i) { return motion.path(v[i]); };
   const detector::VertexFace query{path(0), {path(1), path(2), path(3)}};
-  return oracle::distance_referee(query, {keeps_apart.separation, 0}).within ==
+  return oracle::distance_referee(four_points(query), {keeps_apart.separation, 0}).within ==
          detector::Decision::yes;
 }
 
