@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-
 namespace assay::properties {
 
 std::string number_text(double x) {

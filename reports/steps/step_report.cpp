@@ -283,8 +283,8 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
     out +=
         fmt::format("{} {:.1f}\n  oracle: {}, {} of {} feature candidates{}{}",
                     work.has_stages ? ", oracle" : "  ms:   oracle", oracle->milliseconds,
-                    properties::name_of(oracle->truth.answer()), pairs_text(oracle->truth.pairs.size()),
-                    oracle->judgement.feature_candidates,
+                    properties::name_of(oracle->truth.answer()),
+                    pairs_text(oracle->truth.pairs.size()), oracle->judgement.feature_candidates,
                     oracle->judgement.complete ? "" : " (stopped)", left_out_text(oracle->truth));
   }
   if (work.has_stages || oracle) out += "\n";

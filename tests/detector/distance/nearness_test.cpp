@@ -191,7 +191,7 @@ void expect_first(const FourPoints& q, double d, const std::optional<TimeEnclosu
 TEST(Near, L16_RandomStepsAgainstRationalDistances) {
   NearSteps steps(351);
   int near = 0, inside_a_gap = 0, by_integers = 0;
-  for (int i = 0; i < 1600; ++i) {
+  for (int i = 0; i < tests::usual(1600); ++i) {
     const FourPoints q = steps.query(i % 4 == 1);
     const double d = steps.between(1, 8) / 4.0;
     const ContactResult result = test_near(q, d, Want::first_time);
@@ -203,9 +203,9 @@ TEST(Near, L16_RandomStepsAgainstRationalDistances) {
     inside_a_gap += first && first->lo < first->hi;
     by_integers += result.rung == ContactRung::unbounded;
   }
-  EXPECT_GT(near, 500);
-  EXPECT_GT(inside_a_gap, 200);
-  EXPECT_GT(by_integers, 10);
+  EXPECT_GT(near, tests::usual(500));
+  EXPECT_GT(inside_a_gap, tests::usual(200));
+  EXPECT_GT(by_integers, tests::usual(10));
 }
 
 // With d = 0 the regions are those of a contact.

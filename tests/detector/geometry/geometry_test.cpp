@@ -111,7 +111,7 @@ TEST(Winding, RaysMeetWhatEveryTriangleSays) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, 12000);
+  EXPECT_GT(compared, tests::usual(12000));
 }
 
 // What is asked beside a triangle does not change its number.

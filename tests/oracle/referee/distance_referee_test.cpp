@@ -204,9 +204,9 @@ TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
     const IntegerReach exact = integer_reach(points, {d, 0});
     EXPECT_EQ(near_in_integers(exact, {k, std::int64_t{1} << depth}), at_s <= limit) << i;
   }
-  EXPECT_GT(near, 200);
-  EXPECT_GT(apart, 200);
-  EXPECT_GT(doubtful, 200);
+  EXPECT_GT(near, tests::usual(200));
+  EXPECT_GT(apart, tests::usual(200));
+  EXPECT_GT(doubtful, tests::usual(200));
 }
 
 // A direction that turns with the face keeps the vertex away over the whole step.
@@ -253,8 +253,8 @@ TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
     EXPECT_TRUE(verdict.within != Decision::yes || limit <= 0x1p-20 ||
                 squared_distance(points, by) <= limit);
   }
-  EXPECT_GT(near, 4'000);
-  EXPECT_GT(far, 2'000);
+  EXPECT_GT(near, tests::usual(4'000));
+  EXPECT_GT(far, tests::usual(2'000));
   EXPECT_LT(open, 200);
 }
 

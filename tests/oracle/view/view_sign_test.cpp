@@ -116,7 +116,7 @@ TEST(ViewLineSign, IdenticallyZeroPolynomials) {
 
 TEST(ViewSigns, RungsAgreeAndSymmetriesHold) {
   Random random(42);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < tests::usual(1500); ++i) {
     const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     MovingTriangle t;
     for (MovingPoint& p : t) p = test::random_point(random, kind);
