@@ -24,6 +24,10 @@ struct Wrong {
     alarms += contact && !truth ? 1 : 0;
     misses += !contact && truth ? 1 : 0;
   }
+  void operator+=(const Wrong& other) {
+    alarms += other.alarms;
+    misses += other.misses;
+  }
 };
 
 struct QueryScore {
@@ -69,16 +73,13 @@ TEST(ArithmeticQueries, BoundedNeverMissesAndIsNeverLate) {
   Wrong doubles, floats;
   for (const auto& family : self_test_queries()) {
     QueryScore score;
-    for (std::uint64_t i = 0; i < small_integers / static_cast<std::uint64_t>(family.one_in); ++i) {
+    for (std::uint64_t i = 0; i < small_integers / static_cast<std::uint64_t>(family.one_in); ++i)
       ASSERT_NO_FATAL_FAILURE(judge(family.query(seed, i).query, score))
           << family.name << ", seed " << seed << ", query " << i;
-    }
     print(family.name, score);
     queries += score.queries;
-    doubles.alarms += score.doubles.alarms;
-    doubles.misses += score.doubles.misses;
-    floats.alarms += score.floats.alarms;
-    floats.misses += score.floats.misses;
+    doubles += score.doubles;
+    floats += score.floats;
   }
   EXPECT_GE(queries, 200'000u);
   EXPECT_GT(doubles.misses, 0u);
@@ -96,9 +97,8 @@ TEST(ArithmeticQueries, PublicLabelledQueries) {
     if (entry.path().extension() != ".csv") continue;
     const auto queries = corpus::read_queries(entry.path());
     ASSERT_TRUE(queries.has_value()) << queries.error().message;
-    for (const auto& q : queries.value()) {
+    for (const auto& q : queries.value())
       ASSERT_NO_FATAL_FAILURE(judge(q.query, score)) << entry.path();
-    }
   }
   print("labelled", score);
   EXPECT_EQ(score.queries, 2324u);
@@ -144,20 +144,16 @@ TEST(ArithmeticSteps, CuratedCases) {
       for (const auto arithmetic :
            {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
         const auto report = check_case(c, culling, 1, arithmetic);
-        std::string lines;
-        for (const auto& line : report.broken_facts) lines += line + "\n";
-        EXPECT_TRUE(report.broken_facts.empty())
-            << c.id << ", " << name_of(culling) << ", " << name_of(arithmetic) << ": " << lines;
-        for (const auto& diff : report.verdicts[0].steps) {
+        EXPECT_EQ(report.broken_facts, std::vector<std::string>{})
+            << c.id << ", " << name_of(culling) << ", " << name_of(arithmetic);
+        for (const auto& diff : report.verdicts[0].steps)
           wrong_steps[arithmetic] +=
               diff.wrong_answer() || !diff.missing.empty() || !diff.spurious.empty();
-        }
       }
     }
   }
-  for (const auto& [arithmetic, steps] : wrong_steps) {
-    std::printf("%s: %d steps with a wrong answer or wrong pairs\n", name_of(arithmetic), steps);
-  }
+  for (const auto& [arithmetic, steps] : wrong_steps)
+    fmt::print("{}: {} steps with a wrong answer or wrong pairs\n", name_of(arithmetic), steps);
   EXPECT_GT(wrong_steps[Arithmetic::double_precision], 0);
 }
 

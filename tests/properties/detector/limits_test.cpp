@@ -20,6 +20,10 @@ Contract contract_within(double separation) {
   return contract;
 }
 
+detector::Detector detector_for(const corpus::Case& c, const detector::Options& options) {
+  return std::move(detector::Detector::create(c.triangles, c.frames[0], options).value());
+}
+
 struct LimitTally {
   std::uint64_t steps = 0;
   LimitUse use;
@@ -45,7 +49,8 @@ detector::Positions judge_one(detector::Detector& detector, const corpus::Case& 
   return limit.positions;
 }
 
-void print(const LimitTally& tally) {
+// Prints what the steps came to, and expects that they are free and go far.
+void expect_progress(const LimitTally& tally) {
   const auto& use = tally.use;
   fmt::print(
       "{} steps: {} free, {} with a contact ahead; used {:.4f} in the median, {:.4f} in 99 of 100, "
@@ -54,6 +59,9 @@ void print(const LimitTally& tally) {
       use.stalled());
   for (const auto& [cause, count] : use.stalls)
     fmt::print("  stalled {} times: {}\n", count, cause);
+  EXPECT_EQ(use.cut, 0u);
+  EXPECT_GT(use.contact, tally.steps / 10);
+  EXPECT_LE(use.stalled() * 10'000, tally.steps + 10'000);
 }
 
 TEST(LimitsOfTheBuiltIn, L17_RandomStepsAreFreeAndGoFar) {
@@ -65,15 +73,10 @@ TEST(LimitsOfTheBuiltIn, L17_RandomStepsAreFreeAndGoFar) {
     // By turns with and without a separation, with views and without.
     const double separation = i % 4 == 0 ? 0x1p-6 : 0;
     const auto culling = separation > 0 || i % 2 == 0 ? Culling::bvh : Culling::automatic;
-    auto made = detector::Detector::create(c.triangles, c.frames.front(),
-                                           {.culling = culling, .separation = separation});
-    ASSERT_TRUE(made);
-    judge_one(made.value(), c, contract_within(separation), tally);
+    auto detector = detector_for(c, {.culling = culling, .separation = separation});
+    judge_one(detector, c, contract_within(separation), tally);
   }
-  print(tally);
-  EXPECT_EQ(tally.use.cut, 0u);
-  EXPECT_GT(tally.use.contact, cases / 10);
-  EXPECT_LE(tally.use.stalled() * 10'000, tally.steps + 10'000);
+  expect_progress(tally);
 }
 
 TEST(LimitsOfTheBuiltIn, L17_WalksStayFreeAndMove) {
@@ -88,22 +91,14 @@ TEST(LimitsOfTheBuiltIn, L17_WalksStayFreeAndMove) {
     std::optional<detector::Detector> detector;
     const int steps = walks > 0 ? steps_of_a_walk : 60;
     const auto c = walk(kind, seed + i, steps, contract, [&](const corpus::Case& step) {
-      if (!detector) {
-        auto made = detector::Detector::create(
-            step.triangles, step.frames[0],
-            {.culling = Culling::bvh, .separation = contract.separation});
-        EXPECT_TRUE(made);
-        detector = std::move(made.value());
-      }
+      if (!detector)
+        detector = detector_for(step, {.culling = Culling::bvh, .separation = contract.separation});
       return std::optional(judge_one(*detector, step, contract, tally));
     });
     EXPECT_EQ(c.script.size(), static_cast<std::size_t>(steps));
     EXPECT_EQ(c.frames.size(), 2 * c.script.size());
   }
-  print(tally);
-  EXPECT_EQ(tally.use.cut, 0u);
-  EXPECT_GT(tally.use.contact, tally.steps / 10);
-  EXPECT_LE(tally.use.stalled() * 10'000, tally.steps + 10'000);
+  expect_progress(tally);
 }
 
 TEST(Walks, AreOfTheirSeedAlone) {

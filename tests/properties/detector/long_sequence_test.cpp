@@ -5,7 +5,6 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "detector/plugin/assay_builtin_detector.h"
 #include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/exam.h"
@@ -54,8 +53,7 @@ struct Work {
   friend bool operator==(const Work&, const Work&) = default;
 };
 
-class Player {
- public:
+struct Player {
   explicit Player(std::string_view scene) : scene_(period_of(scene, 400)) {
     for (std::size_t step = 0; step < periods * steps_a_period; step += judged_every) {
       const std::size_t s = step % steps_a_period;
@@ -114,7 +112,6 @@ class Player {
     EXPECT_LE(mallinfo2().uordblks, heap + 4096);
   }
 
- private:
   static constexpr std::size_t judged_every = 25;
 
   const corpus::Sequence scene_;
@@ -130,9 +127,8 @@ TEST(LongSequence, NothingGrowsFromPeriodToPeriod) {
     std::printf("%s\n", std::string(info.name).c_str());
     ++scenes;
     Player player(info.name);
-    player.play(Culling::bvh);
-    player.play(Culling::view_point);
-    player.play(Culling::view_auto);
+    for (const auto culling : {Culling::bvh, Culling::view_point, Culling::view_auto})
+      player.play(culling);
   }
   EXPECT_GE(scenes, 7);
 }
@@ -217,95 +213,33 @@ TEST(LongSequence, L9_L11_AnArmThroughAHoleLeavesNothingBehind) {
   }
 }
 
-// Long sequences whose state goes through bytes: handles of the C interface that are restored on
-// the way give what one handle gives that was never interrupted.
-
-struct Destroy {
-  void operator()(assay_handle* handle) const { assay_builtin_detector()->destroy(handle); }
-};
-using Handle = std::unique_ptr<assay_handle, Destroy>;
-
-Handle make(const corpus::Sequence& scene, std::int32_t culling) {
-  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
-  options.culling = culling;
-  assay_builtin_error error;
-  assay_handle* handle = nullptr;
-  const auto& x = scene.frames[0];
-  EXPECT_EQ(assay_builtin_create(scene.triangles.data(),
-                                 static_cast<std::uint64_t>(scene.triangles.rows()), x.data(),
-                                 static_cast<std::uint64_t>(x.rows()), &options, &handle, &error),
-            ASSAY_OK)
-      << error.message;
-  return Handle(handle);
-}
-
-// All that the C interface tells of the step, in bytes.
-std::string told(const Handle& handle) {
-  assay_result result = {};
-  assay_builtin_detector()->result(handle.get(), &result);
-  assay_builtin_sets sets;
-  assay_builtin_get_sets(handle.get(), &sets);
-  std::string bytes;
-  const auto add = [&](const auto* first, std::uint64_t count) {
-    bytes.append(reinterpret_cast<const char*>(first), count * sizeof *first);
-  };
-  add(&result.answer, 1);
-  add(&result.first_lo, 1);
-  add(&result.first_hi, 1);
-  add(result.pairs, 2 * result.pair_count);
-  add(result.pair_times, 2 * result.pair_count);
-  for (const auto* size : {&sets.view_positive, &sets.view_negative, &sets.view_zero,
-                           &sets.against_all, &sets.violated, &sets.dirty}) {
-    add(size, 1);
-  }
-  if (sets.doubts) {
-    add(sets.doubts, sets.view_positive + sets.view_negative + sets.view_zero + sets.against_all);
-  }
-  return bytes;
-}
-
-std::string step(const Handle& handle, const detector::Positions& x_t0,
-                 const detector::Positions& x_t1) {
-  EXPECT_EQ(assay_builtin_evaluate(handle.get(), x_t0.data(), x_t1.data(), nullptr, 0, nullptr,
-                                   nullptr, nullptr),
-            ASSAY_OK);
-  EXPECT_EQ(assay_builtin_commit(handle.get(), nullptr), ASSAY_OK);
-  return told(handle);
-}
-
-std::vector<std::uint8_t> saved(const Handle& handle) {
-  std::uint64_t size = 0;
-  EXPECT_EQ(assay_builtin_save(handle.get(), nullptr, 0, &size, nullptr), ASSAY_OK);
-  std::vector<std::uint8_t> bytes(size);
-  EXPECT_EQ(assay_builtin_save(handle.get(), bytes.data(), size, &size, nullptr), ASSAY_OK);
-  return bytes;
-}
-
+// Detectors that are restored on the way, from the bytes of their states, give what one gives that
+// was never interrupted.
 TEST(SavedSequence, GoesOnAsIfUninterrupted) {
   std::size_t steps = 0, collisions = 0, with_views = 0, in_doubt = 0, most_bytes = 0;
   for (const auto& info : corpus::scenes()) {
     SCOPED_TRACE(info.name);
     const auto scene = corpus::make_scene(info.name, {400, 121, {}}).value();
-    for (const auto culling : {ASSAY_CULLING_VIEW_AUTO, ASSAY_CULLING_VIEW_LINE}) {
-      const Handle whole = make(scene, culling);
-      Handle part = make(scene, culling);
+    for (const auto culling : {Culling::view_auto, Culling::view_line}) {
+      const auto make = [&] {
+        return std::move(Detector::create(scene.triangles, scene.frames[0], {culling}).value());
+      };
+      auto whole = make(), part = make();
       for (std::size_t f = 0; f + 1 < scene.frames.size(); ++f) {
-        const auto expected = step(whole, scene.frames[f], scene.frames[f + 1]);
-        ASSERT_EQ(step(part, scene.frames[f], scene.frames[f + 1]), expected) << "step " << f;
+        auto expected = whole.step(scene.frames[f], scene.frames[f + 1]),
+             result = part.step(scene.frames[f], scene.frames[f + 1]);
+        expected.counts = result.counts = {};  // of work that was done before
+        ASSERT_EQ(difference(expected, result), "") << "step " << f;
         ++steps;
-        assay_result result = {};
-        assay_builtin_detector()->result(whole.get(), &result);
-        assay_builtin_sets sets;
-        assay_builtin_get_sets(whole.get(), &sets);
-        collisions += result.answer == ASSAY_COLLISION;
-        with_views += sets.doubts != nullptr;
-        in_doubt += sets.against_all > 0;
+        collisions += result.answer == Answer::collision;
+        with_views += !result.doubts.empty();
+        in_doubt += result.against_all > 0;
         if (f % 7 != 3) continue;
-        const auto bytes = saved(part);
-        ASSERT_EQ(bytes, saved(whole)) << "step " << f;
+        const auto bytes = part.state().bytes();
+        ASSERT_EQ(bytes, whole.state().bytes()) << "step " << f;
         most_bytes = std::max(most_bytes, bytes.size());
-        part = make(scene, culling);
-        ASSERT_EQ(assay_builtin_restore(part.get(), bytes.data(), bytes.size(), nullptr), ASSAY_OK);
+        part = make();
+        ASSERT_FALSE(part.restore(SavedState::read(bytes).value()));
       }
     }
   }
@@ -320,19 +254,19 @@ TEST(SavedSequence, GoesOnAsIfUninterrupted) {
 // Same input, same bytes, for any number of threads: meshes that are large enough for every loop to
 // be shared out. Small ones, of every kind, are law Change_ThreadsDoNotShow.
 
-corpus::Sequence large_scene(const char* name) {
-  return corpus::make_scene(name, {12'000, 4, {}}).value();
-}
-
 Detector detector_of(const corpus::Sequence& sequence, Options options, std::uint32_t threads) {
   options.threads = threads;
   return std::move(Detector::create(sequence.triangles, sequence.frames[0], options).value());
 }
 
-struct OfScene : testing::TestWithParam<const char*> {};
+// Closed and free; with contacts in every step; with holes; of many components.
+class OfScene : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, OfScene,
+                         testing::Values("breathing-sphere", "twist", "bend", "arm-in-box",
+                                         "two-spheres", "open-tube"));
 
 TEST_P(OfScene, ThreadsDoNotShow) {
-  const auto sequence = large_scene(GetParam());
+  const auto sequence = corpus::make_scene(GetParam(), {12'000, 4, {}}).value();
   for (const auto culling :
        {Culling::automatic, Culling::bvh, Culling::normal_cone, Culling::view_line}) {
     Options options;
@@ -351,31 +285,6 @@ TEST_P(OfScene, ThreadsDoNotShow) {
       EXPECT_EQ(shared.state().bytes(), alone.state().bytes());
     }
   }
-}
-
-// Closed and free; with contacts in every step; with holes; of many components.
-INSTANTIATE_TEST_SUITE_P(Scenes, OfScene,
-                         testing::Values("breathing-sphere", "twist", "bend", "arm-in-box",
-                                         "two-spheres", "open-tube"),
-                         [](const auto& scene) {
-                           std::string name = scene.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
-
-TEST(Threads, AStopIsAskedByTheCallerAndLeavesTheStateAlone) {
-  const auto sequence = large_scene("bend");
-  auto detector = detector_of(sequence, {}, 2), other = detector_of(sequence, {}, 2);
-  const auto caller = std::this_thread::get_id();
-  int asked = 0;
-  const auto stopped = detector.evaluate(sequence.frames[0], sequence.frames[1], {}, [&] {
-    EXPECT_EQ(std::this_thread::get_id(), caller);
-    return ++asked > 0;
-  });
-  EXPECT_EQ(stopped.answer, Answer::undecided);
-  EXPECT_EQ(difference(detector.step(sequence.frames[0], sequence.frames[1]),
-                       other.step(sequence.frames[0], sequence.frames[1])),
-            "");
 }
 
 }  // namespace

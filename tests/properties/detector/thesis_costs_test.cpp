@@ -8,7 +8,6 @@
 #include "detector/geometry/winding.h"
 #include "detector/view/view_anchor.h"
 #include "detector/view/view_signs.h"
-#include "oracle/view/view_sign.h"
 #include "properties/random.h"
 #include "tests/public_data.h"
 #include "tests/test.h"
@@ -26,7 +25,7 @@ constexpr const char* searching_scenes[] = {"dented-sphere", "crumpling-sphere",
 
 struct Played {
   SearchCounts counts;
-  MarkingCounts marking;
+  std::uint64_t changed = 0, touched = 0;  // triangles that changed their type, and nodes marked
   std::size_t pairs = 0;
 };
 
@@ -40,9 +39,9 @@ Played played(const corpus::Sequence& scene, const Options& options,
   for (std::size_t f = 0; f + 1 < scene.frames.size(); ++f) {
     const auto result = detector.step(scene.frames[f], scene.frames[f + 1]);
     out.counts += result.counts.search;
-    out.marking.changed += result.counts.marking.changed;
-    out.marking.marked += result.counts.marking.marked;
-    out.marking.cleared += result.counts.marking.cleared;
+    const auto& marking = result.counts.marking;
+    out.changed += marking.changed;
+    out.touched += marking.marked + marking.cleared;
     out.pairs += result.pairs.size();
   }
   return out;
@@ -90,8 +89,8 @@ TEST(ThesisCosts, PassingOverNodesOfOneChildSavesBoxTests) {
 
 TEST(ThesisCosts, MarkingTouchesFewNodesForATriangleThatChanges) {
   for (const std::string name : {"dented-sphere", "crumpling-sphere"}) {
-    const auto marked = played(scene_of(name, 2'000, 41), clean(Culling::view_point)).marking;
-    const double touched = share(marked.marked + marked.cleared, marked.changed);
+    const auto marked = played(scene_of(name, 2'000, 41), clean(Culling::view_point));
+    const double touched = share(marked.touched, marked.changed);
     fmt::print("{:16} {:.2f} nodes for each of {} changes\n", name, touched, marked.changed);
     EXPECT_GT(marked.changed, 100u) << name;
     constexpr double depth = 11;  // of a balanced tree of 2,000 leaves
@@ -109,41 +108,34 @@ corpus::Sequence generic(corpus::Sequence scene) {
   return scene;
 }
 
-TEST(ViewSets, WhatIsLeftOpenIsHardlyMoreThanTheOracleLeaves) {
+// Exact arithmetic leaves open what the oracle does (ViewSigns in tests/properties/laws).
+TEST(ViewSets, BoundedLeavesHardlyMoreOpenThanExact) {
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
-    std::size_t triangles = 0, beyond_exact = 0, beyond_bounded = 0;
+    std::size_t triangles = 0, beyond = 0;
     for (const std::string name :
          {"breathing-sphere", "dented-sphere", "crumpling-sphere", "bend", "twist"}) {
       const auto scene = generic(scene_of(name, 800, 11));
       for (const std::size_t s : {1u, 4u}) {
-        const auto &x0 = scene.frames[s], &x1 = scene.frames[s + 1];
-        const auto look = [&](Arithmetic arithmetic) {
+        const auto signs = [&](Arithmetic arithmetic) {
+          const auto &x0 = scene.frames[s], &x1 = scene.frames[s + 1];
           return Detector::create(scene.triangles, x0, clean(culling, arithmetic))
               .value()
-              .evaluate(x0, x1);
+              .evaluate(x0, x1)
+              .signs;
         };
-        const auto exact = look(Arithmetic::exact), bounded = look(Arithmetic::bounded);
-        const auto mesh = make_topology(scene.triangles, x0.rows());
-        std::vector<ViewPrimitive> of_triangle;
-        for (const auto c : mesh.component_of_triangle)
-          of_triangle.push_back(exact.primitives[static_cast<std::size_t>(c)]);
-        const auto truth = oracle::view_signs({x0, x1}, scene.triangles, of_triangle, 1);
-        for (std::size_t t = 0; t < truth.size(); ++t) {
-          for (const auto& [result, beyond] :
-               {std::pair(&exact, &beyond_exact), std::pair(&bounded, &beyond_bounded)}) {
-            if (result->signs[t] == truth[t]) continue;
-            EXPECT_EQ(result->signs[t], ViewSign::zero) << name << ", triangle " << t;
-            ++*beyond;
-          }
+        const auto exact = signs(Arithmetic::exact), bounded = signs(Arithmetic::bounded);
+        triangles += exact.size();
+        for (std::size_t t = 0; t < exact.size(); ++t) {
+          if (bounded[t] == exact[t]) continue;
+          EXPECT_EQ(bounded[t], ViewSign::zero) << name << ", triangle " << t;
+          ++beyond;
         }
-        triangles += truth.size();
       }
     }
-    std::printf("%s: bounded arithmetic leaves %zu of %zu triangles open\n", name_of(culling),
-                beyond_bounded, triangles);
+    fmt::print("{}: bounded arithmetic leaves {} of {} triangles open\n", name_of(culling), beyond,
+               triangles);
     EXPECT_GT(triangles, 7'000u);
-    EXPECT_EQ(beyond_exact, 0u);
-    EXPECT_LE(static_cast<double>(beyond_bounded), 1e-3 * static_cast<double>(triangles));
+    EXPECT_LE(share(beyond, triangles), 1e-3);
   }
 }
 
@@ -174,9 +166,9 @@ double best_of_samples(const Topology& mesh, const Component& component, const P
   double best = 0;
   for (int i = 0; i < 1000; ++i) {
     MovingPoint q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      q.t0[k] = q.t1[k] = std::uniform_real_distribution<double>(lo[axis], hi[axis])(engine);
+    for (int k = 0; k < 3; ++k) {
+      const auto place = std::uniform_real_distribution<double>(lo[k], hi[k])(engine);
+      q.t0[static_cast<std::size_t>(k)] = q.t1[static_cast<std::size_t>(k)] = place;
     }
     best = std::max(best, share_of(mesh, component, x, {q, q}).positive);
   }
@@ -199,9 +191,8 @@ Judged judge(const Triangles& triangles, const Positions& x, const char* name) {
     judged.point = share_of(mesh, component, x, at_point);
     judged.line = share_of(mesh, component, x, place_view(line, {x, x}));
     judged.sampled = best_of_samples(mesh, component, x);
-    if (component.is_cycle) {
+    if (component.is_cycle)
       judged.winding = winding_number(mesh, component.triangles, x, at_point.q0.t0);
-    }
     std::printf(
         "%-18s %6zu triangles; point V+ %.3f V- %.3f, best V+ of 1,000 sampled %.3f, winding "
         "%s; line V+ %.3f V- %.3f settled %.3f\n",
@@ -221,18 +212,13 @@ TEST(ViewAnchor, PointIsNearlyTheBestOfAThousandOnEveryScene) {
     const auto& frames = scene.frames;
     for (const std::size_t f : {std::size_t{0}, frames.size() / 2, frames.size() - 1}) {
       const Judged judged = judge(scene.triangles, frames[f], info.name.data());
-      if (f == 0 && info.closed) {
-        EXPECT_EQ(judged.winding, 1) << info.name << ": an embedded solid has an inside";
+      // An embedded solid has an inside. In contact with themselves two are seen best from where
+      // the solid covers space twice, and are seen from inside once, because that costs little.
+      const bool is_pierced = info.name == "bend" || info.name == "crumpling-sphere";
+      if (f == 0 ? info.closed : is_pierced && f + 1 == frames.size()) {
+        EXPECT_EQ(judged.winding, 1) << info.name << ", frame " << f;
       }
     }
-  }
-}
-
-// In contact with themselves, both are seen best from where the solid covers space twice.
-TEST(ViewAnchor, IsInsideOnceWhereThatCostsLittle) {
-  for (const char* name : {"bend", "crumpling-sphere"}) {
-    const auto scene = corpus::make_scene(name, {}).value();
-    EXPECT_EQ(judge(scene.triangles, scene.frames.back(), name).winding, 1) << name;
   }
 }
 
