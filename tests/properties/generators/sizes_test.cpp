@@ -1,6 +1,6 @@
 // Large cases: each shape of a size family is valid, starts without contact, and shows what it is
 // for. Numbers are printed beside the wanted ones.
-#include <map>
+#include <fmt/format.h>
 
 #include "detector/detector.h"
 #include "detector/mesh/mesh_checks.h"
@@ -18,13 +18,12 @@ namespace {
 constexpr int shape_count = 10;
 
 RandomCase made_by(const Family& family, int index) {
-  return make_case(family, "test:1:" + std::string(family.name) + ":" + std::to_string(index));
+  return make_case(family, fmt::format("test:1:{}:{}", family.name, index));
 }
 
 std::string shape_of(const RandomCase& made) {
-  for (const auto& tag : made.tags) {
+  for (const auto& tag : made.tags)
     if (tag.starts_with("large:")) return tag.substr(6);
-  }
   return "";
 }
 
@@ -32,17 +31,6 @@ int most_at_a_vertex(const corpus::Case& c) {
   std::vector<int> count(static_cast<std::size_t>(c.frames[0].rows()));
   for (const auto v : c.triangles.reshaped()) ++count[static_cast<std::size_t>(v)];
   return *std::max_element(count.begin(), count.end());
-}
-
-TEST(Sizes, FamiliesAreKnownByTheirNames) {
-  std::uint64_t triangles = 1000;
-  for (const auto& family : size_families()) {
-    EXPECT_EQ(family.triangles, triangles);
-    EXPECT_TRUE(is_size_family(family.name));
-    EXPECT_EQ(find_family(family.name), &family);
-    triangles *= 10;
-  }
-  EXPECT_FALSE(is_size_family("closed-generic"));
 }
 
 TEST(Sizes, ShapesTakeTurnsAndAreValidAndAboutAsLarge) {
@@ -60,8 +48,8 @@ TEST(Sizes, ShapesTakeTurnsAndAreValidAndAboutAsLarge) {
     }
     EXPECT_EQ(shapes.size(), static_cast<std::size_t>(shape_count)) << family.name;
     // A contract that cannot have a shape is given the next one.
-    const auto id = "test:1:" + std::string(family.name) + ":3";
-    EXPECT_NE(shape_of(make_case(family, id)), shape_of(make_case(family, id + "~1")));
+    const auto fourth = made_by(family, 3);
+    EXPECT_NE(shape_of(fourth), shape_of(make_case(family, fourth.c.id + "~1")));
   }
 }
 
@@ -76,34 +64,21 @@ TEST(Sizes, EachShapeStartsFreeAndShowsWhatItIsFor) {
     EXPECT_FALSE(touching) << name;
     const auto truth = judge_case(c);
     const auto components = detector::make_topology(c.triangles, c.frames[0].rows()).components;
-    std::printf("%-13s %5d triangles, %4d components, %4d at a vertex, %7d candidates, %6d pairs\n",
-                name.c_str(), static_cast<int>(c.triangles.rows()),
-                static_cast<int>(components.size()), most_at_a_vertex(c),
-                static_cast<int>(truth[0].feature_candidates),
-                static_cast<int>(truth[0].pairs.size()));
     const auto pairs = truth[0].pairs.size();
-    if (name == "sphere") {
-      EXPECT_EQ(pairs, 0u);
-    } else {
-      EXPECT_GT(pairs, 0u) << name;
-    }
-    if (name == "far-corner") {
-      EXPECT_LT(pairs, 60u);
-      for (const auto& contact : truth[0].pairs)
-        EXPECT_GE(contact.pair.b, c.triangles.rows() - 4) << "one of the last four";
-    }
-    if (name == "valence") {
-      EXPECT_EQ(most_at_a_vertex(c), 1000);
-    }
-    if (name == "components" || name == "soup") {
-      EXPECT_EQ(components.size(), 250u);
-    }
-    if (name == "cloth" || name == "soup" || name == "crumpled" || name == "tubes") {
-      EXPECT_GT(pairs, 300u) << name;
-    }
-    if (name == "one-place") {
-      EXPECT_GT(truth[0].feature_candidates, 500'000u);
-    }
+    fmt::print(
+        "{:13} {:5} triangles, {:4} components, {:4} at a vertex, {:7} candidates, {:6} pairs\n",
+        name, c.triangles.rows(), components.size(), most_at_a_vertex(c),
+        truth[0].feature_candidates, pairs);
+    const auto is_one_of = [&](const std::set<std::string>& names) { return names.contains(name); };
+    EXPECT_EQ(pairs == 0, is_one_of({"sphere"})) << name;
+    EXPECT_TRUE(pairs > 300 || !is_one_of({"cloth", "soup", "crumpled", "tubes"})) << name << pairs;
+    EXPECT_TRUE(components.size() == 250 || !is_one_of({"components", "soup"})) << name;
+    EXPECT_TRUE(most_at_a_vertex(c) == 1000 || !is_one_of({"valence"}));
+    EXPECT_TRUE(truth[0].feature_candidates > 500'000 || !is_one_of({"one-place"}));
+    if (name != "far-corner") continue;
+    EXPECT_LT(pairs, 60u);
+    for (const auto& contact : truth[0].pairs)
+      EXPECT_GE(contact.pair.b, c.triangles.rows() - 4) << "one of the last four";
   }
 }
 
@@ -117,13 +92,10 @@ TEST(Sizes, OneOf10000FillsBuffersAndProducts) {
         detector::Detector::create(c.triangles, c.frames[0], {.culling = detector::Culling::bvh});
     ASSERT_TRUE(detector);
     const auto result = detector.value().evaluate(c.frames[0], c.frames[1]);
-    const auto product =
-        result.counts.search.candidate_pairs * static_cast<std::uint64_t>(c.triangles.rows());
-    std::printf("%-13s %6d triangles, %8d candidates, %7d pairs\n", shape_of(made).c_str(),
-                static_cast<int>(c.triangles.rows()),
-                static_cast<int>(result.counts.search.candidate_pairs),
-                static_cast<int>(result.pairs.size()));
-    most = std::max(most, product);
+    const auto candidates = result.counts.search.candidate_pairs;
+    fmt::print("{:13} {:6} triangles, {:8} candidates, {:7} pairs\n", shape_of(made),
+               c.triangles.rows(), candidates, result.pairs.size());
+    most = std::max(most, candidates * static_cast<std::uint64_t>(c.triangles.rows()));
   }
   EXPECT_GT(most, std::uint64_t{1} << 32);
 }
