@@ -28,30 +28,22 @@ corpus::Case after_a_still_step(corpus::Case c) {
   }
   c.script = std::move(script);
   c.frames.insert(c.frames.begin(), c.frames.front());
-  if (c.view) {
-    for (auto* end : {&c.view->q0, &c.view->q1}) {
+  if (c.view)
+    for (auto* end : {&c.view->q0, &c.view->q1})
       if (!end->empty()) end->insert(end->begin(), end->front());
-    }
-  }
   return c;
 }
 
-struct Played {
-  const char* name;
-  detector::Culling culling;
-  detector::Pairs pairs;
+class CuratedLaws : public testing::TestWithParam<std::tuple<detector::Culling, detector::Pairs>> {
 };
-
-class CuratedLaws : public testing::TestWithParam<Played> {};
 
 TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
   LawTally sum;
   for (const auto& c : tests::curated_cases()) {
     if (c.expected.answer == detector::Answer::error) continue;
     Setting setting;
-    setting.options.culling = GetParam().culling;
-    setting.options.pairs = GetParam().pairs;
-    const bool is_auto = GetParam().culling == detector::Culling::view_auto;
+    std::tie(setting.options.culling, setting.options.pairs) = GetParam();
+    const bool is_auto = setting.options.culling == detector::Culling::view_auto;
     const JudgedCase judged(is_auto ? after_a_still_step(c) : c, setting);
     CaseFacts facts = judged.facts();
     for (const auto& name : carried_laws) {
@@ -65,12 +57,9 @@ TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Views, CuratedLaws,
-    testing::Values(Played{"Auto", detector::Culling::view_auto, detector::Pairs::all},
-                    Played{"AutoFirst", detector::Culling::view_auto, detector::Pairs::first},
-                    Played{"Point", detector::Culling::view_point, detector::Pairs::all},
-                    Played{"PointFirst", detector::Culling::view_point, detector::Pairs::first}),
-    [](const auto& played) { return std::string(played.param.name); });
+    AutoAndPointByAllAndFirst, CuratedLaws,
+    testing::Combine(testing::Values(detector::Culling::view_auto, detector::Culling::view_point),
+                     testing::Values(detector::Pairs::all, detector::Pairs::first)));
 
 // The id draws the configuration, so a case under many ids meets many of them.
 TEST(CuratedOptions, HoldInManyConfigurations) {
@@ -110,26 +99,6 @@ TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
     EXPECT_EQ(used, pending["views_used"].get<std::vector<int>>()) << c.id;
   }
   EXPECT_GE(stated, 4);
-}
-
-// A restored detector that rests: what a step left in contact, and did not name, shows only there.
-
-// Cases on which a state whose bytes did not tell whether its contacts are complete went on
-// otherwise: some 1 of 100 with view-point and first pairs.
-TEST(RestoredState, GoesOnAlikeWhereFirstPairsLeftContactsUnnamed) {
-  const Law* law = law_named("Change_RestoredStateGoesOn");
-  ASSERT_NE(law, nullptr);
-  Setting setting;
-  setting.options.culling = detector::Culling::view_point;
-  setting.options.pairs = detector::Pairs::first;
-  LawTally tally;
-  for (const char* id : {"874", "895", "1193", "1297", "1396"}) {
-    const JudgedCase judged(case_of(std::string("test:1:closed-degenerate:") + id).c, setting);
-    auto facts = judged.facts();
-    law->check(facts, tally);
-  }
-  EXPECT_EQ(tally.broken_steps, 0u) << tally.first_broken;
-  EXPECT_GE(tally.premise, 5u);
 }
 
 }  // namespace
