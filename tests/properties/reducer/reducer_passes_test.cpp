@@ -18,24 +18,24 @@ using corpus::Case;
 
 // Small cases in which nothing moves.
 
-Case still_case(const std::vector<tests::Corners>& triangles,
-                const std::vector<detector::Point>& points, std::size_t frames = 2) {
+Case still_case(const detector::Triangles& triangles, const detector::Positions& positions,
+                std::size_t frames = 2) {
   Case c;
-  c.triangles = tests::triangles(triangles);
-  c.frames.assign(frames, tests::matrix_of<detector::Positions>(points));
+  c.triangles = triangles;
+  c.frames.assign(frames, positions);
   return c;
+}
+Case still_case(const std::string& triangles, const std::string& positions) {
+  return still_case(tests::triangles_of(triangles), tests::positions_of(positions));
 }
 
 Case octahedron(std::size_t frames = 2) {
-  return still_case(
-      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
-      {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}}, frames);
+  return still_case(tests::octahedron(),
+                    tests::positions_of("2 0 0, -2 0 0, 0 2 0, 0 -2 0, 0 0 2, 0 0 -2"), frames);
 }
 
-Case tetrahedron() {
-  return still_case({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
-                    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-}
+const char* const corners_of_a_tetrahedron = "0 0 0, 1 0 0, 0 1 0, 0 0 1";
+Case tetrahedron() { return still_case("0 2 1, 0 1 3, 1 2 3, 2 0 3", corners_of_a_tetrahedron); }
 
 bool is_closed(const Case& c) { return oracle::unmatched_edges(c.triangles).empty(); }
 
@@ -76,10 +76,8 @@ TEST(StepPasses, OnlyTheStepsThatMatterStay) {
   for (std::size_t f = 0; f < 7; ++f) c.frames[f](0, 0) = static_cast<double>(f);
   const auto steps = [](const Case& x) {
     std::set<std::pair<double, double>> found;
-    for (const auto& s : corpus::steps_of(x)) {
-      found.insert({x.frames[static_cast<std::size_t>(s.from)](0, 0),
-                    x.frames[static_cast<std::size_t>(s.to)](0, 0)});
-    }
+    for (const auto& s : corpus::steps_of(x))
+      found.emplace(start_of(x, s)(0, 0), end_of(x, s)(0, 0));
     return found;
   };
   const auto dropped = after(drop_steps, c, fails_when([&](const Case& x) {
@@ -115,9 +113,7 @@ TEST(FacePasses, ComponentsAndFacesThatDoNotMatterGo) {
 TEST(ClosedPasses, EachMakesAClosedMeshSmallerAndKeepsItClosed) {
   const Judge closed = fails_when(is_closed);
   const auto sphere = corpus::sphere_shape(80);
-  Case large;
-  large.triangles = sphere.triangles;
-  large.frames.assign(2, sphere.positions);
+  const Case large = still_case(sphere.triangles, sphere.positions);
   ASSERT_TRUE(is_closed(large));
   for (const auto pass :
        {cone_outside, cut_and_close, merge_balls, collapse_to_parents, collapse_edges,
@@ -164,9 +160,8 @@ TEST(NumberPasses, CoordinatesBecomeSmallIntegers) {
     return std::abs(a.dot(b.cross(d))) > 1e-9;
   });
   const auto total = [](const Case& x) { return size_of(x).numbers; };
-  EXPECT_LT(total(after(translate, c, solid)), total(c));
-  EXPECT_LT(total(after(round_all, c, solid)), total(c));
-  EXPECT_LT(total(after(round_vertices, c, solid)), total(c));
+  for (const auto pass : {translate, round_all, round_vertices})
+    EXPECT_LT(total(after(pass, c, solid)), total(c));
   Case integers = c;
   for (auto& frame : integers.frames) frame = (frame.array() * 10).round().matrix();
   ASSERT_TRUE(solid(integers));
@@ -189,8 +184,7 @@ TEST(NumberPasses, SimplerValuesCostLessAndComeInOrder) {
 }
 
 TEST(OrderPass, NumberedByUseWithTheLowestCornerFirst) {
-  const Case c = still_case({{3, 1, 2}, {0, 3, 2}, {1, 3, 0}, {2, 1, 0}},
-                            {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const Case c = still_case("3 1 2, 0 3 2, 1 3 0, 2 1 0", corners_of_a_tetrahedron);
   const auto ordered = after(canonical_order, c, fails_when(is_closed));
   EXPECT_EQ(ordered.triangles, (detector::Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}));
   EXPECT_EQ(size_of(ordered), size_of(c));
@@ -221,39 +215,33 @@ TEST(MeshSize, StepsThenTrianglesThenVerticesThenMotionThenNumbers) {
   EXPECT_LT(size_of(long_number), size_of(moving));
   EXPECT_EQ(size_text(octahedron(), small),
             "8 triangles, 6 vertices, 1 step -> 4 triangles, 4 vertices, 1 step");
-}
-
-TEST(MeshSize, NumbersAreSimplerWhenTheyAreShorter) {
-  EXPECT_EQ(number_cost(0), 0u);
-  EXPECT_EQ(number_cost(-9), 9u);
-  EXPECT_EQ(number_cost(10), 20u);
-  EXPECT_EQ(number_cost(123), 30u);
-  EXPECT_EQ(number_cost(0.5), 130u);
+  // Numbers are simpler when they are shorter.
+  const std::pair<double, std::uint64_t> costs[] = {
+      {0, 0}, {-9, 9}, {10, 20}, {123, 30}, {0.5, 130}};
+  for (const auto& [number, cost] : costs) EXPECT_EQ(number_cost(number), cost) << number;
   EXPECT_LT(number_cost(0.25), number_cost(0.3125));
 }
 
 TEST(CaseEdits, ValidCasesOnly) {
-  EXPECT_TRUE(is_valid(tetrahedron()));
-  Case c = tetrahedron();
-  c.triangles(0, 0) = 1;
-  EXPECT_FALSE(is_valid(c));  // index twice
-  c = tetrahedron();
-  c.triangles(0, 0) = 4;
-  EXPECT_FALSE(is_valid(c));  // out of range
-  c = tetrahedron();
-  c.triangles.row(1) = c.triangles.row(0).reverse();
-  EXPECT_FALSE(is_valid(c));  // the same three vertices
-  c = tetrahedron();
-  c.frames[1](2, 2) = std::nan("");
-  EXPECT_FALSE(is_valid(c));
-  c = tetrahedron();
-  c.frames.pop_back();
-  EXPECT_TRUE(is_valid(c));  // a mesh at rest
-  c.frames.clear();
-  EXPECT_FALSE(is_valid(c));
-  c = tetrahedron();
-  c.view = corpus::CaseView{{{0, 0, 0}}, {}};
-  EXPECT_FALSE(is_valid(c));  // one place for two frames
+  const std::pair<std::function<void(Case&)>, bool> changes[] = {
+      {[](Case&) {}, true},
+      {[](Case& c) { c.triangles(0, 0) = 1; }, false},  // index twice
+      {[](Case& c) { c.triangles(0, 0) = 4; }, false},  // out of range
+      // The same three vertices.
+      {[](Case& c) { c.triangles.row(1) = c.triangles.row(0).reverse(); }, false},
+      {[](Case& c) { c.frames[1](2, 2) = std::nan(""); }, false},
+      {[](Case& c) { c.frames.pop_back(); }, true},  // a mesh at rest
+      {[](Case& c) { c.frames.clear(); }, false},
+      // One place for two frames.
+      {[](Case& c) {
+         c.view = corpus::CaseView{{{0, 0, 0}}, {}};
+       },
+       false}};
+  for (std::size_t i = 0; i < std::size(changes); ++i) {
+    Case c = tetrahedron();
+    changes[i].first(c);
+    EXPECT_EQ(is_valid(c), changes[i].second) << i;
+  }
 }
 
 TEST(CaseEdits, MergingVerticesKeepsACycle) {
@@ -321,7 +309,7 @@ TEST(SphereMeshes, AllOfThemAndAllAreCycles) {
     EXPECT_EQ(std::set<SphereMesh>(all.begin(), all.end()).size(), all.size());
     for (const auto& mesh : all) {
       EXPECT_EQ(mesh.size(), static_cast<std::size_t>(2 * n - 4));
-      const Case c = still_case(mesh, std::vector<detector::Point>(static_cast<std::size_t>(n)));
+      const Case c = still_case(tests::triangles(mesh), detector::Positions::Zero(n, 3));
       if (!is_closed(c) || !is_valid(c)) FAIL() << n << " vertices";
     }
   }
@@ -333,9 +321,8 @@ using detector::CountedLevel, detector::CountedPairs, detector::TrianglePair;
 
 // Two tetrahedra as bodies 0 and 1.
 Case two_bodies() {
-  Case c = still_case(
-      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 6, 5}, {4, 5, 7}, {5, 6, 7}},
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  Case c = still_case("0 2 1, 0 1 3, 1 2 3, 2 0 3, 4 6 5, 4 5 7, 5 6 7",
+                      "0 0 0, 1 0 0, 0 1 0, 0 0 1, 5 0 0, 6 0 0, 5 1 0, 5 0 1");
   c.counted.emplace();
   c.counted->pairs.body = {0, 0, 0, 0, 1, 1, 1, 1};
   c.counted->pairs.apart = {{0, 1}, {1, 1}};
@@ -385,15 +372,8 @@ TEST(RelationEdits, VerticesThatChangePlacesTakeTheirBodyAlong) {
                                     {{-1, -1, -1, -1, -1, 2, 0, 1}, {6, 7, 5}});
   EXPECT_EQ(carried.body, (std::vector<std::int32_t>{0, 0, 0}));
   EXPECT_EQ(carried.apart.size(), 1u);
-}
-
-TEST(RelationEdits, ACaseOfTwoBodiesInATriangleIsNotValid) {
-  const Case joined = merge_vertices(two_bodies(), {0, 1, 2, 3, 4, 5, 2, 7});
-  EXPECT_FALSE(is_valid(joined));
-}
-
-Case after_the_pass(const Case& c, const auto& holds) {
-  return after(simplify_relation, c, fails_when(holds));
+  EXPECT_FALSE(is_valid(merge_vertices(two_bodies(), {0, 1, 2, 3, 4, 5, 2, 7})))
+      << "in one triangle";
 }
 
 TEST(RelationPass, WhatDoesNotMatterGoes) {
@@ -403,19 +383,19 @@ TEST(RelationPass, WhatDoesNotMatterGoes) {
   pairs.rings = 3;
   pairs.rest_distance = 2;
   pairs.rest = std::vector<detector::Point>(8, {0.1, 0.2, 0.3});
-  const auto needs = [](const auto& condition) {
-    return [condition](const Case& x) { return x.counted && condition(x.counted->pairs); };
+  const auto after_the_pass = [&](const std::function<bool(const CountedPairs&)>& needs) {
+    return after(simplify_relation, c,
+                 fails_when([=](const Case& x) { return x.counted && needs(x.counted->pairs); }));
   };
-  EXPECT_FALSE(after_the_pass(c, [](const Case&) { return true; }).counted);
-  const auto one_pair =
-      after_the_pass(c, needs([](const CountedPairs& p) {
-                       return std::count(p.triangle_pairs.begin(), p.triangle_pairs.end(),
-                                         TrianglePair{5, 6}) == 1;
-                     }));
+  EXPECT_FALSE(after(simplify_relation, c, fails_when([](const Case&) { return true; })).counted);
+  const auto one_pair = after_the_pass([](const CountedPairs& p) {
+    const auto& list = p.triangle_pairs;
+    return std::count(list.begin(), list.end(), TrianglePair{5, 6}) == 1;
+  });
   EXPECT_EQ(size_of(one_pair).relation, 1u);
   EXPECT_EQ(one_pair.counted->pairs.triangle_pairs, (std::vector<TrianglePair>{{5, 6}}));
-  const auto rest = after_the_pass(
-      c, needs([](const CountedPairs& p) { return p.rings >= 1 && p.rest_distance == 2; }));
+  const auto rest =
+      after_the_pass([](const CountedPairs& p) { return p.rings >= 1 && p.rest_distance == 2; });
   EXPECT_EQ(rest.counted->pairs.rings, 1);
   EXPECT_EQ(rest.counted->pairs.rest, corpus::points_of(c.frames[0])) << "simpler numbers";
 }

@@ -41,11 +41,10 @@ void print_row(const std::string& name, const corpus::Case& start, const Judge& 
       static_cast<unsigned long long>(reduction.calls), reduction.seconds,
       reduction.fixed_point ? "" : " (limit)");
   if (in_full) {
-    for (const auto& pass : reduction.passes) {
+    for (const auto& pass : reduction.passes)
       std::printf("    %-22s %7llu tried %5llu accepted %6.2f s\n", pass.name.c_str(),
                   static_cast<unsigned long long>(pass.tries),
                   static_cast<unsigned long long>(pass.accepted), pass.seconds);
-    }
     std::printf("%s\n", corpus::case_text(reduction.smallest).c_str());
   }
 }
@@ -86,10 +85,9 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   if (table == "toys") {
-    for (const auto& fault : toys::toy_faults()) {
+    for (const auto& fault : toys::toy_faults())
       row(fault.name, fault.vertices, fault.judge,
           [&] { return toys::large_failing_case(fault, large, many_steps, seed); });
-    }
   } else {
     for (const Fault& fault : faults()) {
       if (fault.status != FaultStatus::planted || fault.curated.empty()) continue;

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
 #include "corpus/scenes/shapes.h"
-#include "detector/mesh/topology.h"
+#include "oracle/mesh/mesh_features.h"
 #include "properties/reducer/case_edits.h"
 #include "tests/properties/reducer/toy_faults.h"
 #include "tests/test.h"
@@ -16,28 +14,11 @@ namespace {
 
 using toys::large_failing_case, toys::toy_fault;
 
-bool has_closed_parts(const corpus::Case& c) {
-  for (const auto& part :
-       detector::make_topology(c.triangles, c.frames.front().rows()).components) {
-    if (!part.is_cycle) return false;
-  }
-  return true;
-}
-
-bool has_small_integers_only(const corpus::Case& c) {
-  for (const auto& frame : c.frames) {
-    for (Eigen::Index i = 0; i < frame.size(); ++i) {
-      const double x = frame.data()[i];
-      if (std::abs(x) > 9 || x != std::floor(x)) return false;
-    }
-  }
-  return true;
-}
-
 class ReducesToKnownSize : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(ReducesToKnownSize, FromALargeMeshAndSeveralSteps) {
   const auto& fault = toys::toy_faults()[GetParam()];
+  SCOPED_TRACE(fault.name);
   const auto start = large_failing_case(fault, 120, 4, 1);
   const auto before = size_of(start);
   ASSERT_GE(before.triangles, 80u);
@@ -47,10 +28,9 @@ TEST_P(ReducesToKnownSize, FromALargeMeshAndSeveralSteps) {
 
   // reducer_table prints what is reached from 200 triangles and 8 steps, without this limit.
   const Reduction reduction = reduce(start, fault.judge, {60, 8000});
-  const auto after = size_of(reduction.smallest);
   fmt::print("{}: {}, {} calls, {:.2f} s\n", fault.name, size_text(start, reduction.smallest),
              reduction.calls, reduction.seconds);
-  EXPECT_LE(after.vertices, fault.vertices + 1);
+  EXPECT_LE(size_of(reduction.smallest).vertices, fault.vertices + 1);
   EXPECT_TRUE(is_valid(reduction.smallest));
   const auto found = fault.judge(reduction.smallest);
   ASSERT_TRUE(found);
@@ -59,35 +39,21 @@ TEST_P(ReducesToKnownSize, FromALargeMeshAndSeveralSteps) {
   EXPECT_EQ(reduction.smallest.options, start.options);
 }
 
-std::string test_name(const testing::TestParamInfo<std::size_t>& info) {
-  std::string name;
-  bool capital = true;
-  for (const char c : toys::toy_faults()[info.param].name) {
-    const bool is_sign = !name.empty() && name.back() == 'V' && (c == '+' || c == '-');
-    if (is_sign) name += c == '+' ? "plus" : "minus";
-    const bool is_word = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (is_word) name += capital ? static_cast<char>(std::toupper(c)) : c;
-    capital = !is_word;
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(ToyFaults, ReducesToKnownSize,
-                         testing::Range<std::size_t>(0, toys::toy_faults().size()), test_name);
+                         testing::Range<std::size_t>(0, toys::toy_faults().size()));
 
 TEST(Reducer, AFaultOfClosedMeshesEndsInATetrahedronOfSmallIntegers) {
   const auto& fault = toy_fault("(V0,V0) dropped");
   const auto start = large_failing_case(fault, 200, 8, 5);
-  const auto reduction = reduce(start, fault.judge, {});
-  EXPECT_EQ(reduction.smallest.triangles.rows(), 4);
-  EXPECT_EQ(reduction.smallest.frames.front().rows(), 4);
-  EXPECT_EQ(corpus::steps_of(reduction.smallest).size(), 1u);
-  EXPECT_TRUE(has_closed_parts(reduction.smallest));
-  EXPECT_TRUE(has_small_integers_only(reduction.smallest));
-  const detector::Triangles numbered_by_use = detector::Triangles{
-      {reduction.smallest.triangles.row(0)(0), reduction.smallest.triangles.row(0)(1),
-       reduction.smallest.triangles.row(0)(2)}};
-  EXPECT_EQ(numbered_by_use, (detector::Triangles{{0, 1, 2}}));
+  const auto small = reduce(start, fault.judge, {}).smallest;
+  EXPECT_EQ(small.triangles.rows(), 4);
+  EXPECT_EQ(small.frames.front().rows(), 4);
+  EXPECT_EQ(corpus::steps_of(small).size(), 1u);
+  EXPECT_TRUE(oracle::unmatched_edges(small.triangles).empty()) << "it is closed";
+  for (const auto& frame : small.frames)
+    for (const double x : frame.reshaped())
+      EXPECT_TRUE(std::abs(x) <= 9 && x == std::floor(x)) << x;
+  EXPECT_EQ(small.triangles.row(0), Eigen::RowVector3i(0, 1, 2)) << "numbered by use";
 }
 
 TEST(Reducer, SameInputSameBytes) {
@@ -99,46 +65,38 @@ TEST(Reducer, SameInputSameBytes) {
   EXPECT_EQ(once.calls, again.calls);
 }
 
+// And hears of each smaller case; the last is the result.
 TEST(Reducer, EverythingJudgedIsValidAndJudgedOnce) {
   const auto& fault = toy_fault("(V+,V0) dropped");
   const auto start = large_failing_case(fault, 120, 3, 3);
   std::set<std::string> seen;
-  std::uint64_t calls = 0;
   const Judge watched = [&](const corpus::Case& c) {
-    ++calls;
     EXPECT_TRUE(is_valid(c));
     EXPECT_TRUE(seen.insert(corpus::case_text(c)).second);
     return fault.judge(c);
   };
-  const auto reduction = reduce(start, watched, {});
-  EXPECT_EQ(reduction.calls, calls);
+  MeshSize last = size_of(start);
+  const auto wanted = fault.judge(start)->signature;
+  int heard = 0;
+  const auto reduction = reduce(start, watched, {}, [&](const corpus::Case& better) {
+    EXPECT_LT(size_of(better), std::exchange(last, size_of(better)));
+    EXPECT_EQ(fault.judge(better)->signature, wanted);
+    ++heard;
+  });
+  EXPECT_GT(heard, 3);
+  EXPECT_EQ(size_of(reduction.smallest), last);
+  EXPECT_EQ(reduction.calls, seen.size());
   std::uint64_t tried = 0, accepted = 0;
   for (const auto& pass : reduction.passes) {
     tried += pass.tries;
     accepted += pass.accepted;
   }
-  EXPECT_EQ(tried, calls);
+  EXPECT_EQ(tried, reduction.calls);
   EXPECT_GT(accepted, 0u);
 }
 
-TEST(Reducer, HearsOfEachSmallerCaseAndTheLastIsTheResult) {
-  const auto& fault = toy_fault("sign at t=0 only");
-  const auto start = large_failing_case(fault, 120, 3, 4);
-  MeshSize last = size_of(start);
-  const auto wanted = fault.judge(start)->signature;
-  int heard = 0;
-  const auto reduction = reduce(start, fault.judge, {}, [&](const corpus::Case& better) {
-    const MeshSize size = size_of(better);
-    EXPECT_LT(size, last);
-    EXPECT_EQ(fault.judge(better)->signature, wanted);
-    last = size;
-    ++heard;
-  });
-  EXPECT_GT(heard, 3);
-  EXPECT_EQ(size_of(reduction.smallest), last);
-}
-
-TEST(Reducer, LimitOfCallsIsKeptAndTheBestSoFarIsReturned) {
+// A case that holds is returned as it is, and so is one for which there is no time.
+TEST(Reducer, LimitsAreKeptAndTheBestSoFarIsReturned) {
   const auto& fault = toy_fault("no closure");
   const auto start = large_failing_case(fault, 120, 3, 2);
   std::uint64_t calls = 0;
@@ -146,29 +104,18 @@ TEST(Reducer, LimitOfCallsIsKeptAndTheBestSoFarIsReturned) {
     ++calls;
     return fault.judge(c);
   };
-  const auto reduction = reduce(start, counted, {600, 60});
+  const auto few = reduce(start, counted, {600, 60});
   EXPECT_EQ(calls, 60u);
-  EXPECT_FALSE(reduction.fixed_point);
-  EXPECT_LT(size_of(reduction.smallest), size_of(start));
-  EXPECT_TRUE(fault.judge(reduction.smallest));
-}
-
-TEST(Reducer, LimitOfTimeEndsIt) {
-  const auto& fault = toy_fault("no closure");
-  const auto start = large_failing_case(fault, 120, 3, 2);
-  const auto reduction = reduce(start, fault.judge, {0, 100000});
-  EXPECT_EQ(reduction.calls, 1u);
-  EXPECT_FALSE(reduction.fixed_point);
-  EXPECT_EQ(size_of(reduction.smallest), size_of(start));
-}
-
-TEST(Reducer, ACaseThatHoldsIsReturnedAsItIs) {
-  const auto start = large_failing_case(toy_fault("no closure"), 120, 2, 1);
-  const auto reduction =
+  EXPECT_LT(size_of(few.smallest), size_of(start));
+  EXPECT_TRUE(fault.judge(few.smallest));
+  const auto no_time = reduce(start, fault.judge, {0, 100000});
+  EXPECT_EQ(no_time.calls, 1u);
+  const auto holds =
       reduce(start, [](const corpus::Case&) { return std::optional<Finding>(); }, {});
-  EXPECT_TRUE(reduction.finding.signature.empty());
-  EXPECT_FALSE(reduction.fixed_point);
-  EXPECT_EQ(size_of(reduction.smallest), size_of(start));
+  EXPECT_TRUE(holds.finding.signature.empty());
+  for (const auto* unchanged : {&no_time, &holds})
+    EXPECT_EQ(size_of(unchanged->smallest), size_of(start));
+  for (const auto* reduction : {&few, &no_time, &holds}) EXPECT_FALSE(reduction->fixed_point);
 }
 
 TEST(Reducer, TheDetectorsOwnViewIsWrittenDownAndDroppedAtTheEnd) {
@@ -196,9 +143,9 @@ TEST(Reducer, TheDetectorsOwnViewIsWrittenDownAndDroppedAtTheEnd) {
 
 // A sheet of about so many triangles that does not move.
 corpus::Case sheet(int triangles) {
-  auto mesh = corpus::sheet_shape(triangles);
+  const auto mesh = corpus::sheet_shape(triangles);
   corpus::Case c;
-  c.triangles = std::move(mesh.triangles);
+  c.triangles = mesh.triangles;
   c.frames.assign(2, mesh.positions);
   return c;
 }
@@ -210,10 +157,9 @@ std::optional<std::int32_t> triangle_at(const corpus::Case& c, double x, double 
     Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
     for (int k = 0; k < 3; ++k) middle += c.frames[0].row(c.triangles(t, k)) / 3;
     const double distance = std::max(std::abs(middle[0] - x), std::abs(middle[1] - y));
-    if (distance < most) {
-      most = distance;
-      nearest = static_cast<std::int32_t>(t);
-    }
+    if (distance >= most) continue;
+    most = distance;
+    nearest = static_cast<std::int32_t>(t);
   }
   return nearest;
 }
@@ -237,29 +183,26 @@ TEST(LargeMeshes, WhatTwoTrianglesShowIsCutDownToThem) {
   EXPECT_LT(judged, static_cast<std::uint64_t>(2 * c.triangles.rows()));
 }
 
+// Fails with more triangles than so many.
+Judge judge_of_size(Eigen::Index most) {
+  return [=](const corpus::Case& x) -> std::optional<Finding> {
+    if (x.triangles.rows() <= most) return std::nullopt;
+    return Finding{"free-sound: answered free, large mesh", {0, 1}};
+  };
+}
+
 TEST(LargeMeshes, WhatOnlySizeShowsIsToldAsTheLeastNumberOfTriangles) {
   const auto c = sheet(100'000);
   for (const Eigen::Index most : {5000, 50'000}) {
-    const Judge judge = [&](const corpus::Case& x) -> std::optional<Finding> {
-      if (x.triangles.rows() <= most) return std::nullopt;
-      return Finding{"free-sound: answered free, large mesh", {0, 1}};
-    };
-    const auto reduction = reduce(c, judge, {600, 200});
+    const auto reduction = reduce(c, judge_of_size(most), {600, 200});
     EXPECT_EQ(reduction.smallest.triangles.rows(), most + 1);
     EXPECT_EQ(reduction.fails_from, static_cast<std::size_t>(most + 1));
     EXPECT_TRUE(reduction.fixed_point);
     EXPECT_LT(reduction.calls, 40u);
   }
   EXPECT_EQ(fails_from_text(5001), "fails from 5001 triangles on");
-}
-
-// A limit that ends the search leaves the number unsaid, because a smaller one might fail.
-TEST(LargeMeshes, ALimitLeavesTheNumberUnsaid) {
-  const Judge judge = [&](const corpus::Case& x) -> std::optional<Finding> {
-    if (x.triangles.rows() <= 5000) return std::nullopt;
-    return Finding{"free-sound: answered free", {0, 1}};
-  };
-  const auto reduction = reduce(sheet(20'000), judge, {600, 8});
+  // A limit that ends the search leaves the number unsaid, because a smaller one might fail.
+  const auto reduction = reduce(sheet(20'000), judge_of_size(5000), {600, 8});
   EXPECT_EQ(reduction.fails_from, 0u);
   EXPECT_FALSE(reduction.fixed_point);
   EXPECT_LT(reduction.smallest.triangles.rows(), 20'000);

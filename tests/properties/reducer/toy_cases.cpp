@@ -7,12 +7,15 @@
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "tests/curated_cases.h"
+#include "tests/meshes.h"
 #include "tests/properties/reducer/toy_faults.h"
 
 namespace assay::properties::toys {
 namespace {
 
 using corpus::Case, detector::Positions;
+
+double unit_of(Random& random) { return random.between(-100000, 100000) / 100000.; }
 
 // A sum of few waves, and a jump of a vertex now and then.
 class Motion {
@@ -33,9 +36,8 @@ class Motion {
         const double s = std::sin(wave.direction.dot(x.row(v).transpose()) + wave.phase);
         moved.row(v) += strength * s * wave.amplitude.transpose();
       }
-      if (random_.below(25) == 0) {
+      if (random_.below(25) == 0)
         for (int k = 0; k < 3; ++k) moved(v, k) += strength * unit();
-      }
     }
     return moved;
   }
@@ -45,7 +47,7 @@ class Motion {
     Eigen::Vector3d direction, amplitude;
     double phase = 0;
   };
-  double unit() { return static_cast<double>(random_.between(-100000, 100000)) / 100000; }
+  double unit() { return unit_of(random_); }
 
   Random& random_;
   std::array<Wave, 4> waves_;
@@ -117,7 +119,7 @@ class Inflation {
   }
 
  private:
-  double unit() { return static_cast<double>(random_.between(-100000, 100000)) / 100000; }
+  double unit() { return unit_of(random_); }
 
   bool keep_if_it_fails(Case& c, const Case& changed) {
     if (!is_valid(changed)) return false;
@@ -137,11 +139,9 @@ class Inflation {
     Case result = c;
     for (auto& frame : result.frames) {
       frame.conservativeResize(added + 1, Eigen::NoChange);
-      frame.row(added) = (frame.row(corners[0]) + frame.row(corners[1])) / 2;
-      if (!on_edge) {
-        frame.row(added) =
-            (frame.row(corners[0]) + frame.row(corners[1]) + frame.row(corners[2])) / 3;
-      }
+      const Eigen::RowVector3d sum = frame.row(corners[0]) + frame.row(corners[1]);
+      frame.row(added) = sum / 2;
+      if (!on_edge) frame.row(added) = (sum + frame.row(corners[2])) / 3;
       for (int k = 0; k < 3; ++k) frame(added, k) += 0.01 * unit();
     }
     if (!on_edge) {
@@ -149,25 +149,17 @@ class Inflation {
       mesh.push_back({corners[1], corners[2], added});
       mesh.push_back({corners[2], corners[0], added});
     } else {
-      std::vector<std::array<std::int32_t, 3>> halves;
+      std::vector<tests::Corners> halves;
       for (const auto& old : mesh) {
-        int at = -1;  // the corner opposite to the edge
-        for (int i = 0; i < 3; ++i) {
-          const auto u = old[static_cast<std::size_t>(i)];
-          const auto v = old[static_cast<std::size_t>((i + 1) % 3)];
-          const bool is_edge =
-              (u == corners[0] && v == corners[1]) || (u == corners[1] && v == corners[0]);
-          if (is_edge) at = i;
-        }
-        if (at < 0) {
-          halves.push_back(old);
-          continue;
-        }
-        const auto u = old[static_cast<std::size_t>(at)];
-        const auto v = old[static_cast<std::size_t>((at + 1) % 3)];
-        const auto w = old[static_cast<std::size_t>((at + 2) % 3)];
-        halves.push_back({u, added, w});
-        halves.push_back({added, v, w});
+        const auto at = [&](std::size_t i) { return old[i % 3]; };
+        const auto is_edge = [&](std::size_t i) {
+          return (at(i) == corners[0] && at(i + 1) == corners[1]) ||
+                 (at(i) == corners[1] && at(i + 1) == corners[0]);
+        };
+        std::size_t i = 0;
+        while (i < 3 && !is_edge(i)) ++i;
+        halves.push_back(i == 3 ? old : tests::Corners{at(i), added, at(i + 2)});
+        if (i < 3) halves.push_back({added, at(i + 1), at(i + 2)});
       }
       mesh = halves;
     }
@@ -176,9 +168,8 @@ class Inflation {
 
   Case noisy(const Case& c) {
     Case result = c;
-    for (auto& frame : result.frames) {
+    for (auto& frame : result.frames)
       for (Eigen::Index i = 0; i < frame.size(); ++i) frame.data()[i] += 1e-3 * unit();
-    }
     return result;
   }
 
@@ -223,13 +214,11 @@ Case large_failing_case(const ToyFault& fault, int triangles, int steps, std::ui
     Motion motion(random);
     const double strength = 0.05 * random.between(1, 8);
     // Gentle at first: most of the steps should pass before it fails.
-    for (int s = 0; s < steps; ++s) {
+    for (int s = 0; s < steps; ++s)
       c.frames.push_back(motion.after(c.frames.back(), strength * (s + 1) / steps));
-    }
-    if (fault.start == Start::tube_with_line) {
+    if (fault.start == Start::tube_with_line)
       c.view = corpus::CaseView{std::vector<detector::Point>(c.frames.size(), {0, 0, -2.5}),
                                 std::vector<detector::Point>(c.frames.size(), {0, 0, 2.5})};
-    }
     if (fault.judge(c)) return c;
   }
   return inflated_case(known_case(fault), fault.judge, triangles, steps, seed);

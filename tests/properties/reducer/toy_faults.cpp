@@ -30,6 +30,13 @@ struct ToyStep {
   const detector::Topology& topology;
   detector::ViewPrimitive view;
   std::vector<std::uint8_t> dirty;  // by triangle
+  std::size_t number;
+  bool is_new_start;
+
+  oracle::Candidates candidates(const Signs& signs,
+                                const std::vector<std::uint8_t>& violated) const {
+    return {signs, violated, topology.component_of_triangle};
+  }
 };
 
 Signs exact_signs(const ToyStep& step) {
@@ -43,9 +50,8 @@ Signs sampled_signs(const ToyStep& step, const std::vector<double>& times) {
     const Positions x = (1 - t) * step.x_t0 + t * step.x_t1;
     const Signs now = oracle::view_signs({x, x}, step.mesh.triangles, {&step.view, 1}, 1);
     if (shared.empty()) shared = now;
-    for (std::size_t i = 0; i < now.size(); ++i) {
+    for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i] != shared[i]) shared[i] = ViewSign::zero;
-    }
   }
   return shared;
 }
@@ -55,19 +61,16 @@ Signs one_vertex_signs(const ToyStep& step) {
   Signs signs;
   const auto& triangles = step.mesh.triangles;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    std::array<detector::MovingPoint, 3> corners;
-    for (int i = 0; i < 3; ++i) {
-      corners[static_cast<std::size_t>(i)] =
-          detector::SteppedMesh{step.x_t0, step.x_t1}.path(triangles(t, i));
-    }
+    const auto corner = [&](int i) {
+      return detector::SteppedMesh{step.x_t0, step.x_t1}.path(triangles(t, i));
+    };
+    const std::array<detector::MovingPoint, 3> corners = {corner(0), corner(1), corner(2)};
     // The nearest point of the first vertex, at both ends, as a moving point.
     const auto nearest = [&](bool end) {
-      const auto place = [&](const detector::MovingPoint& p) {
-        const auto& x = end ? p.t1 : p.t0;
-        return Eigen::Vector3d(x[0], x[1], x[2]);
+      const auto place = [&](const detector::MovingPoint& p) -> Eigen::Vector3d {
+        return Eigen::Vector3d::Map((end ? p.t1 : p.t0).data());
       };
-      const Eigen::Vector3d q0 = place(step.view.q0), q1 = place(step.view.q1);
-      const Eigen::Vector3d d = q1 - q0;
+      const Eigen::Vector3d q0 = place(step.view.q0), d = place(step.view.q1) - q0;
       const double square = d.squaredNorm();
       const double s = square > 0 ? (place(corners[0]) - q0).dot(d) / square : 0;
       const Eigen::Vector3d n = q0 + std::min(1., std::max(0., s)) * d;
@@ -79,33 +82,38 @@ Signs one_vertex_signs(const ToyStep& step) {
   return signs;
 }
 
-std::optional<Finding> missing(const PairContact& contact, const char* claim, const char* stage,
+// Of the contact that is lost; nothing if none is.
+std::optional<Finding> missing(const PairContact* lost, const char* claim, const char* stage,
                                std::size_t step) {
-  return Finding{std::string(claim) + "/missing/" + stage + "/" + name_of(contact.feature.kind),
-                 {contact.pair.a, contact.pair.b},
+  if (!lost) return std::nullopt;
+  return Finding{std::string(claim) + "/missing/" + stage + "/" + name_of(lost->feature.kind),
+                 {lost->pair.a, lost->pair.b},
                  step};
 }
 
-int common_vertices(const detector::Triangles& triangles, const detector::TrianglePair& pair) {
-  int common = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) common += triangles(pair.a, i) == triangles(pair.b, k) ? 1 : 0;
+// A pair that meets first, if none of these is found.
+template <class IsFound>
+const PairContact* lost_first(const oracle::StepJudgement& judgement, IsFound is_found) {
+  const PairContact* lost = nullptr;
+  for (const auto& contact : judgement.pairs) {
+    if (contact.time != judgement.first) continue;
+    if (is_found(contact.pair)) return nullptr;
+    if (!lost) lost = &contact;
   }
-  return common;
+  return lost;
 }
 
-// 1 for triangles of a closed mesh that are touched, or not of the common layer.
-std::vector<std::uint8_t> not_clean(const Case& c, const Positions& x) {
-  const auto state = oracle::layers_at(oracle::Instant(x), c.triangles, detector::Triangles(0, 3));
-  std::vector<std::uint8_t> dirty;
-  for (const auto clean : state.clean) dirty.push_back(clean == 0 ? 1 : 0);
-  return dirty;
+// 1 for triangles that are touched, or not of the common layer.
+std::vector<std::uint8_t> not_clean(const oracle::Instant& start, const detector::Triangles& mesh,
+                                    const detector::Triangles& ghosts) {
+  auto flags = oracle::layers_at(start, mesh, ghosts).clean;
+  for (auto& flag : flags) flag = flag == 0 ? 1 : 0;
+  return flags;
 }
 
 bool is_cycle(const detector::Topology& mesh) {
-  for (const auto& component : mesh.components) {
+  for (const auto& component : mesh.components)
     if (!component.is_cycle) return false;
-  }
   return true;
 }
 
@@ -114,20 +122,25 @@ ViewPrimitive view_of(const Case& c, std::size_t step) {
   return corpus::view_of_step(c, step).value_or(ViewPrimitive{});
 }
 
-// Runs `judge_one` on each step until it finds something. Closed meshes only; dirty is what the
-// layers at the start of the step say.
+// Runs `judge_one` on each step that collides until it finds something. Closed meshes only, or else
+// unclosed ones of one component alone; dirty is what the layers at the start of the step say.
 template <class JudgeOne>
-Judge step_judge(JudgeOne judge_one) {
-  return [judge_one](const Case& c) -> std::optional<Finding> {
+Judge step_judge(JudgeOne judge_one, bool is_closed = true) {
+  return [=](const Case& c) -> std::optional<Finding> {
     const auto topology = detector::make_topology(c.triangles, c.frames.front().rows());
-    if (!is_cycle(topology)) return std::nullopt;
+    if (is_cycle(topology) != is_closed) return std::nullopt;
+    if (!is_closed && topology.components.size() != 1) return std::nullopt;
     const auto steps = corpus::steps_of(c);
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
       const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       if (judgement.answer != detector::Answer::collision) continue;
-      const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), not_clean(c, x_t0)};
-      if (auto found = judge_one(step, judgement, s)) return found;
+      const bool is_new_start = s == 0 || steps[s - 1].to != steps[s].from;
+      const auto dirty =
+          is_closed ? not_clean(oracle::Instant(x_t0), c.triangles, detector::Triangles(0, 3))
+                    : std::vector<std::uint8_t>{};
+      const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), dirty, s, is_new_start};
+      if (auto found = judge_one(step, judgement)) return found;
     }
     return std::nullopt;
   };
@@ -137,20 +150,15 @@ Judge step_judge(JudgeOne judge_one) {
 // that `drop` takes away.
 template <class SignsOf, class Drop>
 Judge first_contact_judge(const char* stage, SignsOf signs_of, Drop drop) {
-  return step_judge([=](const ToyStep& step, const oracle::StepJudgement& judgement,
-                        std::size_t s) -> std::optional<Finding> {
+  return step_judge([=](const ToyStep& step, const oracle::StepJudgement& judgement) {
     const Signs signs = signs_of(step);
-    const oracle::Candidates k(signs, step.dirty, step.topology.component_of_triangle);
-    const PairContact* lost = nullptr;
-    for (const auto& contact : judgement.pairs) {
-      if (contact.time != judgement.first) continue;
-      const auto a = static_cast<std::size_t>(contact.pair.a);
-      const auto b = static_cast<std::size_t>(contact.pair.b);
+    const auto k = step.candidates(signs, step.dirty);
+    const auto is_found = [&](const detector::TrianglePair& pair) {
+      const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
       const bool dirty = step.dirty[a] != 0 || step.dirty[b] != 0;
-      if (k.holds(contact.pair) && (dirty || !drop(signs[a], signs[b]))) return std::nullopt;
-      if (!lost) lost = &contact;
-    }
-    return missing(*lost, "first-pairs", stage, s);
+      return k.holds(pair) && (dirty || !drop(signs[a], signs[b]));
+    };
+    return missing(lost_first(judgement, is_found), "first-pairs", stage, step.number);
   });
 }
 
@@ -159,95 +167,49 @@ Judge sign_judge(SignsOf signs_of) {
   return first_contact_judge("view sets", signs_of, [](ViewSign, ViewSign) { return false; });
 }
 
-template <class Drop>
-Judge pair_rule_judge(Drop drop) {
-  return first_contact_judge("pair rule", exact_signs, drop);
-}
-
 bool both(ViewSign a, ViewSign b, ViewSign x, ViewSign y) {
   return (a == x && b == y) || (a == y && b == x);
 }
 
 // Candidates with `least` or more common vertices are not looked at.
 Judge adjacency_judge(int least) {
-  return step_judge([least](const ToyStep& step, const oracle::StepJudgement& judgement,
-                            std::size_t s) -> std::optional<Finding> {
-    const oracle::Candidates k(exact_signs(step), step.dirty, step.topology.component_of_triangle);
-    const PairContact* lost = nullptr;
-    for (const auto& contact : judgement.pairs) {
-      if (contact.time != judgement.first) continue;
-      if (k.holds(contact.pair) && common_vertices(step.mesh.triangles, contact.pair) < least) {
-        return std::nullopt;
-      }
-      if (!lost) lost = &contact;
-    }
-    return missing(*lost, "first-pairs", "pair search", s);
+  return step_judge([least](const ToyStep& step, const oracle::StepJudgement& judgement) {
+    const auto k = step.candidates(exact_signs(step), step.dirty);
+    const auto is_found = [&](const detector::TrianglePair& pair) {
+      return k.holds(pair) && shared_vertices(step.mesh.triangles, pair) < least;
+    };
+    return missing(lost_first(judgement, is_found), "first-pairs", "pair search", step.number);
   });
 }
 
 Judge no_closure_judge() {
-  return step_judge([](const ToyStep& step, const oracle::StepJudgement& judgement,
-                       std::size_t s) -> std::optional<Finding> {
-    const oracle::Candidates k(exact_signs(step), step.dirty, step.topology.component_of_triangle);
-    for (const auto& contact : judgement.pairs) {
-      if (!k.holds(contact.pair)) return missing(contact, "all-pairs", "closure", s);
-    }
-    return std::nullopt;
+  return step_judge([](const ToyStep& step, const oracle::StepJudgement& judgement) {
+    const auto lost =
+        oracle::split(judgement.pairs, step.candidates(exact_signs(step), step.dirty)).outside;
+    return missing(lost.empty() ? nullptr : &lost.front(), "all-pairs", "closure", step.number);
   });
 }
 
-// All positive, all of one group: answered free, whatever the layers are.
-Judge no_winding_judge() {
-  return step_judge([](const ToyStep& step, const oracle::StepJudgement& judgement,
-                       std::size_t s) -> std::optional<Finding> {
-    for (const ViewSign sign : exact_signs(step)) {
-      if (sign != ViewSign::positive) return std::nullopt;
-    }
-    return missing(judgement.pairs.front(), "free-sound", "start", s);
-  });
-}
-
-// An unclosed mesh is taken for a closed one.
-Judge open_as_closed_judge() {
-  return [](const Case& c) -> std::optional<Finding> {
-    const auto topology = detector::make_topology(c.triangles, c.frames.front().rows());
-    if (topology.components.size() != 1 || topology.components[0].is_cycle) return std::nullopt;
-    const auto steps = corpus::steps_of(c);
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
-      const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), {}};
-      bool positive = true;
-      for (const ViewSign sign : exact_signs(step)) positive &= sign == ViewSign::positive;
-      if (!positive) continue;
-      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
-      if (judgement.answer != detector::Answer::collision) continue;
-      return missing(judgement.pairs.front(), "free-sound", "ghosts", s);
-    }
-    return std::nullopt;
-  };
+// All positive, all of one group: answered free, whatever the layers are, or the holes.
+Judge free_where_positive_judge(const char* stage, bool is_closed) {
+  return step_judge(
+      [stage](const ToyStep& step, const oracle::StepJudgement& judgement) {
+        const Signs signs = exact_signs(step);
+        const bool all = std::count(signs.begin(), signs.end(), ViewSign::positive) ==
+                         static_cast<std::ptrdiff_t>(signs.size());
+        return missing(all ? &judgement.pairs.front() : nullptr, "free-sound", stage, step.number);
+      },
+      is_closed);
 }
 
 // Dirty triangles of the first step's start are known, those of later steps are forgotten.
 Judge dirty_not_carried_judge() {
-  return [](const Case& c) -> std::optional<Finding> {
-    const auto topology = detector::make_topology(c.triangles, c.frames.front().rows());
-    const auto steps = corpus::steps_of(c);
-    if (!is_cycle(topology)) return std::nullopt;
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto &x_t0 = start_of(c, steps[s]), &x_t1 = end_of(c, steps[s]);
-      const bool is_new_start = s == 0 || steps[s - 1].to != steps[s].from;
-      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
-      const ToyStep step = {
-          c,        x_t0,          x_t1,
-          topology, view_of(c, s), is_new_start ? not_clean(c, x_t0) : std::vector<std::uint8_t>{}};
-      const oracle::Candidates k(exact_signs(step), step.dirty, topology.component_of_triangle);
-      if (oracle::holds_a_first_contact(judgement.pairs, k)) continue;
-      for (const auto& contact : judgement.pairs) {
-        if (contact.time == judgement.first) return missing(contact, "first-pairs", "state", s);
-      }
-    }
-    return std::nullopt;
-  };
+  return step_judge([](const ToyStep& step, const oracle::StepJudgement& judgement) {
+    const auto k = step.candidates(exact_signs(step),
+                                   step.is_new_start ? step.dirty : std::vector<std::uint8_t>{});
+    return missing(lost_first(judgement, [&](const auto& pair) { return k.holds(pair); }),
+                   "first-pairs", "state", step.number);
+  });
 }
 
 // Holes are closed by fans from the means of their loops. What a ghost touches is dirty in this
@@ -275,22 +237,16 @@ Judge violated_not_carried_judge() {
       const Positions a_t0 = apexes_of(x_t0), a_t1 = apexes_of(x_t1);
       if (is_new_start) {
         const oracle::Instant start(oracle::with_apexes(x_t0, a_t0));
-        carried.clear();
-        for (const auto clean : oracle::layers_at(start, c.triangles, ghosts).clean) {
-          carried.push_back(clean == 0 ? 1 : 0);
-        }
+        carried = not_clean(start, c.triangles, ghosts);
       }
       auto violated = oracle::touched_by_ghosts({x_t0, x_t1}, c.triangles, a_t0, a_t1, ghosts,
                                                 {1, is_new_start});
       for (std::size_t t = 0; t < violated.size(); ++t) violated[t] |= carried[t];
       const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
-      const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), violated};
-      const oracle::Candidates k(exact_signs(step), violated, topology.component_of_triangle);
-      if (!oracle::holds_a_first_contact(judgement.pairs, k)) {
-        for (const auto& contact : judgement.pairs) {
-          if (contact.time == judgement.first) return missing(contact, "first-pairs", "ghosts", s);
-        }
-      }
+      const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), violated, s, is_new_start};
+      const auto k = step.candidates(exact_signs(step), violated);
+      const auto* lost = lost_first(judgement, [&](const auto& pair) { return k.holds(pair); });
+      if (lost) return missing(lost, "first-pairs", "ghosts", s);
       for (const auto& contact : judgement.pairs) {
         carried[static_cast<std::size_t>(contact.pair.a)] = 1;
         carried[static_cast<std::size_t>(contact.pair.b)] = 1;
@@ -306,7 +262,8 @@ std::vector<ToyFault> make_faults() {
     return sign_judge([times](const ToyStep& step) { return sampled_signs(step, times); });
   };
   const auto dropped = [](ViewSign x, ViewSign y) {
-    return pair_rule_judge([x, y](ViewSign a, ViewSign b) { return both(a, b, x, y); });
+    return first_contact_judge("pair rule", exact_signs,
+                               [x, y](ViewSign a, ViewSign b) { return both(a, b, x, y); });
   };
   return {
       {"sign at t=0 only", samples({0}), Start::closed, 4, "M_start"},
@@ -321,8 +278,10 @@ std::vector<ToyFault> make_faults() {
       {"no closure", no_closure_judge(), Start::closed, 6, "C1_lost_plus_plus"},
       {"one vertex for the view-line", sign_judge(one_vertex_signs), Start::tube_with_line, 7,
        "B1_one_vertex_own_nearest"},
-      {"winding not checked", no_winding_judge(), Start::nested_shells, 8, "A2_nested_outward"},
-      {"open taken as closed", open_as_closed_judge(), Start::open, 11, "D1_open_allplus"},
+      {"winding not checked", free_where_positive_judge("start", true), Start::nested_shells, 8,
+       "A2_nested_outward"},
+      {"open taken as closed", free_where_positive_judge("ghosts", false), Start::open, 11,
+       "D1_open_allplus"},
       {"dirty not carried", dirty_not_carried_judge(), Start::closed, 4, ""},
       {"violated not carried", violated_not_carried_judge(), Start::open, 22,
        "D8_release_arm_sequence"},
@@ -337,9 +296,8 @@ const std::vector<ToyFault>& toy_faults() {
 }
 
 const ToyFault& toy_fault(const std::string& name) {
-  for (const auto& fault : toy_faults()) {
+  for (const auto& fault : toy_faults())
     if (fault.name == name) return fault;
-  }
   throw std::runtime_error("no toy fault " + name);
 }
 
