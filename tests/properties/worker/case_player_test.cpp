@@ -1,5 +1,4 @@
 // A case is played as a caller of the detector would go through its script by hand.
-#include "properties/faults/fault.h"
 #include "properties/worker/case_run.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"
@@ -40,13 +39,18 @@ TEST(CasePlayer, CommitsAndEvaluatesAsScripted) {
   }
 }
 
-TEST(CasePlayer, KnowsWhereEachStepStartsAndEnds) {
-  const auto c = tests::curated_case("F_start_elsewhere");
+TEST(CasePlayer, KnowsWhereEachStepStartsAndEndsAndOfARefusedMeshThereIsNone) {
+  auto c = tests::curated_case("F_start_elsewhere");
   const auto player = player_of(c, {});
   ASSERT_EQ(player.steps(), 2u);
   EXPECT_EQ(player.step(1), (corpus::CaseStep{2, 3, true}));
   EXPECT_EQ(&player.x_t0(1), &c.frames[2]);
   EXPECT_EQ(&player.x_t1(1), &c.frames[3]);
+  c.triangles(0, 1) = c.triangles(0, 0);
+  const auto made = CasePlayer::make(c, {});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().error, detector::InputError::repeated_index);
+  EXPECT_EQ(made.error().message, Detector::create(c.triangles, c.frames[0], {}).error().message);
 }
 
 TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
@@ -58,9 +62,8 @@ TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
     SCOPED_TRACE(static_cast<int>(culling));
     const auto given = given_view(line, culling);
     ASSERT_EQ(given.size(), uses_views(culling) ? 1u : 0u);
-    if (!given.empty()) {
-      EXPECT_TRUE(same_ends(given[0], culling == Culling::view_point ? point : line));
-    }
+    EXPECT_TRUE(given.empty() ||
+                same_ends(given[0], culling == Culling::view_point ? point : line));
     EXPECT_TRUE(given_view(std::nullopt, culling).empty());
     auto by_hand = Detector::create(c.triangles, c.frames[0], {culling}).value();
     EXPECT_TRUE(
@@ -74,17 +77,7 @@ TEST(CasePlayer, GivesTheStatedViewToACullingThatLooks) {
   EXPECT_TRUE(same_ends(from_line.primitives[0], line));
 }
 
-TEST(CasePlayer, OfARefusedMeshThereIsNone) {
-  auto c = tests::curated_case("F_start_elsewhere");
-  c.triangles(0, 1) = c.triangles(0, 0);
-  const auto made = CasePlayer::make(c, {});
-  const auto by_hand = Detector::create(c.triangles, c.frames[0], {});
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().error, detector::InputError::repeated_index);
-  EXPECT_EQ(made.error().message, by_hand.error().message);
-}
-
-TEST(CasePlayer, ALookLeavesTheStateAlone) {
+TEST(CasePlayer, ALookOrAStopLeavesTheStateAlone) {
   const auto c = tests::curated_case("F_doubt_carried");
   const detector::Options options{Culling::view_point};
   auto played = player_of(c, options), looked = player_of(c, options);
@@ -96,24 +89,10 @@ TEST(CasePlayer, ALookLeavesTheStateAlone) {
   looked.play(0);
   looked.look(0);
   EXPECT_TRUE(same(looked.play(1), goes_on));
-}
-
-TEST(CasePlayer, AStoppedStepIsUndecidedAndCommitsNothing) {
-  const auto c = tests::curated_case("F_doubt_carried");
-  const detector::Options options{Culling::view_point};
+  // So does a step that is stopped.
   auto stopped = player_of(c, options);
   EXPECT_EQ(stopped.play(0, [] { return true; }).answer, detector::Answer::undecided);
   EXPECT_TRUE(same(stopped.play(1), player_of(c, options).play(1)));
-}
-
-TEST(CasePlayer, TakesOtherStages) {
-  const Fault* fault = find_fault("state/dirty-not-carried");
-  ASSERT_NE(fault, nullptr);
-  const auto c = tests::curated_case("F_doubt_carried");
-  auto wrong = CasePlayer::make(c, fault->options, fault->stages(fault->options)).value();
-  auto right = player_of(c, fault->options);
-  EXPECT_TRUE(same(wrong.play(0), right.play(0)));
-  EXPECT_FALSE(same(wrong.play(1), right.play(1)));
 }
 
 }  // namespace

@@ -1,13 +1,11 @@
 // A library that is built anew while it is judged ends the run.
 #include "properties/worker/plugin/judged_library.h"
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include "corpus/digest.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"
 #include "tests/properties/worker/worker_cases.h"
+#include "tests/reports/program.h"
 
 namespace assay::properties {
 namespace {
@@ -17,12 +15,6 @@ using detector::Answer, test::plugin, test::plugin_alone, test::small_case;
 
 class JudgedLibraries : public testing::Test {
  protected:
-  JudgedLibraries() {
-    std::string name = (fs::temp_directory_path() / "assay-judged-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~JudgedLibraries() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& name) const { return folder_ / name; }
   // Writes over the bytes, as cp does, or puts another file in the place, as a linker does.
   void put(const std::string& original, const std::string& name, bool over = false) const {
@@ -40,7 +32,7 @@ class JudgedLibraries : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  const tests::Scratch folder_;
 };
 
 TEST_F(JudgedLibraries, ServeNoMoreWhereTheyChange) {
@@ -102,15 +94,11 @@ TEST_F(JudgedLibraries, MayBeNoLibraries) {
 class PythonWords : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("python_words_" + std::to_string(::getpid()));
     write("bin/assay-worker", "");
     write("libexec/assay/assay-worker", "");
     ::setenv("PYTHONPATH", (folder_ / "more").c_str(), 1);
   }
-  void TearDown() override {
-    ::unsetenv("PYTHONPATH");
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { ::unsetenv("PYTHONPATH"); }
 
   void write(const fs::path& file, const std::string& text) const {
     fs::create_directories((folder_ / file).parent_path());
@@ -118,7 +106,8 @@ class PythonWords : public testing::Test {
   }
   fs::path worker() const { return folder_ / "bin/assay-worker"; }
 
-  fs::path folder_;
+  const tests::Scratch scratch_;
+  const fs::path folder_ = scratch_ / "";
 };
 
 TEST_F(PythonWords, HaveAModuleAndAClass) {
@@ -129,9 +118,8 @@ TEST_F(PythonWords, HaveAModuleAndAClass) {
   EXPECT_EQ(word->text(), "some.inner.module_2:Mine");
   for (const char* none : {"libmine.so", "./python:a:B", "python:", "python:a",
                            "python:a:", "python::B", "python:a:B:C", "python:a..b:C",
-                           "python:../a:B", "python:a:2B", "python:a b:C", "python:a:B.C"}) {
+                           "python:../a:B", "python:a:2B", "python:a b:C", "python:a:B.C"})
     EXPECT_FALSE(python_word_of(none)) << none;
-  }
   EXPECT_TRUE(names_python("python:"));
   EXPECT_FALSE(names_python("./python:a:B"));
 }
@@ -157,12 +145,8 @@ TEST_F(PythonWords, AreServedByThePackageBesideTheWorker) {
 TEST_F(PythonWords, AreOfAFile) {
   EXPECT_FALSE(python_module_files("python:mine:B"));
   write("more/mine/__init__.py", "");
-  ASSERT_TRUE(python_module_files("python:mine:B"));
-  EXPECT_EQ(python_module_files("python:mine:B").value().front(),
-            folder_ / "more/mine/__init__.py");
-  write("more/mine/inner.py", "");
-  EXPECT_EQ(python_module_files("python:mine.inner:B").value().front(),
-            folder_ / "more/mine/inner.py");
+  EXPECT_EQ(python_module_files("python:mine:B").value(),
+            std::vector<fs::path>{folder_ / "more/mine/__init__.py"});
   EXPECT_FALSE(python_module_files("python:mine.other:B"));
   // What a package is around, and what is imported by name from beside it.
   write("more/mine/inner.py", "import numpy\n  from .beside import a, b\nimport far as near\n");
@@ -175,17 +159,18 @@ TEST_F(PythonWords, AreOfAFile) {
 }
 
 TEST_F(PythonWords, AreToldApartByThatFileAndWhatServesThem) {
-  EXPECT_FALSE(JudgedLibrary::of("python:mine:B", worker())->digest());
+  const auto digest = [&] { return JudgedLibrary::of("python:mine:B", worker())->digest(); };
+  EXPECT_FALSE(digest());
   write("bin/python/assay/python_detector.so", "library");
-  EXPECT_FALSE(JudgedLibrary::of("python:mine:B", worker())->digest());
+  EXPECT_FALSE(digest());
   write("more/mine.py", "one");
-  const auto one = JudgedLibrary::of("python:mine:B", worker())->digest().value();
-  EXPECT_EQ(one, JudgedLibrary::of("python:mine:B", worker())->digest().value());
+  const auto one = digest().value();
+  EXPECT_EQ(one, digest().value());
   write("more/mine.py", "two");
-  const auto two = JudgedLibrary::of("python:mine:B", worker())->digest().value();
+  const auto two = digest().value();
   EXPECT_NE(one, two);
   write("bin/python/assay/python_detector.so", "another library");
-  EXPECT_NE(two, JudgedLibrary::of("python:mine:B", worker())->digest().value());
+  EXPECT_NE(two, digest().value());
 
   const auto library = folder_ / "bin/python/assay/python_detector.so";
   EXPECT_EQ(JudgedLibrary::of(library, worker())->digest().value(),

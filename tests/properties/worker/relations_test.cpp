@@ -12,7 +12,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Answer, test::plugin, test::plugin_alone;
+using test::plugin, test::plugin_alone;
 
 std::vector<corpus::Case> counted_cases(int count) {
   std::vector<corpus::Case> cases = {tests::curated_case("F_ignored_contact")};
@@ -26,23 +26,18 @@ TEST(Relations, L19_TheWorkerIsToldWhichPairsCount) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
   const std::vector<Configuration> two = {{"view-point", {detector::Culling::view_point}},
                                           {"bvh", {detector::Culling::bvh}}};
-  std::size_t ignored = 0;
+  std::size_t differ = 0;
   for (const auto& c : counted_cases(100)) {
-    const auto truth = judge_case(c);
     auto all = c;
     all.counted.reset();
-    const auto truth_of_all = judge_case(all);
-    for (std::size_t s = 0; s < truth.size(); ++s)
-      ignored += truth_of_all[s].pairs.size() - truth[s].pairs.size();
     const auto runs = worker.run(c, two);
     for (std::size_t k = 0; k < two.size(); ++k) {
       ASSERT_EQ(runs[k].end, RunEnd::completed) << c.id << ": " << runs[k].explanation;
       EXPECT_TRUE(same_answers(runs[k], run_case(c, two[k]))) << c.id;
-      const auto verdict = judge_run(c, runs[k], truth, claims_of(two[k].options), {});
-      EXPECT_EQ(verdict.outcome, Outcome::holds) << c.id << " " << two[k].name;
+      differ += same_answers(runs[k], run_case(all, two[k])) ? 0 : 1;
     }
   }
-  EXPECT_GT(ignored, 300u);
+  EXPECT_GT(differ, 50u);
 }
 
 struct ToldRuns {
