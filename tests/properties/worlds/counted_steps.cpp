@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "detector/detector.h"
 #include "oracle/distance/step_distance.h"
@@ -12,9 +13,7 @@
 namespace assay::properties::test {
 namespace {
 
-using detector::at;
-using detector::CountedLevel;
-using detector::CountedPairs;
+using detector::CountedLevel, detector::CountedPairs;
 
 // A part of a mesh: triangles, and places at three times.
 struct Part {
@@ -40,9 +39,8 @@ Part sheet(Random& random) {
     }
   }
   detector::Positions flat((columns + 1) * (rows + 1), 3);
-  for (int i = 0; i <= columns; ++i) {
+  for (int i = 0; i <= columns; ++i)
     for (int j = 0; j <= rows; ++j) flat.row(vertex(i, j)) << 2 * i - columns, 2 * j, 0;
-  }
   for (auto& x : part.x) x = flat;
   for (std::size_t f = 1; f < 3; ++f) {
     part.x[f] = part.x[f - 1];
@@ -79,10 +77,9 @@ Part tube(Random& random) {
   for (std::size_t f = 1; f < 3; ++f) {
     part.x[f] = part.x[f - 1];
     const int moved = random.between(1, 2);
-    for (int n = 0; n < moved; ++n) {
+    for (int n = 0; n < moved; ++n)
       part.x[f].row(random.below(3 * levels)) << random.between(-5, 5), random.between(-5, 5),
           random.between(-2, 2 * levels);
-    }
   }
   return part;
 }
@@ -159,18 +156,15 @@ bool same(const std::vector<detector::PairContact>& x,
 std::string words(const char* who, std::size_t step,
                   const std::vector<detector::PairContact>& found,
                   const std::vector<detector::PairContact>& plain) {
-  std::string out = who;
-  out.append(", step ").append(std::to_string(step)).append(": finds");
+  std::ostringstream out;
   const auto add = [&](const auto& contacts) {
-    for (const auto& c : contacts) {
-      out.append(" ").append(std::to_string(c.pair.a)).append("-").append(std::to_string(c.pair.b));
-      out.append("@").append(std::to_string(c.time.hi));
-    }
+    for (const auto& c : contacts) out << ' ' << c.pair.a << '-' << c.pair.b << '@' << c.time.hi;
   };
+  out << who << ", step " << step << ": finds";
   add(found);
-  out += "; the plain loop";
+  out << "; the plain loop";
   add(plain);
-  return out;
+  return out.str();
 }
 
 struct Variant {
@@ -193,14 +187,11 @@ constexpr Variant variants[] = {
 // Whether the result says what holds of the contacts that count.
 bool is_right(const detector::StepResult& result, detector::Pairs pairs,
               const std::vector<detector::PairContact>& plain) {
-  if (result.answer != (plain.empty() ? detector::Answer::free : detector::Answer::collision)) {
+  if (result.answer != (plain.empty() ? detector::Answer::free : detector::Answer::collision))
     return false;
-  }
   const auto by_time = [](const auto& x, const auto& y) { return x.time < y.time; };
-  if (!plain.empty() &&
-      result.first != std::min_element(plain.begin(), plain.end(), by_time)->time) {
+  if (!plain.empty() && result.first != std::min_element(plain.begin(), plain.end(), by_time)->time)
     return false;
-  }
   if (pairs == detector::Pairs::all) return same(result.pairs, plain);
   return std::all_of(result.pairs.begin(), result.pairs.end(), [&](const auto& c) {
     return std::any_of(plain.begin(), plain.end(), [&](const auto& p) { return p.pair == c.pair; });
@@ -217,9 +208,8 @@ CountedSteps make_counted_steps(std::uint64_t seed, std::uint64_t index) {
     const int kind = random.below(3);
     parts.push_back(kind == 0 ? sheet(random) : kind == 1 ? tube(random) : small_part(random));
   }
-  for (auto& part : parts) {
+  for (auto& part : parts)
     if (count > 1 && random.one_in(4)) part.x[1] = part.x[2] = part.x[0];
-  }
   CountedSteps steps;
   Eigen::Index vertices = 0, faces = 0;
   for (const auto& part : parts) {
@@ -258,13 +248,7 @@ std::optional<std::string> disagreement(const CountedSteps& steps, CountedTally&
       return words("oracle, of what is tested", i, tested.asked_pairs, judged.pairs);
     if (!same(tested.pairs, all.pairs))
       return words("oracle, of all beside what is tested", i, tested.pairs, all.pairs);
-    const auto ignored = all.pairs.size() - plain[i].size();
-    ++tally.steps;
-    tally.collisions += !plain[i].empty();
-    tally.pairs += plain[i].size();
-    tally.ignored += ignored;
-    tally.with_ignored += ignored > 0;
-    tally.with_both += ignored > 0 && !plain[i].empty();
+    tally.add(plain[i].size(), all.pairs.size());
     detector::StepResult as_result;
     as_result.answer = judged.answer;
     as_result.first = judged.first;
@@ -309,12 +293,7 @@ std::optional<std::string> disagreement_within(const CountedSteps& steps, double
     options.counted = &steps.counted;
     const auto judged = oracle::judge_distance(motion, steps.triangles, {separation, 0}, options);
     if (!same(judged.pairs, plain)) return words("oracle, within", i, judged.pairs, plain);
-    ++tally.steps;
-    tally.collisions += !plain.empty();
-    tally.pairs += plain.size();
-    tally.ignored += all.pairs.size() - plain.size();
-    tally.with_ignored += all.pairs.size() > plain.size();
-    tally.with_both += all.pairs.size() > plain.size() && !plain.empty();
+    tally.add(plain.size(), all.pairs.size());
     // Within the least distance something counts, and within the double before it nothing does.
     const auto least = oracle::least_distance(motion, steps.triangles, options);
     if (least.where) {

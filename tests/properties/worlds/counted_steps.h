@@ -33,6 +33,15 @@ struct CountedTally {
   std::uint64_t ignored = 0;  // pairs in contact that do not count
   // Steps in which some do not count; and among these steps with others that do.
   std::uint64_t with_ignored = 0, with_both = 0;
+
+  void add(std::size_t counted, std::size_t in_contact) {
+    ++steps;
+    collisions += counted > 0;
+    pairs += counted;
+    ignored += in_contact - counted;
+    with_ignored += in_contact > counted;
+    with_both += in_contact > counted && counted > 0;
+  }
 };
 
 // The first disagreement between the plain loop, the oracle and the detector with several cullings,

@@ -10,9 +10,7 @@
 namespace assay::properties::test {
 namespace {
 
-using detector::at;
-using detector::CountedLevel;
-using detector::CountedPairs;
+using detector::at, detector::CountedLevel, detector::CountedPairs;
 
 // The relation in a plain way: a table of how many edges join two vertices, and distances as
 // fractions of whole numbers.
@@ -42,9 +40,8 @@ Fraction squared_to_face(const Whole& p, const std::array<Whole, 3>& f) {
                              squared_to_edge(p, f[2], f[0])});
   const Whole n = cross(minus(f[1], f[0]), minus(f[2], f[0]));
   if (dot(n, n) == 0) return least;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     if (dot(n, cross(minus(f[(i + 1) % 3], f[i]), minus(p, f[i]))) < 0) return least;
-  }
   const std::int64_t height = dot(n, minus(p, f[0]));
   return std::min(least, Fraction{height * height, dot(n, n)});
 }
@@ -68,19 +65,14 @@ class PlainRelation {
         triangles_(triangles),
         edges_(vertices, std::vector<int>(vertices, far)) {
     for (std::size_t v = 0; v < vertices; ++v) edges_[v][v] = 0;
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
           if (i != j) edges_[at(triangles(t, i))][at(triangles(t, j))] = 1;
-        }
-      }
-    }
-    for (std::size_t k = 0; k < vertices; ++k) {
-      for (std::size_t i = 0; i < vertices; ++i) {
+    for (std::size_t k = 0; k < vertices; ++k)
+      for (std::size_t i = 0; i < vertices; ++i)
         for (std::size_t j = 0; j < vertices; ++j)
           edges_[i][j] = std::min(edges_[i][j], edges_[i][k] + edges_[k][j]);
-      }
-    }
   }
 
   using Vertices = std::vector<std::int32_t>;
@@ -98,18 +90,15 @@ class PlainRelation {
       const auto c0 = body(a[0]), c1 = body(b[0]);
       if ((b0 == c0 && b1 == c1) || (b0 == c1 && b1 == c0)) return false;
     }
-    for (const auto u : a) {
-      for (const auto v : b) {
+    for (const auto u : a)
+      for (const auto v : b)
         if (edges_[at(u)][at(v)] < counted_.rings) return false;
-      }
-    }
     return counted_.rest_distance == 0 || !nearer();
   }
 
   bool counts_vertex(std::int32_t v, std::int32_t t) const {
-    for (const auto& pair : counted_.vertex_faces) {
+    for (const auto& pair : counted_.vertex_faces)
       if (pair.vertex == v && pair.face == t) return false;
-    }
     return may_count({v}, corners(t), [&] { return near_vertex(v, t); });
   }
 
@@ -117,17 +106,15 @@ class PlainRelation {
     const auto same = [](const auto& e, const auto& f) {
       return e == f || (e[0] == f[1] && e[1] == f[0]);
     };
-    for (const auto& pair : counted_.edge_pairs) {
+    for (const auto& pair : counted_.edge_pairs)
       if ((same(pair.a, a) && same(pair.b, b)) || (same(pair.a, b) && same(pair.b, a)))
         return false;
-    }
     return may_count({a[0], a[1]}, {b[0], b[1]}, [&] { return near_edges(a, b); });
   }
 
   bool counts_triangles(std::int32_t a, std::int32_t b) const {
-    for (const auto& pair : counted_.triangle_pairs) {
+    for (const auto& pair : counted_.triangle_pairs)
       if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return false;
-    }
     return may_count(corners(a), corners(b), [&] { return near_triangles(a, b); });
   }
 
@@ -175,16 +162,14 @@ class PlainRelation {
 };
 
 // Two triangles, and all that may meet of them.
-class PlainPair {
- public:
-  PlainPair(const detector::SteppedMesh& motion, const PlainRelation& relation, bool of_features,
-            double separation, std::int32_t a, std::int32_t b)
-      : motion_(motion),
-        relation_(relation),
-        of_features_(of_features),
-        separation_(separation),
-        a_(a),
-        b_(b) {}
+struct PlainPair {
+  const detector::SteppedMesh& motion_;
+  const PlainRelation& relation_;
+  const bool of_features_;
+  const double separation_;
+  const std::int32_t a_, b_;
+  std::optional<detector::TimeEnclosure> least_ = {};
+  bool some_counts_ = false, pierced_ = false;
 
   // The first time of what counts.
   std::optional<detector::TimeEnclosure> first() {
@@ -193,9 +178,8 @@ class PlainPair {
     vertices_on(a_, b_);
     vertices_on(b_, a_);
     const auto p = relation_.corners(a_), q = relation_.corners(b_);
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) edges({p[i], p[(i + 1) % 3]}, {q[j], q[(j + 1) % 3]});
-    }
     for (std::size_t i = 0; i < 3; ++i) {
       pierces({p[i], p[(i + 1) % 3]}, q);
       pierces({q[i], q[(i + 1) % 3]}, p);
@@ -204,7 +188,6 @@ class PlainPair {
     return least_;
   }
 
- private:
   using Vertices = PlainRelation::Vertices;
   static bool holds(const Vertices& list, std::int32_t v) {
     return std::find(list.begin(), list.end(), v) != list.end();
@@ -265,14 +248,6 @@ class PlainPair {
         motion_.start(e[0]), motion_.start(e[1]),
         {motion_.start(f[0]), motion_.start(f[1]), motion_.start(f[2])});
   }
-
-  const detector::SteppedMesh& motion_;
-  const PlainRelation& relation_;
-  const bool of_features_;
-  const double separation_;
-  const std::int32_t a_, b_;
-  std::optional<detector::TimeEnclosure> least_;
-  bool some_counts_ = false, pierced_ = false;
 };
 
 }  // namespace
@@ -283,12 +258,10 @@ std::vector<detector::PairContact> plain_contacts(const detector::SteppedMesh& m
   const PlainRelation relation(counted, triangles, static_cast<std::size_t>(motion.size()));
   const bool of_features = counted.level == CountedLevel::features;
   std::vector<detector::PairContact> contacts;
-  for (std::int32_t a = 0; a < triangles.rows(); ++a) {
-    for (std::int32_t b = a + 1; b < triangles.rows(); ++b) {
-      if (const auto time = PlainPair(motion, relation, of_features, separation, a, b).first())
+  for (std::int32_t a = 0; a < triangles.rows(); ++a)
+    for (std::int32_t b = a + 1; b < triangles.rows(); ++b)
+      if (const auto time = PlainPair{motion, relation, of_features, separation, a, b}.first())
         contacts.push_back({{a, b}, *time, {}});
-    }
-  }
   return contacts;
 }
 
