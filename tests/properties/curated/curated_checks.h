@@ -13,6 +13,7 @@
 #include "oracle/view/view_sign.h"
 #include "properties/faults/fault.h"
 #include "properties/judging/exam.h"
+#include "tests/meshes.h"
 #include "tests/oracle/embedding.h"
 #include "tests/test.h"
 
@@ -25,18 +26,22 @@ using Flags = std::vector<std::uint8_t>;
 
 inline Set members(const Flags& flags) {
   Set set;
-  for (std::size_t t = 0; t < flags.size(); ++t) {
+  for (std::size_t t = 0; t < flags.size(); ++t)
     if (flags[t]) set.push_back(static_cast<std::int32_t>(t));
-  }
   return set;
 }
 
+inline bool are_all(const std::vector<ViewSign>& signs, ViewSign wanted) {
+  return std::all_of(signs.begin(), signs.end(), [&](auto sign) { return sign == wanted; });
+}
+
+inline Flags either(Flags a, const Flags& b) {
+  for (std::size_t t = 0; t < b.size(); ++t) a[t] |= b[t];
+  return a;
+}
+
 inline detector::Positions rows(const std::vector<detector::Point>& points) {
-  detector::Positions x(static_cast<Eigen::Index>(points.size()), 3);
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    for (int k = 0; k < 3; ++k) x(i, k) = points[static_cast<std::size_t>(i)][k];
-  }
-  return x;
+  return tests::matrix_of<detector::Positions>(points);
 }
 
 // One step of a curated case with what the oracle says of it: signs, contacts, ghosts.
@@ -59,14 +64,10 @@ class CuratedStep {
                                                 const detector::Positions& to) const {
     return oracle::view_signs({from, to}, triangles, {&primitive, 1}, 1);
   }
-  bool all_signs(detector::ViewSign wanted) const {
-    return std::all_of(signs.begin(), signs.end(), [&](auto s) { return s == wanted; });
-  }
+  bool all_signs(detector::ViewSign wanted) const { return are_all(signs, wanted); }
   // Positive at t=0, 1/2, 1 when the places there are doubles.
   bool all_positive_at_rest(const detector::Positions& x) const {
-    const auto at = signs_between(x, x);
-    return std::all_of(at.begin(), at.end(),
-                       [](auto s) { return s == detector::ViewSign::positive; });
+    return are_all(signs_between(x, x), ViewSign::positive);
   }
 
   Flags touched(const detector::Positions& from, const detector::Positions& to) const {
@@ -83,12 +84,7 @@ class CuratedStep {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
     return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, {1, true});
   }
-  Flags at_either_end() const {
-    Flags flags = at_rest(false);
-    const Flags end = at_rest(true);
-    for (std::size_t t = 0; t < flags.size(); ++t) flags[t] |= end[t];
-    return flags;
-  }
+  Flags at_either_end() const { return either(at_rest(false), at_rest(true)); }
   // Ghosts that stay behind, corners and all, at their places of t=0.
   Flags by_frozen_ghosts() const {
     detector::Positions corners(3 * ghosts.rows(), 3);
@@ -136,9 +132,8 @@ class CuratedStep {
         if (oracle::holds(face, mesh.vertices[i])) continue;
         const detector::VertexFace query{path(mesh.vertices[i]),
                                          {path(face[0]), path(face[1]), path(face[2])}};
-        if (oracle::vertex_face_contact(query, detector::Want::yes_no).contact) {
+        if (oracle::vertex_face_contact(query, detector::Want::yes_no).contact)
           add(mesh.triangles_of_vertex.of(i), {&f, 1});
-        }
       }
     }
     for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
@@ -146,9 +141,8 @@ class CuratedStep {
         const auto &a = mesh.edges[i], &b = mesh.edges[j];
         if (oracle::share_vertex(a, b)) continue;
         const detector::EdgeEdge query{{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}};
-        if (oracle::edge_edge_contact(query, detector::Want::yes_no).contact) {
+        if (oracle::edge_edge_contact(query, detector::Want::yes_no).contact)
           add(mesh.triangles_of_edge.of(i), mesh.triangles_of_edge.of(j));
-        }
       }
     }
     return lost;
@@ -199,9 +193,8 @@ inline oracle::LayerState layers(const CuratedStep& s) {
 
 inline int layer_classes(const CuratedStep& s) {
   std::set<oracle::Layer> seen;
-  for (const auto& layer : layers(s).layer) {
+  for (const auto& layer : layers(s).layer)
     if (layer) seen.insert(*layer);
-  }
   return static_cast<int>(seen.size());
 }
 
@@ -209,18 +202,9 @@ inline bool is_cycle(const CuratedStep& s) { return oracle::closes(s.triangles, 
 
 inline int distinct_unmatched_edges(const detector::Triangles& triangles) {
   std::set<oracle::DirectedEdge> edges;
-  for (auto [u, v] : oracle::unmatched_edges(triangles)) {
+  for (auto [u, v] : oracle::unmatched_edges(triangles))
     edges.insert({std::min(u, v), std::max(u, v)});
-  }
   return static_cast<int>(edges.size());
-}
-
-inline int common_vertices(const CuratedStep& s, const detector::TrianglePair& pair) {
-  int common = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) common += s.triangles(pair.a, i) == s.triangles(pair.b, j);
-  }
-  return common;
 }
 
 // The thesis as printed in one place: Vv taken out of U (and so of V+, V- and V0's partners).
@@ -252,7 +236,7 @@ inline bool lost_all(const Facts& f, ViewSign sign) {
 inline bool non_adjacent_pairs(const Facts& f, bool wanted_in_k) {
   const auto& s = f.last();
   return std::any_of(s.judgement.pairs.begin(), s.judgement.pairs.end(), [&](const auto& c) {
-    return common_vertices(s, c.pair) == 0 && (!wanted_in_k || s.k().holds(c.pair));
+    return shared_vertices(s.triangles, c.pair) == 0 && (!wanted_in_k || s.k().holds(c.pair));
   });
 }
 
@@ -272,147 +256,124 @@ inline std::optional<detector::StepResult> said_by_mutant(const Facts& f) {
 
 inline std::optional<bool> says_all_positive(const std::optional<detector::StepResult>& result) {
   if (!result) return std::nullopt;
-  return std::all_of(result->signs.begin(), result->signs.end(),
-                     [](auto sign) { return sign == ViewSign::positive; });
+  return are_all(result->signs, ViewSign::positive);
 }
 
+// The checks by the names of their facts.
 inline std::map<std::string, Check> checks() {
-  auto with = [](auto test) {
-    return [=](const Facts& f) { return std::optional<bool>(test(f)); };
+  auto of_sequence = [](Check check) -> Check {
+    return [=](const Facts& f) { return f.two_steps() ? check(f) : std::nullopt; };
   };
-  auto of_sequence = [](auto test) {
-    return
-        [=](const Facts& f) { return f.two_steps() ? std::optional<bool>(test(f)) : std::nullopt; };
+  const Check cycle = [](const Facts& f) { return is_cycle(f.first()); };
+  const Check embedded0 = [](const Facts& f) {
+    return oracle::embedded(f.first().x_t0, f.first().triangles);
   };
-  const Check cycle = with([](const Facts& f) { return is_cycle(f.first()); });
-  const Check embedded0 =
-      with([](const Facts& f) { return oracle::embedded(f.first().x_t0, f.first().triangles); });
-  const Check start_b =
-      with([](const Facts& f) { return oracle::embedded(f.last().x_t0, f.last().triangles); });
-  const Check contacts = with([](const Facts& f) { return !f.last().judgement.pairs.empty(); });
-  const Check no_contact = with([](const Facts& f) { return f.first().judgement.pairs.empty(); });
-  const Check all_plus =
-      with([](const Facts& f) { return f.last().all_signs(ViewSign::positive); });
-  const Check not_all_plus =
-      with([](const Facts& f) { return !f.last().all_signs(ViewSign::positive); });
-  const Check k_nothing = with([](const Facts& f) { return f.last().k_finds_nothing(); });
-  const Check first_found =
-      with([](const Facts& f) { return f.last().k_finds_the_first(f.swept()); });
-  const Check some_lost =
-      with([](const Facts& f) { return !f.last().lost_feature_pairs().empty(); });
+  const Check no_contact = [](const Facts& f) { return f.first().judgement.pairs.empty(); };
+  const Check clear_of_ghosts = [](const Facts& f) {
+    return members(f.first().at_rest(false)).empty();
+  };
   // D9: a centre that stands still in step 1 and is at its last place all through step 2.
   auto jumped = [](const Facts& f) {
     return f.last().touched(f.last().apexes_t1, f.last().apexes_t1);
   };
-  auto time = [](double t) {
+  auto time = [](double t) -> Check {
     return [=](const Facts& f) {
-      return std::optional<bool>(f.last().judgement.first == detector::TimeEnclosure{t, t});
+      return f.last().judgement.first == detector::TimeEnclosure{t, t};
     };
   };
 
-  return {
-      {"closed_cycle", cycle},
-      {"closed", cycle},
-      {"cycle", cycle},
-      {"cycle_with_ghosts", cycle},
-      {"not_a_cycle", with([](const Facts& f) { return !is_cycle(f.first()); })},
-      {"embedded0", embedded0},
-      {"M_embedded0", embedded0},
-      {"M_embedded", embedded0},
-      {"M_embedded_startA",
-       [=](const Facts& f) { return f.two_steps() ? embedded0(f) : std::nullopt; }},
-      {"M_embedded_startB", start_b},
-      {"not_embedded0", with([=](const Facts& f) { return !*embedded0(f); })},
-      {"contacts", contacts},
-      {"contacts_B", contacts},
+  const std::vector<std::pair<const char*, Check>> by_names = {
+      {"closed_cycle closed cycle cycle_with_ghosts", cycle},
+      {"not_a_cycle", [](const Facts& f) { return !is_cycle(f.first()); }},
+      {"embedded0 M_embedded0 M_embedded", embedded0},
+      {"M_embedded_startA", of_sequence(embedded0)},
+      {"M_embedded_startB",
+       [](const Facts& f) { return oracle::embedded(f.last().x_t0, f.last().triangles); }},
+      {"not_embedded0", [=](const Facts& f) { return !*embedded0(f); }},
+      {"contacts contacts_B", [](const Facts& f) { return !f.last().judgement.pairs.empty(); }},
       {"no_contact", no_contact},
-      {"stepA_no_contact",
-       [=](const Facts& f) { return f.two_steps() ? no_contact(f) : std::nullopt; }},
+      {"stepA_no_contact", of_sequence(no_contact)},
       {"first_at_end", time(1)},
       {"mid", time(0.5)},
-      {"single_event", with([](const Facts& f) {
+      {"single_event",
+       [](const Facts& f) {
          const auto& pairs = f.last().judgement.pairs;
          return std::all_of(pairs.begin(), pairs.end(),
                             [&](const auto& c) { return c.time == pairs[0].time; });
-       })},
-      {"all_Vplus", all_plus},
-      {"all_M_Vplus", all_plus},
-      {"strict_not_all_positive", not_all_plus},
-      {"exact_line_test_not_all_positive", not_all_plus},
-      {"all_V0", with([](const Facts& f) { return f.last().all_signs(ViewSign::zero); })},
-      {"only_one_V0", with([](const Facts& f) {
+       }},
+      {"all_Vplus all_M_Vplus",
+       [](const Facts& f) { return f.last().all_signs(ViewSign::positive); }},
+      {"strict_not_all_positive exact_line_test_not_all_positive",
+       [](const Facts& f) { return !f.last().all_signs(ViewSign::positive); }},
+      {"all_V0", [](const Facts& f) { return f.last().all_signs(ViewSign::zero); }},
+      {"only_one_V0",
+       [](const Facts& f) {
          const auto& signs = f.last().signs;
          return std::count(signs.begin(), signs.end(), ViewSign::zero) == 1;
-       })},
-      {"positive_at_0_and_1", with([](const Facts& f) {
+       }},
+      {"positive_at_0_and_1",
+       [](const Facts& f) {
          const auto& s = f.last();
          return s.all_positive_at_rest(s.x_t0) && s.all_positive_at_rest(s.x_t1);
-       })},
-      {"positive_at_samples", with([](const Facts& f) {
+       }},
+      {"positive_at_samples",
+       [](const Facts& f) {
          const auto& s = f.last();
          const detector::Positions mid = (s.x_t0 + s.x_t1) / 2;
          EXPECT_EQ(mid * 2, s.x_t0 + s.x_t1);
          return s.all_positive_at_rest(s.x_t0) && s.all_positive_at_rest(mid) &&
                 s.all_positive_at_rest(s.x_t1);
-       })},
-      {"viewline_never_pierced", with([](const Facts& f) {
+       }},
+      {"viewline_never_pierced",
+       [](const Facts& f) {
          const auto& s = f.last();
          return !oracle::meets_primitive({s.x_t0, s.x_t1}, s.triangles, s.primitive);
-       })},
-      {"K_empty", k_nothing},
-      {"K_finds_nothing", k_nothing},
-      {"K_without_Vv_finds_nothing", k_nothing},
-      {"sound_rule_first_ok", first_found},
-      {"exact_K_first_ok", first_found},
-      {"first_found", first_found},
-      {"found", first_found},
-      {"found_by_K_with_V0", first_found},
-      {"K_finds", first_found},
-      {"K_with_adjacent_finds", first_found},
-      {"swept_ok", first_found},
-      {"some_lost", some_lost},
-      {"some_pair_lost", with([](const Facts& f) { return !f.last().pairs_outside_k().empty(); })},
-      {"lost_all_plus", with([](const Facts& f) { return lost_all(f, ViewSign::positive); })},
-      {"lost_all_minus", with([](const Facts& f) { return lost_all(f, ViewSign::negative); })},
-      {"only_block", with(only_block_of_name)},
-      {"nonadjacent_pairs_in_contact",
-       with([](const Facts& f) { return non_adjacent_pairs(f, false); })},
-      {"none_of_them_in_K", with([](const Facts& f) { return !non_adjacent_pairs(f, true); })},
-      {"M_clear_of_ghosts_at_0",
-       with([](const Facts& f) { return members(f.first().at_rest(false)).empty(); })},
-      {"M_clear_of_ghost_startA",
-       of_sequence([](const Facts& f) { return members(f.first().at_rest(false)).empty(); })},
-      {"static_Vv_empty",
-       with([](const Facts& f) { return members(f.last().at_either_end()).empty(); })},
+       }},
+      {"K_empty K_finds_nothing K_without_Vv_finds_nothing",
+       [](const Facts& f) { return f.last().k_finds_nothing(); }},
+      {"sound_rule_first_ok exact_K_first_ok first_found found found_by_K_with_V0 K_finds "
+       "K_with_adjacent_finds swept_ok",
+       [](const Facts& f) { return f.last().k_finds_the_first(f.swept()); }},
+      {"some_lost", [](const Facts& f) { return !f.last().lost_feature_pairs().empty(); }},
+      {"some_pair_lost", [](const Facts& f) { return !f.last().pairs_outside_k().empty(); }},
+      {"lost_all_plus", [](const Facts& f) { return lost_all(f, ViewSign::positive); }},
+      {"lost_all_minus", [](const Facts& f) { return lost_all(f, ViewSign::negative); }},
+      {"only_block", only_block_of_name},
+      {"nonadjacent_pairs_in_contact", [](const Facts& f) { return non_adjacent_pairs(f, false); }},
+      {"none_of_them_in_K", [](const Facts& f) { return !non_adjacent_pairs(f, true); }},
+      {"M_clear_of_ghosts_at_0", clear_of_ghosts},
+      {"M_clear_of_ghost_startA", of_sequence(clear_of_ghosts)},
+      {"static_Vv_empty", [](const Facts& f) { return members(f.last().at_either_end()).empty(); }},
       {"static_finds_nothing",
-       with([](const Facts& f) { return f.last().k_finds_nothing(f.last().at_either_end()); })},
+       [](const Facts& f) { return f.last().k_finds_nothing(f.last().at_either_end()); }},
       {"static_Vv_misses_first",
-       with([](const Facts& f) { return !f.last().k_finds_the_first(f.last().at_either_end()); })},
+       [](const Facts& f) { return !f.last().k_finds_the_first(f.last().at_either_end()); }},
       {"U_minus_Vv_finds_nothing",
-       with([](const Facts& f) { return reduced_u_finds_nothing(f.last(), f.swept()); })},
+       [](const Facts& f) { return reduced_u_finds_nothing(f.last(), f.swept()); }},
       {"frozen_finds_nothing",
-       with([](const Facts& f) { return f.last().k_finds_nothing(f.last().by_frozen_ghosts()); })},
-      {"frozen_ghost_does_not_taint_tetra", with([](const Facts& f) {
+       [](const Facts& f) { return f.last().k_finds_nothing(f.last().by_frozen_ghosts()); }},
+      {"frozen_ghost_does_not_taint_tetra",
+       [](const Facts& f) {
          const Flags frozen = f.last().by_frozen_ghosts();
          return std::none_of(frozen.begin() + 10, frozen.end(), [](auto t) { return t != 0; });
-       })},
+       }},
       {"tip_in_Vv_after_A", of_sequence([](const Facts& f) {
          const Flags after = f.first().swept(), tip = f.stored_flags("tip_faces");
          return std::equal(tip.begin(), tip.end(), after.begin(), std::less_equal<>());
        })},
-      {"tip_not_in_Vv_of_B_alone", with([](const Facts& f) {
+      {"tip_not_in_Vv_of_B_alone",
+       [](const Facts& f) {
          const Flags b = f.swept(), tip = f.stored_flags("tip_faces");
          return std::equal(tip.begin(), tip.end(), b.begin(),
                            [](auto in_tip, auto in_b) { return !in_tip || !in_b; });
-       })},
+       }},
       {"released_finds_nothing",
-       with([](const Facts& f) { return f.last().k_finds_nothing(f.swept()); })},
-      {"persistent_finds", with([](const Facts& f) {
-         Flags carried = f.two_steps() ? f.first().swept() : f.stored_flags("Vv_after_A");
-         const Flags b = f.swept();
-         for (std::size_t t = 0; t < b.size(); ++t) carried[t] |= b[t];
-         return f.last().k_finds_the_first(carried);
-       })},
+       [](const Facts& f) { return f.last().k_finds_nothing(f.swept()); }},
+      {"persistent_finds",
+       [](const Facts& f) {
+         return f.last().k_finds_the_first(
+             either(f.two_steps() ? f.first().swept() : f.stored_flags("Vv_after_A"), f.swept()));
+       }},
       {"step1_no_taint", of_sequence([](const Facts& f) {
          return members(f.first().touched(f.first().apexes_t0, f.first().apexes_t0)).empty();
        })},
@@ -421,9 +382,10 @@ inline std::map<std::string, Check> checks() {
       {"K_plus_Vv_finds_nothing",
        of_sequence([=](const Facts& f) { return f.last().k_finds_nothing(jumped(f)); })},
       {"mutant_finds_nothing_exact",
-       [](const Facts& f) {
+       [](const Facts& f) -> std::optional<bool> {
          const auto result = said_by_mutant(f);
-         return result ? std::optional(result->answer == detector::Answer::free) : std::nullopt;
+         if (!result) return std::nullopt;
+         return result->answer == detector::Answer::free;
        }},
       {"mutant_says_all_Vplus",
        [](const Facts& f) { return says_all_positive(said_by_mutant(f)); }},
@@ -431,22 +393,27 @@ inline std::map<std::string, Check> checks() {
        [](const Facts& f) {
          return says_all_positive(said_by(f, find_fault("view/touching-zero-is-positive")));
        }},
-      {"layers_differ", with([](const Facts& f) { return layer_classes(f.first()) > 1; })},
-      {"four_triangles_at_one_edge", with([](const Facts& f) {
+      {"layers_differ", [](const Facts& f) { return layer_classes(f.first()) > 1; }},
+      {"four_triangles_at_one_edge",
+       [](const Facts& f) {
          std::map<oracle::DirectedEdge, int> uses;
-         for (Eigen::Index t = 0; t < f.first().triangles.rows(); ++t) {
+         for (const auto& t : f.first().triangles.rowwise())
            for (int k = 0; k < 3; ++k) {
-             const auto u = f.first().triangles(t, k), v = f.first().triangles(t, (k + 1) % 3);
-             ++uses[{std::min(u, v), std::max(u, v)}];
+             const auto [u, v] = std::minmax({t[k], t[(k + 1) % 3]});
+             ++uses[{u, v}];
            }
-         }
          return std::any_of(uses.begin(), uses.end(), [](const auto& e) { return e.second == 4; });
-       })},
-      {"connected_by_shared_edge", with([](const Facts& f) {
+       }},
+      {"connected_by_shared_edge",
+       [](const Facts& f) {
          const auto component = layers(f.first()).component;
          return std::all_of(component.begin(), component.end(), [](auto c) { return c == 0; });
-       })},
+       }},
   };
+  std::map<std::string, Check> by_name;
+  for (const auto& [names, check] : by_names)
+    for (const auto& name : tests::words(names)) by_name[name] = check;
+  return by_name;
 }
 
 }  // namespace assay::properties::test

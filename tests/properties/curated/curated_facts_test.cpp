@@ -42,9 +42,8 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
   if (name == "boundary_edges_of_M_plus_ghost") return distinct_unmatched_edges(with_ghosts(s));
   if (name == "in_K") {
     json pairs = json::array();
-    for (const auto& c : oracle::split(s.judgement.pairs, s.k()).in_k) {
-      pairs.push_back({c.pair.a, c.pair.b});
-    }
+    for (const auto& [pair, time, feature] : oracle::split(s.judgement.pairs, s.k()).in_k)
+      pairs.push_back({pair.a, pair.b});
     return pairs;
   }
   if (name == "Vv" || name == "Vv_swept") return members(s.swept());
@@ -52,9 +51,8 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
   if (name == "Vv_frozen") return members(s.by_frozen_ghosts());
   if (name == "Vv_after_A" && f.two_steps()) return members(f.first().swept());
   if (name == "first_B") return s.judgement.first.lo;
-  if (name == "penetrates") {
+  if (name == "penetrates")
     return oracle::meets_primitive({s.x_t0, s.x_t1}, s.triangles, s.primitive);
-  }
   if (name == "flipped_triangle") {
     // The triangle that, turned over, makes the mesh a cycle.
     for (Eigen::Index t = 0; t < s.triangles.rows(); ++t) {
@@ -124,9 +122,9 @@ int winding_at_view(const CuratedStep& s) {
 }
 
 TEST(CuratedFacts, L5_WindingTwoIsNoRelease) {
-  EXPECT_EQ(winding_at_view(step_of("A1_winding2_allpositive")), 2);
-  EXPECT_EQ(winding_at_view(step_of("A2_nested_outward")), 2);
-  EXPECT_EQ(winding_at_view(step_of("L9_shared_edge_two_layers")), 2);
+  for (const char* id :
+       {"A1_winding2_allpositive", "A2_nested_outward", "L9_shared_edge_two_layers"})
+    EXPECT_EQ(winding_at_view(step_of(id)), 2) << id;
 }
 
 TEST(CuratedFacts, L9_TwoLayersInOneComponent) {
