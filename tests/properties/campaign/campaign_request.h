@@ -1,6 +1,7 @@
 // A small campaign as the tests of its parts run it.
 #pragma once
 
+#include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/faults/fault.h"
 #include "tests/test.h"
@@ -43,6 +44,28 @@ inline CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
 
 inline RunDeadline in_ten_minutes() {
   return std::chrono::steady_clock::now() + std::chrono::minutes(10);
+}
+
+inline Store open_store(const std::filesystem::path& file, const std::string& binding = "b") {
+  auto store = Store::open(file, binding);
+  EXPECT_TRUE(store) << store.error().message;
+  return std::move(store.value());
+}
+
+// A store in which all trials of the request are.
+inline Store with_all_trials(const CampaignRequest& request, const std::filesystem::path& file) {
+  Store store = open_store(file);
+  const auto in_an_hour = std::chrono::steady_clock::now() + std::chrono::hours(1);
+  const auto end = run_trials(request, store, in_an_hour, {});
+  EXPECT_TRUE(end.complete);
+  EXPECT_EQ(end.harness_problem, "");
+  return store;
+}
+
+inline Tally tally_in(const Store& store) {
+  Tally tally;
+  store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
+  return tally;
 }
 
 }  // namespace assay::properties::test

@@ -78,15 +78,13 @@ TEST(Forms, AContactThatOnlyTheWayBackMissesBreaksTheLaw) {
 TEST(Forms, AMeshThatFailsWhenItIsRefinedBreaksL18) {
   FormCheckOf check(test::plugin("misses_on_97"));
   // Two triangles that cross, and 93 far away, each alone.
-  constexpr Eigen::Index count = 95;
+  constexpr int count = 95;
   corpus::Case c;
   c.triangles.resize(count, 3);
   detector::Positions x(3 * count, 3);
-  for (Eigen::Index t = 0; t < count; ++t) {
-    c.triangles.row(t) << static_cast<int>(3 * t), static_cast<int>(3 * t + 1),
-        static_cast<int>(3 * t + 2);
-    const double away = 100. * static_cast<double>(t);
-    x.middleRows(3 * t, 3) << away, 0, 0, away + 4, 0, 0, away, 4, 0;
+  for (int t = 0; t < count; ++t) {
+    c.triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+    x.middleRows(3 * t, 3) << 100 * t, 0, 0, 100 * t + 4, 0, 0, 100 * t, 4, 0;
   }
   x.middleRows(3, 3) << 1, 1, -1, 1, 1, 3, 1, 2, 3;
   c.frames = {x, x};
@@ -130,12 +128,8 @@ TEST(Forms, AreCountedWithTheTrials) {
   request.plan.laws_every = 1;
   test::set_plugin(request, test::plugin("wrapped_builtin"));
   const tests::Scratch scratch;
-  auto store = Store::open(scratch / "store", "b").value();
-  const auto end = run_trials(request, store, test::in_ten_minutes(), {});
-  EXPECT_TRUE(end.complete) << end.harness_problem;
-  Tally tally;
-  store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
-  const auto laws = laws_in(tally.counts, false);
+  const auto store = test::with_all_trials(request, scratch / "store");
+  const auto laws = laws_in(test::tally_in(store).counts, false);
   ASSERT_EQ(laws.size(), 13u);
   std::uint64_t premises = 0;
   for (const auto& [law, count] : laws) {
@@ -164,6 +158,11 @@ TEST(Extremes, OfTheMesh) {
   auto joined = fan_and_triangle(2);
   joined.triangles(5, 0) = 0;
   EXPECT_EQ(extremes_of(joined, {}), (Extremes{1, 6, 0, 1, 0, 6}));
+  // Pairs are those of the fullest step.
+  std::vector<oracle::StepJudgement> truth(3);
+  truth[0].pairs.resize(2);
+  truth[1].pairs.resize(7);
+  EXPECT_EQ(extremes_of(fan_and_triangle(4), truth).pairs, 7u);
 }
 
 TEST(Extremes, BodiesAreThoseOfARelation) {
@@ -192,19 +191,6 @@ TEST(Extremes, StepsGoOnFromCommittedOnesAlone) {
   EXPECT_EQ(extremes_of(c, {}).steps_in_a_row, 2u);
 }
 
-TEST(Extremes, PairsAreThoseOfTheFullestStep) {
-  std::vector<oracle::StepJudgement> truth(3);
-  truth[0].pairs.resize(2);
-  truth[1].pairs.resize(7);
-  EXPECT_EQ(extremes_of(fan_and_triangle(4), truth).pairs, 7u);
-}
-
-TEST(Extremes, OfManyTheLargerOfEachStays) {
-  Extremes most{1, 20, 3, 40, 5, 60};
-  most.include({10, 2, 30, 4, 50, 6});
-  EXPECT_EQ(most, (Extremes{10, 20, 30, 40, 50, 60}));
-}
-
 // A crash inside a law is a broken law, and nothing else is lost by it.
 
 const LawTally held{7, 2, 0, ""};
@@ -219,18 +205,14 @@ std::vector<LawTally> checks_with(std::size_t count, std::size_t bad,
       });
 }
 
-TEST(LawChecks, ACrashBreaksTheLawAndNoOther) {
-  const auto tallies = checks_with(4, 1, [] { std::abort(); });
-  const LawTally crashed{1, 0, 1, "a:1:b:2: the check ended: killed by signal 6 (Aborted)"};
-  EXPECT_EQ(tallies, (std::vector<LawTally>{held, crashed, held, held}));
-}
-
-TEST(LawChecks, AnExitIsACrashToo) {
-  for (const int code : {0, 3}) {
-    const auto tallies = checks_with(3, 2, [&] { std::_Exit(code); });
-    ASSERT_EQ(tallies.size(), 3u);
-    EXPECT_EQ(tallies[2].broken_steps, 1u);
-    EXPECT_TRUE(says(tallies[2].first_broken, "exited with code " + std::to_string(code)));
+TEST(LawChecks, ACrashOrAnExitBreaksTheLawAndNoOther) {
+  const std::pair<std::function<void()>, const char*> ends[] = {
+      {[] { std::abort(); }, "killed by signal 6 (Aborted)"},
+      {[] { std::_Exit(0); }, "exited with code 0"},
+      {[] { std::_Exit(3); }, "exited with code 3"}};
+  for (const auto& [what_it_does, words] : ends) {
+    const LawTally broken{1, 0, 1, std::string("a:1:b:2: the check ended: ") + words};
+    EXPECT_EQ(checks_with(4, 1, what_it_does), (std::vector<LawTally>{held, broken, held, held}));
   }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <regex>
-#include <string>
 
 #include "properties/campaign/gates/gates.h"
 #include "properties/campaign/ledger/tally.h"
@@ -72,10 +71,9 @@ inline RunFindings good_findings() {
   LawTally law_tally;
   law_tally.premise = 8;
   law_tally.close = 2;
-  for (const auto& law : laws()) {
+  for (const auto& law : laws())
     for (const char* culling : {"auto", "view-auto", "view-point", "view-line"})
       add_law(f.tally.counts, law, law_tally, culling);
-  }
   f.evidence.canaries = {{"c", 7}};
   f.evidence.faults = {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),

@@ -37,40 +37,12 @@ class Plans : public testing::Test {
     const auto plan = read(text);
     ASSERT_FALSE(plan);
     const auto& message = plan.error().message;
-    EXPECT_NE(message.find("plan.json"), std::string::npos) << message;
-    EXPECT_NE(message.find(why), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_TRUE(says(message, "plan.json"));
+    EXPECT_TRUE(says(message, why));
+    EXPECT_FALSE(says(message, "\n"));
   }
   Scratch scratch;
 };
-
-TEST_F(Plans, AFileSaysAllOfIt) {
-  const auto read_plan = read(whole_plan);
-  ASSERT_TRUE(read_plan) << read_plan.error().message;
-  const auto& plan = read_plan.value();
-  EXPECT_EQ(plan.name, "tiny-1.a");
-  ASSERT_EQ(plan.strata.size(), 2u);
-  EXPECT_EQ(plan.strata[0].family, "closed-generic");
-  EXPECT_EQ(plan.strata[0].cases, 12u);
-  EXPECT_EQ(plan.strata[0].wanted_bound, .5);
-  EXPECT_EQ(plan.strata[1].wanted_bound, 0);
-  EXPECT_EQ(plan.seconds, 30);
-  EXPECT_EQ(plan.case_seconds, 2.5);
-  EXPECT_EQ(plan.case_bytes, 5'000'000'000u);
-  EXPECT_EQ(plan.laws_every, 3u);
-  EXPECT_EQ(plan.law_premises, 4u);
-  EXPECT_EQ(plan.fault_cases, 7u);
-  EXPECT_EQ(plan.fault_seeds, 2);
-  EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
-  EXPECT_EQ(plan.shrink_share, .25);
-  EXPECT_EQ(plan.search, 900);
-  EXPECT_EQ(plan.policy.power, .5);
-  EXPECT_EQ(plan.policy.self_test_queries, 9u);
-  EXPECT_EQ(plan.policy.repeated_triangles, 80u);
-  ASSERT_EQ(plan.policy.speed_limits.size(), 1u);
-  EXPECT_EQ(plan.policy.speed_limits[0].figure, "exact-over-double");
-  EXPECT_EQ(plan.policy.speed_limits[0].limit, 1.5);
-}
 
 TEST_F(Plans, SurviveTheirText) {
   auto plans = named_plans();
@@ -87,15 +59,14 @@ TEST_F(Plans, SurviveTheirText) {
   EXPECT_EQ(texts.size(), plans.size());
 }
 
-TEST_F(Plans, EveryFieldIsPartOfTheText) {
-  const auto known = ordered_json::parse(plan_text(read(whole_plan).value()));
-  const auto stated = ordered_json::parse(whole_plan);
-  for (const auto& [key, value] : stated.items()) {
-    EXPECT_TRUE(known.contains(key)) << key;
-    if (key != "strata") {
-      EXPECT_EQ(known[key], value) << key;
-    }
-  }
+TEST_F(Plans, EveryFieldIsReadAndPartOfTheText) {
+  const auto plan = read(whole_plan);
+  ASSERT_TRUE(plan) << plan.error().message;
+  const auto known = ordered_json::parse(plan_text(plan.value()));
+  auto stated = ordered_json::parse(whole_plan);
+  stated["strata"][1]["bound"] = 0;  // as it is where none is stated
+  for (const auto& [key, value] : stated.items())
+    EXPECT_EQ(known.value(key, ordered_json()), value);
 }
 
 TEST_F(Plans, AWrongFieldIsOneClearLine) {
@@ -144,14 +115,11 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_refused("{\"schema\": ", "plan.json");
   expect_refused("[]", "an object expected");
   expect_refused("", "empty");
-  for (const char* key : {"schema", "name", "strata"}) {
+  for (const std::string key : {"schema", "name", "strata", "seconds"}) {
     auto json = ordered_json::parse(whole_plan);
     json.erase(key);
-    expect_refused(json.dump(), std::string(key) + " is missing");
+    expect_refused(json.dump(), key == "seconds" ? "seconds above 0" : key + " is missing");
   }
-  auto without = ordered_json::parse(whole_plan);
-  without.erase("seconds");
-  expect_refused(without.dump(), "seconds above 0");
   expect_refused(
       R"({"schema": "assay-campaign/1", "name": "a", "strata": [{"family": "broken", "cases": 0}],
           "seconds": 1})",
@@ -198,11 +166,10 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
   for (const auto& plan : named_plans()) {
     names.insert(plan.name);
     std::set<std::string> families_of_plan;
-    for (const auto& stratum : plan.strata) {
-      EXPECT_TRUE(find_family(stratum.family)) << stratum.family;
-      families_of_plan.insert(stratum.family);
+    for (const auto& [family, cases, bound] : plan.strata) {
+      EXPECT_TRUE(find_family(family)) << family;
+      EXPECT_TRUE(families_of_plan.insert(family).second) << family;
     }
-    EXPECT_EQ(families_of_plan.size(), plan.strata.size());
     EXPECT_LE(plan.strata.size(), 24u);
     EXPECT_LE(with_queries(without_questions(plan)).strata.size(), 24u);
     EXPECT_EQ(plan.seconds == 0, plan.name == "smoke" || plan.name == "quick")
@@ -211,9 +178,7 @@ TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
     EXPECT_EQ(find_plan(plan.name).value().seconds, plan.seconds);
   }
   EXPECT_EQ(names, (std::set<std::string>{"smoke", "quick", "nightly", "release"}));
-  const auto missing = find_plan("no-such-campaign");
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("no-such-campaign"), std::string::npos);
+  EXPECT_TRUE(says(find_plan("no-such-campaign").error().message, "no-such-campaign"));
 }
 
 // Large cases are dear, so each plan has few of them, of the sizes that it has the time for. They

@@ -2,8 +2,6 @@
 #include "properties/campaign/ledger/store.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/ledger/database.h"
@@ -22,11 +20,7 @@ class Stores : public testing::Test {
  protected:
   Scratch scratch;
   std::string file = scratch / "trials.sqlite";
-  Store open(const std::string& binding = "one") const {
-    auto store = Store::open(file, binding);
-    EXPECT_TRUE(store) << store.error().message;
-    return std::move(store.value());
-  }
+  Store open(const std::string& binding = "one") const { return test::open_store(file, binding); }
   // The store is refused with these words, in one line that names the file.
   static void expect_refused(const Expected<Store>& store, const std::string& path,
                              std::string_view words) {
@@ -59,12 +53,13 @@ class Stores : public testing::Test {
 };
 
 TEST_F(Stores, KeepWhatIsAdded) {
+  auto shown = failure("a", "s");
+  shown.flaky = true;
   {
     Store store = open();
-    for (const std::uint64_t i : {10u, 2u, 0u}) store.add(record(i));
-    store.add(failure("b", "s"));
-    auto shown = failure("a", "s");
-    shown.flaky = true;
+    // The same again counts once.
+    for (const std::uint64_t i : {10u, 2u, 0u, 2u}) store.add(record(i));
+    for (const std::string id : {"b", "b"}) store.add(failure(id, "s"));
     store.add(shown);
     shown.smallest = "small";
     store.set_smallest(shown);
@@ -76,18 +71,7 @@ TEST_F(Stores, KeepWhatIsAdded) {
   std::vector<std::uint64_t> places;
   store.for_each_trial([&](const TrialRecord& r) {
     places.push_back(r.index);
-    const auto expected = record(r.index);
-    EXPECT_EQ(r.id, expected.id);
-    EXPECT_EQ(r.family, "broken");
-    EXPECT_EQ(r.outcomes, "HD");
-    EXPECT_EQ(r.triangles, 1u);
-    EXPECT_EQ(r.steps, 2u);
-    EXPECT_EQ(r.collisions, 3u);
-    EXPECT_EQ(r.pairs, 4u);
-    EXPECT_EQ(r.oracle_us, 5u);
-    EXPECT_EQ(r.detector_us, 6u);
-    EXPECT_EQ(r.counts, expected.counts);
-    EXPECT_EQ(r.mesh, expected.mesh);
+    EXPECT_EQ(to_row(r), to_row(record(r.index)));
   });
   EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 7, 10}));
   EXPECT_EQ(store.trial_count(), 4u);
@@ -95,27 +79,12 @@ TEST_F(Stores, KeepWhatIsAdded) {
   EXPECT_FALSE(store.has_trial("p:1:broken:1"));
   const auto failures = store.failures();
   ASSERT_EQ(failures.size(), 2u);
-  EXPECT_EQ(failures[0].id(), "a");
-  EXPECT_EQ(failures[0].smallest, "small");
-  EXPECT_TRUE(failures[0].flaky);
-  EXPECT_EQ(failures[1].id(), "b");
-  EXPECT_EQ(failures[1].mesh, "mesh of b");
-  EXPECT_TRUE(failures[1].smallest.empty());
-  EXPECT_FALSE(failures[1].flaky);
+  EXPECT_EQ(to_row(failures[0]), to_row(shown));
+  EXPECT_EQ(to_row(failures[1]), to_row(failure("b", "s")));
   EXPECT_EQ(store.signatures(), (Counts{{"s", 2}, {"t", 1}}));
   EXPECT_EQ(store.note("key"), "new");
   EXPECT_EQ(store.note("none"), std::nullopt);
   EXPECT_EQ(store.binding(), "one");
-}
-
-TEST_F(Stores, TheSameTrialAgainCountsOnce) {
-  Store store = open();
-  store.add(record(1));
-  store.add(record(1));
-  store.add(failure("a", "s"));
-  store.add(failure("a", "s"));
-  EXPECT_EQ(store.trial_count(), 1u);
-  EXPECT_EQ(store.failures().size(), 1u);
 }
 
 TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
@@ -138,14 +107,11 @@ TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
   }
 }
 
-TEST_F(Stores, OfAnotherRunAreRefused) {
+TEST_F(Stores, AreForOneRunAndThatOneAtATime) {
   { open("one"); }
   expect_no_open(file, "two", "holds another run");
-  EXPECT_EQ(open("one").binding(), "one");
-}
-
-TEST_F(Stores, AreForOneRunAtATime) {
-  const Store store = open();
+  const Store store = open("one");
+  EXPECT_EQ(store.binding(), "one");
   expect_no_open(file, "one", "another run is writing it");
   EXPECT_TRUE(Store::read(file));
 }
@@ -166,15 +132,15 @@ TEST_F(Stores, ThatAreNoneAreRefused) {
   expect_no_open(scratch / "folder.sqlite", "one", "unable to open");
 }
 
-// Whoever reads a folder of an older build may say so instead of calling it damaged.
-TEST_F(Stores, OfAnotherSchemaAreTold) {
+const std::string test_binding = R"({"schema": "assay-store/9"})";
+
+// Whoever reads a folder of an older build may say so instead of calling it damaged. Up to
+// assay-store/5 a store had other tables.
+TEST_F(Stores, OfAnotherSchemaAreToldInOneLine) {
   { open(R"({"schema": "assay-store/2"})"); }
   expect_no_read(file, "is of schema \"assay-store/2\"");
-  expect_no_open(file, R"({"schema": "assay-store/9"})", "run it again");
-}
-
-// Up to assay-store/5 a store had other tables.
-TEST_F(Stores, OfTheTablesOfBeforeAreToldInOneLine) {
+  expect_no_open(file, test_binding, "run it again");
+  std::filesystem::remove(file);
   Database(file, Database::Mode::write)
       .run(
           "CREATE TABLE note(key TEXT NOT NULL, value TEXT NOT NULL, hash TEXT NOT NULL, PRIMARY "
@@ -183,39 +149,30 @@ TEST_F(Stores, OfTheTablesOfBeforeAreToldInOneLine) {
   constexpr auto line =
       ": is of schema \"assay-store/5\", this assay reads assay-store/9: run it again";
   expect_no_read(file, line);
-  expect_no_open(file, R"({"schema": "assay-store/9"})", line);
-}
-
-TEST_F(Stores, DamageIsSeen) {
-  {
-    Store store = open();
-    for (std::uint64_t i = 0; i < 400; ++i) store.add(record(i));
-  }
-  const std::string whole = tests::read_text(file);
-  ASSERT_GT(whole.size(), 20'000u);
-  std::string hole = whole;
-  std::fill(hole.begin() + 8192, hole.begin() + 16384, '\x5a');
-  expect_no_open(scratch.write("hole.sqlite", hole), "one", "the file is damaged");
-  expect_no_open(scratch.write("cut.sqlite", whole.substr(0, whole.size() / 2)), "one",
-                 "disk image is malformed");
+  expect_no_open(file, test_binding, line);
 }
 
 // What other rooms ask of a store comes back as a value, even in the middle of its rows.
-TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
+TEST_F(Stores, DamageIsSeenAndAValue) {
   {
-    Store store = open(R"({"schema": "assay-store/9"})");
-    for (std::uint64_t i = 0; i < 400; ++i) {
-      store.add(record(i), {failure(record(i).id, "s")});
-    }
+    Store store = open(test_binding);
+    for (std::uint64_t i = 0; i < 400; ++i) store.add(record(i), {failure(record(i).id, "s")});
   }
   const auto whole = Store::read(file).value().kept_failures();
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole.value().list.size(), 400u);
   EXPECT_EQ(whole.value().times_met, (Counts{{"s", 400}}));
+  const std::string bytes = tests::read_text(file);
+  ASSERT_GT(bytes.size(), 20'000u);
+  std::string hole = bytes;
+  std::fill(hole.begin() + 8192, hole.begin() + 16384, '\x5a');
+  expect_no_open(scratch.write("hole.sqlite", hole), test_binding, "the file is damaged");
   // Of the whole file is seen at once.
-  std::string hole = tests::read_text(file);
   std::fill(hole.begin() + 16384, hole.end(), '\x5a');
-  expect_no_read(scratch.write("hole.sqlite", hole), "disk image is malformed");
+  expect_no_read(scratch.write("rest.sqlite", bytes.substr(0, 16384) + hole.substr(16384)),
+                 "disk image is malformed");
+  expect_no_open(scratch.write("cut.sqlite", bytes.substr(0, bytes.size() / 2)), test_binding,
+                 "disk image is malformed");
   Database(file, Database::Mode::write)
       .run("UPDATE ledger SET fields='{}' WHERE kind='failure' AND key LIKE 'p:1:broken:99,%'");
   const auto changed = Store::read(file);
@@ -227,16 +184,13 @@ TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
 
 // The hash that every row of a store carries: no change of a row goes unseen.
 
-const std::string test_binding = R"({"schema": "assay-store/9"})";
-
 TEST(RowHash, TellsAllRowsApart) {
-  const auto hash = [](const Row& row) { return row_hash(row); };
-  EXPECT_EQ(hash({"note", "a", 0, "b"}), hash({"note", "a", 0, "b"}));
-  EXPECT_NE(hash({"note", "ab", 0, ""}), hash({"note", "a", 0, "b"}));
-  EXPECT_NE(hash({"note", "", 0, "ab"}), hash({"note", "ab", 0, ""}));
-  EXPECT_NE(hash({"note", "a1:b", 0, ""}), hash({"notea", "1:b", 0, ""}));
-  EXPECT_NE(hash({"note", "a", 1, ""}), hash({"note", "a", 11, ""}));
-  EXPECT_NE(hash({"met", "a", 0, ""}), hash({"failure", "a", 0, ""}));
+  const std::vector<Row> rows = {
+      {"note", "a", 0, "b"},   {"note", "ab", 0, ""},   {"note", "", 0, "ab"},
+      {"note", "a1:b", 0, ""}, {"notea", "1:b", 0, ""}, {"note", "a", 1, ""},
+      {"note", "a", 11, ""},   {"met", "a", 0, ""},     {"failure", "a", 0, ""}};
+  for (const auto& a : rows)
+    for (const auto& b : rows) EXPECT_EQ(row_hash(a) == row_hash(b), a == b);
 }
 
 // One row of each kind but trial, of which there are several.
@@ -253,16 +207,6 @@ class ChangedRows : public Stores {
     ASSERT_TRUE(store.seal());
   }
   void change(const std::string& sql) const { Database(file, Database::Mode::write).run(sql); }
-  // As somebody does who knows the rules: the hash is mended.
-  void forge(const std::string& where, const std::function<void(Row&)>& change) const {
-    const Database database(file, Database::Mode::write);
-    std::vector<Row> rows;
-    for_each_row(database, where, {}, [&](const Row& row) { rows.push_back(row); });
-    for (auto& row : rows) {
-      change(row);
-      put_row(database, row);
-    }
-  }
   // All that a store says, read in full.
   static Expected<std::vector<std::string>> all_of(const std::string& path) {
     const auto store = Store::read(path);
@@ -296,12 +240,11 @@ TEST_F(ChangedRows, AreNamedOnResumeAndOnReading) {
       if (place == "binding.fields") continue;  // it is another run
       const auto resumed = Store::open(file, test_binding);
       ASSERT_FALSE(resumed) << place;
-      EXPECT_TRUE(says(resumed.error(), "was changed after it was written")) << place;
       const auto& line = resumed.error().message;
       EXPECT_TRUE(line.starts_with(fmt::format("{}: {}", file, kind))) << line;
       EXPECT_TRUE(line.ends_with(" was changed after it was written")) << line;
-      if (kind == "binding") continue;  // it is read without a check of its hash
-      if (kind == "note") continue;     // notes are not read here
+      // The binding is read without a check of its hash, and notes are not read here.
+      if (kind == "binding" || kind == "note") continue;
       const auto read = all_of(file);
       ASSERT_FALSE(read) << place;
       EXPECT_EQ(read.error().message, line);
@@ -367,52 +310,35 @@ void drop_table(const std::filesystem::path& file) {
 }
 
 // Drops the table when a phase begins, and notes how far the campaign came.
-class Saboteur : public CampaignObserver {
- public:
-  Saboteur(std::filesystem::path file, std::string phase)
-      : file_(std::move(file)), phase_(std::move(phase)) {}
+struct Saboteur : CampaignObserver {
   void on_begin(std::uint64_t /*trials*/) override { on_phase("begin"); }
-  void on_phase(const char* phase) override {
-    last = phase;
-    if (phase == phase_) drop_table(file_);
+  void on_phase(const char* begun) override {
+    last = begun;
+    if (begun == phase) drop_table(file);
   }
-  std::string last;
-
- private:
-  std::filesystem::path file_;
-  std::string phase_;
+  std::string file, phase, last;
 };
 
-class FailingStore : public testing::Test {
- protected:
-  void expect_told(const std::string& phase) const {
-    const std::filesystem::path file = scratch / (phase + ".sqlite");
+TEST_F(Stores, ThatFailEndACampaignByAValue) {
+  // Two in the threads of the trials: where they ask what is stored, and where they store.
+  for (const std::string phase : {"begin", "trials", "shrinking"}) {
+    Saboteur saboteur;
+    saboteur.file = scratch / (phase + ".sqlite");
+    saboteur.phase = phase;
     const auto request = test::request_of(4, 2);
-    auto store = Store::open(file, binding_of(request));
-    ASSERT_TRUE(store) << store.error().message;
-    Saboteur saboteur(file, phase);
-    const auto ran = run_campaign(request, "", store.value(), saboteur);
+    auto store = test::open_store(saboteur.file, binding_of(request));
+    const auto ran = run_campaign(request, "", store, saboteur);
     ASSERT_FALSE(ran) << phase;
     EXPECT_TRUE(says(ran.error(), "no such table: ledger"));
     EXPECT_EQ(saboteur.last, phase);
   }
-  const tests::Scratch scratch;
-};
-
-TEST_F(FailingStore, EndsACampaignByAValue) {
-  expect_told("begin");
-  // In the threads of the trials: where they ask what is stored, and where they store.
-  expect_told("trials");
-  expect_told("shrinking");
 }
 
-TEST_F(FailingStore, IsAValueForWhoeverKeepsARow) {
-  const auto request = test::request_of(4);
-  auto opened = Store::open(store_file(scratch / ""), binding_of(request));
-  ASSERT_TRUE(opened) << opened.error().message;
-  ASSERT_TRUE(opened.value().keep(to_row(Issuance{"out"})));
-  drop_table(store_file(scratch / ""));
-  const auto kept = opened.value().keep(to_row(Issuance{"out"}));
+TEST_F(Stores, ThatFailAreAValueForWhoeverKeepsARow) {
+  auto store = open();
+  ASSERT_TRUE(store.keep(to_row(Issuance{"out"})));
+  drop_table(file);
+  const auto kept = store.keep(to_row(Issuance{"out"}));
   ASSERT_FALSE(kept);
   EXPECT_TRUE(says(kept.error(), "no such table: ledger"));
 }

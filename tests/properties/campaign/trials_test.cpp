@@ -21,41 +21,29 @@ using test::faulty, test::in_ten_minutes, test::request_of, tests::Scratch;
 
 class Trials : public testing::Test {
  protected:
-  Store open(const std::string& name) const {
-    auto store = Store::open(scratch / name, "b");
-    EXPECT_TRUE(store) << store.error().message;
-    return std::move(store.value());
+  Store open(const std::string& name) const { return test::open_store(scratch / name); }
+  Store run(const CampaignRequest& request, const std::string& name = "store") const {
+    return test::with_all_trials(request, scratch / name);
   }
   // Each trial in a line, without its times.
   static std::vector<std::string> lines(const Store& store) {
     std::vector<std::string> list;
     store.for_each_trial([&](const TrialRecord& r) {
-      std::ostringstream line;
-      line << r.id << ' ' << r.family << ' ' << r.index << ' ' << lasting(to_row(r)).fields;
-      list.push_back(line.str());
+      list.push_back(r.id + " " + r.family + " " + std::to_string(r.index) + " " +
+                     lasting(to_row(r)).fields);
     });
     return list;
-  }
-  std::vector<std::string> run(const std::string& name, const CampaignRequest& request) const {
-    Store store = open(name);
-    const auto end = run_trials(request, store, in_ten_minutes(), {});
-    EXPECT_TRUE(end.complete);
-    EXPECT_EQ(end.harness_problem, "");
-    return lines(store);
   }
   Scratch scratch;
 };
 
 TEST_F(Trials, DoNotDependOnJobs) {
-  const auto alone = run("one", request_of(20));
+  const auto alone = lines(run(request_of(20), "one"));
   ASSERT_EQ(alone.size(), 30u);
-  EXPECT_NE(alone[0].find("test:3:broken:0"), std::string::npos);
-  EXPECT_EQ(run("three", request_of(20, 3)), alone);
-}
-
-// Those of seed 3: of eight shares the places 3, 11, ... of each family.
-TEST_F(Trials, OfAShareAreThoseOfItsSeed) {
-  const auto some = run("share", request_of(20, 2, 8));
+  EXPECT_TRUE(says(alone[0], "test:3:broken:0"));
+  EXPECT_EQ(lines(run(request_of(20, 3), "three")), alone);
+  // Of eight shares seed 3 has the places 3, 11, ... of each family.
+  const auto some = lines(run(request_of(20, 2, 8)));
   ASSERT_EQ(some.size(), 5u);
   EXPECT_TRUE(some[0].starts_with("test:3:broken:3 "));
   EXPECT_TRUE(some[1].starts_with("test:3:broken:11 "));
@@ -87,10 +75,8 @@ TEST_F(Trials, GoOnWhereARunEnded) {
 
 TEST_F(Trials, AreMadeAgainByTheirId) {
   const auto request = request_of(6);
-  Store store = open("store");
-  run_trials(request, store, in_ten_minutes(), {});
   std::uint64_t compared = 0;
-  store.for_each_trial([&](const TrialRecord& r) {
+  run(request).for_each_trial([&](const TrialRecord& r) {
     EXPECT_EQ(r.id, trial_id(request.plan, request.seed, r.family, r.index));
     const auto& family = *find_family(r.family);
     const auto made = make_case(family, r.id);
@@ -108,38 +94,17 @@ TEST_F(Trials, AreMadeAgainByTheirId) {
   EXPECT_EQ(trial_id(request.plan, 7, "broken", 12), "test:7:broken:12");
 }
 
-// The largest of each is that of some case, whichever it is.
-TEST_F(Trials, TellHowFarTheyWentAndWhetherPairsWereLeftOut) {
+TEST_F(Trials, TellWhetherPairsWereLeftOut) {
   auto request = request_of(6);
   request.plan.laws_every = 0;
   request.plan.strata = {{"closed-generic", 6, 0}, {"counted", 6, 0}};
-  const auto tallied = [&](const std::string& name) {
-    Store store = open(name);
-    EXPECT_TRUE(run_trials(request, store, in_ten_minutes(), {}).complete);
-    Tally tally;
-    store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
-    EXPECT_EQ(tally.trials(), 12u);
-    return tally.counts;
-  };
-  const auto counts = tallied("built-in");
-  Extremes most;
-  std::uint64_t relations = 0;
-  for (const auto* family : {"closed-generic", "counted"}) {
-    for (std::uint64_t i = 0; i < 6; ++i) {
-      const auto id = trial_id(request.plan, request.seed, family, i);
-      const auto c = make_case(*find_family(family), id).c;
-      most.include(extremes_of(c, judge_case(c)));
-      relations += c.counted ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(counts.extremes, most);
-  EXPECT_EQ(counts.measures.relation_trials, relations);
-  EXPECT_EQ(relations, 6u);
-  EXPECT_GE(most.bodies, 2u);
-  EXPECT_GE(most.pairs, 1u);
+  const auto counts = test::tally_in(run(request, "built-in")).counts;
+  EXPECT_EQ(counts.measures.relation_trials, 6u);
+  EXPECT_GE(counts.extremes.bodies, 2u);
+  EXPECT_GE(counts.extremes.pairs, 1u);
   // A detector that is told no relation is tried by none.
   test::set_plugin(request, test::plugin("always_free"));
-  const auto without = tallied("plug-in");
+  const auto without = test::tally_in(run(request, "plug-in")).counts;
   EXPECT_EQ(without.measures.relation_trials, 0u);
   EXPECT_EQ(without.extremes.bodies, 0u);
   EXPECT_GT(without.extremes.triangles, 0u);
@@ -158,13 +123,18 @@ TEST_F(Trials, WithoutAWorkerNothingIsJudged) {
   EXPECT_EQ(store.trial_count(), 0u);
 }
 
+// The record of a trial, and the case of its failure, also say whether the start was vouched for.
 TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
   const auto request = faulty("pair/zero-zero-dropped", 150);
-  Store store = open("store");
-  const auto end = run_trials(request, store, in_ten_minutes(), {});
-  ASSERT_TRUE(end.complete);
-  Tally tally;
-  store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
+  const Store store = run(request);
+  const Tally tally = test::tally_in(store);
+  std::map<std::string, bool> vouched;
+  store.for_each_trial([&](const TrialRecord& r) {
+    const auto c = make_case(*find_family(r.family), r.id).c;
+    vouched[r.id] = is_vouched_for(request.detector, c, r.index);
+    EXPECT_EQ(r.counts.tags.count("start:clean"), vouched.at(r.id) ? 1u : 0u) << r.id;
+    EXPECT_EQ(r.counts.tags.count("start:verified"), vouched.at(r.id) ? 0u : 1u) << r.id;
+  });
   std::uint64_t defects = 0;
   for (const auto& [family, stratum] : tally.strata) {
     defects += stratum.by_configuration[0].defects;
@@ -174,13 +144,16 @@ TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
   const auto met = store.signatures();
   Counts kept;
   std::uint64_t of_claims = 0, of_laws = 0;
+  std::map<bool, int> failures;  // by whether their start was vouched for
   for (const auto& failure : store.failures()) {
     ++kept[failure.signature()];
     EXPECT_FALSE(failure.flaky);
     const auto c = corpus::parse_case(failure.mesh, failure.id());
     ASSERT_TRUE(c) << c.error().message;
-    EXPECT_NE(c.value().source.find(failure.id()), std::string::npos);
-    EXPECT_FALSE(c.value().options.empty());
+    EXPECT_TRUE(says(c.value().source, failure.id()));
+    const bool is_clean = vouched.at(failure.id());
+    EXPECT_EQ(c.value().options.at("start"), is_clean ? "clean" : "verified") << failure.id();
+    ++failures[is_clean];
     const auto& configuration = request.detector.configurations[0];
     if (failure.signature().starts_with("law ")) {
       ++of_laws;
@@ -190,13 +163,13 @@ TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
       const auto finding = judge_of_law(*law, configuration)(c.value());
       ASSERT_TRUE(finding) << failure.id() << failure.signature();
       EXPECT_EQ(finding->signature, failure.signature());
-      EXPECT_NE(c.value().about.find(law->name), std::string::npos);
+      EXPECT_TRUE(says(c.value().about, law->name));
       continue;
     }
     ++of_claims;
     EXPECT_EQ(c.value().id.find(':'), std::string::npos);
     EXPECT_EQ(failure.configuration, "faulty");
-    EXPECT_NE(c.value().about.find(failure.signature()), std::string::npos);
+    EXPECT_TRUE(says(c.value().about, failure.signature()));
     WorkerProcess worker(ASSAY_WORKER, std::nullopt);
     const auto finding = judge_of_detector(request.detector, configuration, worker)(c.value());
     ASSERT_TRUE(finding) << failure.id();
@@ -204,80 +177,42 @@ TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
   }
   EXPECT_GT(of_claims, 0u);
   EXPECT_GT(of_laws, 0u);
+  EXPECT_GT(std::min(failures[true], failures[false]), 0);
   EXPECT_GT(broken_laws(tally.counts), 0u);
-  for (const auto& [signature, count] : met) {
+  for (const auto& [signature, count] : met)
     EXPECT_EQ(kept[signature], std::min<std::uint64_t>(count, 3)) << signature;
-  }
 }
 
 TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
   const auto request = faulty("pair/zero-zero-dropped", 60);
-  Store store = open("store");
-  run_trials(request, store, in_ten_minutes(), {});
+  Store store = run(request);
   ASSERT_FALSE(store.failures().empty());
   constexpr std::uint64_t few = 20, many = 100;
   constexpr double seconds = 1000;  // beyond the deadline: more than a failure will have had
   shrink_failures(request, store, {seconds, few}, in_ten_minutes(), {});
-  std::set<std::string> signatures, shrunk;
-  std::map<std::string, std::size_t> triangles;
+  const auto size_of = [](const std::string& mesh) {
+    return corpus::parse_case(mesh, "mesh").value().triangles.rows();
+  };
+  std::set<std::string> signatures;
+  std::map<std::string, Eigen::Index> triangles;
   for (const auto& failure : store.failures()) {
     signatures.insert(failure.signature());
     if (failure.smallest.empty()) continue;
-    EXPECT_TRUE(shrunk.insert(failure.signature()).second)
-        << "shrunk twice: " << failure.signature();
-    const auto whole = corpus::parse_case(failure.mesh, "mesh").value();
-    const auto small = corpus::parse_case(failure.smallest, "smallest").value();
-    EXPECT_LE(small.triangles.rows(), whole.triangles.rows());
-    triangles[failure.signature()] = static_cast<std::size_t>(small.triangles.rows());
+    const auto small = size_of(failure.smallest);
+    EXPECT_TRUE(triangles.emplace(failure.signature(), small).second) << "shrunk twice";
+    EXPECT_LE(small, size_of(failure.mesh)) << failure.signature();
   }
-  EXPECT_EQ(shrunk, signatures);  // one each, of laws as of claims
+  EXPECT_EQ(triangles.size(), signatures.size());  // one each, of laws as of claims
   // Each had few calls only: the same again goes on from there, and never gets larger.
   shrink_failures(request, store, {seconds, many}, in_ten_minutes(), {});
   bool smaller = false;
   for (const auto& failure : store.failures()) {
     if (failure.smallest.empty()) continue;
-    const auto small = corpus::parse_case(failure.smallest, "smallest").value();
-    const auto before = triangles.at(failure.signature());
-    EXPECT_LE(static_cast<std::size_t>(small.triangles.rows()), before);
-    smaller |= static_cast<std::size_t>(small.triangles.rows()) < before;
+    const auto small = size_of(failure.smallest), before = triangles.at(failure.signature());
+    EXPECT_LE(small, before);
+    smaller |= small < before;
   }
   EXPECT_TRUE(smaller);
-}
-
-// Who leaves neighbours out would not recognise a miss of strangers that had become one of
-// neighbours, nor one far into the step that had moved to its start.
-TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
-  auto request = request_of(60, 2);
-  request.plan.laws_every = 0;
-  test::set_plugin(request, test::plugin("always_free"));
-  auto worker = request.process();
-  Store store = open("store");
-  ASSERT_TRUE(run_trials(request, store, in_ten_minutes(), {}).complete);
-  constexpr double hour = 3600;
-  constexpr std::uint64_t calls = 300;
-  shrink_failures(request, store, {hour, calls}, in_ten_minutes(), {});
-  const auto judge =
-      judge_of_detector(request.detector, request.detector.configurations[0], worker);
-  using Shown = std::pair<int, bool>;  // vertices shared, in the first thousandth of the step
-  const auto sign_of = [&](const std::string& text) {
-    const auto c = corpus::parse_case(text, "failure").value();
-    const auto finding = judge(c);
-    EXPECT_TRUE(finding && finding->focus.size() == 2);
-    if (!finding || finding->focus.size() != 2) return Shown{-1, false};
-    const detector::TrianglePair pair{finding->focus[0], finding->focus[1]};
-    const auto truth = judge_case(c, Contract{})[finding->step];
-    const auto contact = std::find_if(truth.pairs.begin(), truth.pairs.end(),
-                                      [&](const auto& met) { return met.pair == pair; });
-    return Shown{shared_vertices(c.triangles, pair), contact->time.hi <= 0x1p-10};
-  };
-  std::array<int, 3> kinds{};
-  for (const auto& failure : store.failures()) {
-    if (failure.smallest.empty()) continue;
-    const Shown whole = sign_of(failure.mesh);
-    EXPECT_EQ(sign_of(failure.smallest), whole) << failure.signature();
-    ++kinds[static_cast<std::size_t>(std::clamp(whole.first, 0, 2))];
-  }
-  for (const int kind : kinds) EXPECT_GT(kind, 0) << kinds[0] << ' ' << kinds[1] << ' ' << kinds[2];
 }
 
 // The built-in detector under campaign smoke comes to the same, trial by trial, judged as the
@@ -291,18 +226,16 @@ class JudgedAlike : public testing::Test {
  protected:
   // The cases of smoke under its seed, every `one_of`th part of each family.
   static CampaignRequest smoke(std::uint64_t one_of) {
-    CampaignRequest request;
+    CampaignRequest request = request_of(0, 2);
+    request.seed = default_seed;
     // The plug-ins take no relation, and of limits and distances the built-in is asked apart.
     request.plan = without_questions(without_relations(find_plan("smoke").value()));
     EXPECT_EQ(request.plan.name, "smoke");
     for (auto& stratum : request.plan.strata) stratum.cases /= one_of;
     request.plan.laws_every = 0;
-    request.jobs = 2;
-    request.worker = ASSAY_WORKER;
     return request;
   }
   static CampaignRequest as_built_in(CampaignRequest request, const Configuration& configuration) {
-    request.detector = built_in_detector();
     request.detector.configurations = {configuration};
     return request;
   }
@@ -315,48 +248,32 @@ class JudgedAlike : public testing::Test {
     return request;
   }
 
-  Tally tally_of(const std::string& name, const CampaignRequest& request,
-                 std::vector<TrialSums>& trials) const {
-    auto file = name;
-    std::replace(file.begin(), file.end(), '/', '-');
-    auto store = Store::open(scratch / file, "b").value();
-    const auto end =
-        run_trials(request, store, std::chrono::steady_clock::now() + std::chrono::hours(1), {});
-    EXPECT_TRUE(end.complete) << end.harness_problem;
-    Tally tally;
+  // What the trials come to, one by one; notes how many have a defect.
+  std::vector<TrialSums> trials_of(const CampaignRequest& request, std::uint64_t& with_defect) {
+    const auto store = test::with_all_trials(request, scratch / std::to_string(stores++));
+    std::vector<TrialSums> trials;
     store.for_each_trial([&](const TrialRecord& r) {
-      tally.add(r);
       trials.emplace_back(r.id, r.outcomes, r.triangles, r.steps, r.collisions, r.pairs, r.mesh);
     });
+    const auto tally = test::tally_in(store);
     EXPECT_EQ(tally.trials(), planned_trial_count(request.plan, 1));
-    return tally;
+    EXPECT_EQ(tally.judged_trials(), tally.trials());
+    EXPECT_EQ(tally.open(), 0u);
+    with_defect = tally.with_defect();
+    return trials;
   }
 
   // Trials with a defect, in both alike.
-  std::uint64_t expect_alike(const CampaignRequest& built_in, const CampaignRequest& plugin) const {
-    std::vector<TrialSums> of_built_in, of_plugin;
-    const auto one =
-        tally_of("built-in " + built_in.detector.configurations[0].fault, built_in, of_built_in);
-    const auto other = tally_of(plugin.detector.name, plugin, of_plugin);
+  std::uint64_t expect_alike(const CampaignRequest& built_in, const CampaignRequest& plugin) {
+    std::uint64_t defects = 0;
+    const auto of_built_in = trials_of(built_in, defects), of_plugin = trials_of(plugin, defects);
     EXPECT_EQ(of_built_in.size(), of_plugin.size());
     for (std::size_t i = 0; i < std::min(of_built_in.size(), of_plugin.size()); ++i)
       EXPECT_EQ(of_built_in[i], of_plugin[i]) << std::get<0>(of_built_in[i]);
-    for (const auto& [family, stratum] : one.strata) {
-      const auto& alike = other.strata.at(family);
-      EXPECT_EQ(stratum.trials, alike.trials) << family;
-      EXPECT_EQ(stratum.steps, alike.steps) << family;
-      EXPECT_EQ(stratum.collisions, alike.collisions) << family;
-      EXPECT_EQ(stratum.pairs, alike.pairs) << family;
-      EXPECT_EQ(stratum.meshes, alike.meshes) << family;
-      EXPECT_EQ(stratum.sizes, alike.sizes) << family;
-      EXPECT_EQ(stratum.contacts, alike.contacts) << family;
-      EXPECT_EQ(stratum.discards + alike.discards, 0u) << family;
-      EXPECT_EQ(stratum.by_configuration, alike.by_configuration) << family;
-    }
-    EXPECT_EQ(one.open() + other.open(), 0u);
-    return one.with_defect();
+    return defects;
   }
   const tests::Scratch scratch;
+  int stores = 0;
 };
 
 TEST_F(JudgedAlike, TheBuiltInDetectorHolds) {
