@@ -173,9 +173,9 @@ corpus::Sequence soup(int count) {
   return made;
 }
 
-// Four times the components take four times the memory, asked for and given back: to make a detector
-// no copy of all positions is made for each hole, and to verify the start no list by triangle of the
-// mesh for each of them.
+// Four times the components take four times the memory, asked for and given back: to make a
+// detector no copy of all positions is made for each hole, and to verify the start no list by
+// triangle of the mesh for each of them.
 TEST(Allocation, OfASoupGrowsWithTheComponentsAlone) {
   std::uint64_t to_create = 0, to_verify = 0;
   for (const int count : {500, 2000, 1000, 4000}) {

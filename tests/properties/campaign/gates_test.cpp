@@ -1,5 +1,5 @@
-// Each gate fails for each of its reasons, and the first one that fails names the verdict. And kinds
-// of failure are grouped.
+// Each gate fails for each of its reasons, and the first one that fails names the verdict. And
+// kinds of failure are grouped.
 #include "properties/campaign/gates/gates.h"
 
 #include "corpus/scenes/scenes.h"
@@ -496,8 +496,8 @@ TEST(Gates, ACertificateAsksForEveryGate) {
   EXPECT_EQ(judgement.verdict, "incomplete");
 }
 
-// Kinds of failure are grouped by what they do; what those that lose a contact share is tested where
-// cases that hold stand beside them (tests/reports/verbs/run_command_test.cpp).
+// Kinds of failure are grouped by what they do; what those that lose a contact share is tested
+// where cases that hold stand beside them (tests/reports/verbs/run_command_test.cpp).
 
 RunFindings failing_by(const std::vector<std::string>& signatures) {
   auto findings = good_findings();

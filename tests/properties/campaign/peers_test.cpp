@@ -117,42 +117,7 @@ class Peers : public testing::Test {
     }
   }
 
-  // The cause of what the detector has wrong in a case, from the oracle's contact alone.
-  std::string cause_in(const std::string& text, const std::string& signature) {
-    const auto c = corpus::parse_case(text, "failure").value();
-    const auto& detector = peer_.detector;
-    WorkerProcess worker(ASSAY_WORKER, peer_.library, {.seconds = 20});
-    const auto examined = examine({detector, detector.configurations, &worker}, c);
-    const auto& truth = examined.truth;
-    const auto& run = examined.runs[0];
-    const auto& verdict = examined.verdicts[0];
-    if (!verdict.failure || !verdict.failure->pair) {
-      ADD_FAILURE() << signature << ": does not fail any more";
-      return "";
-    }
-    EXPECT_EQ(verdict.failure->signature(), signature);
-    const std::size_t s = verdict.failure->step;
-    const auto step = corpus::steps_of(c)[s];
-    const bool asks_all = detector.contract.features == TestedFeatures::both;
-    const auto cause_on = [&](const oracle::StepJudgement& way) -> std::optional<std::string> {
-      for (const auto& contact : asks_all ? way.pairs : way.asked_pairs) {
-        if (contact.pair != *verdict.failure->pair) continue;
-        EXPECT_GT(contact.time.hi, 0) << signature;
-        return cause_of(c.triangles, {start_of(c, step), end_of(c, step)}, contact);
-      }
-      return std::nullopt;
-    };
-    if (const auto cause = cause_on(truth[s])) return *cause;
-    // A limiter's positions are rounded, so the way to them may meet what the whole step misses.
-    if (verdict.failure->claim == Claim::commit_free) {
-      auto gone = c;
-      gone.frames = {start_of(c, step), run.limits[s]->positions};
-      if (const auto cause = cause_on(judge_case(gone, detector.contract)[0])) return *cause;
-    }
-    ADD_FAILURE() << signature << ": the oracle has no such contact";
-    return "";
-  }
-
+  // Each kind is shrunk once, and fails alike before and after: its signature names the cause.
   void expect_causes_kept() {
     std::set<std::string> shrunk;
     for (const auto& failure : peer_.failures) {

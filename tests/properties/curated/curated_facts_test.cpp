@@ -42,9 +42,8 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
   if (name == "boundary_edges_of_M_plus_ghost") return distinct_unmatched_edges(with_ghosts(s));
   if (name == "in_K") {
     json pairs = json::array();
-    for (const auto& c : s.pairs_of(s.k(), true)) {
-      pairs.push_back({c.pair.a, c.pair.b});
-    }
+    for (const auto& [pair, time, feature] : oracle::split(s.judgement.pairs, s.k()).in_k)
+      pairs.push_back({pair.a, pair.b});
     return pairs;
   }
   if (name == "Vv" || name == "Vv_swept") return members(s.swept());

@@ -1,5 +1,6 @@
 // What the families reach, judged by the oracle: collisions, clean starts, premises of the laws and
-// how close they come to failing, set pairs among first contacts. Measured is printed beside wanted.
+// how close they come to failing, set pairs among first contacts. What is measured is printed
+// beside what is wanted.
 #include <fmt/format.h>
 
 #include <bit>
@@ -26,8 +27,8 @@ namespace {
 
 using detector::Positions, detector::ViewPrimitive, detector::ViewSign;
 
-// First contacts by the set pair of their triangles, and by the number of vertices that these share:
-// 0, 1, 2.
+// First contacts by the set pair of their triangles, and by the number of vertices that these
+// share: 0, 1, 2.
 using FirstContacts = std::map<PairBlock, std::array<std::uint64_t, 3>>;
 
 // The mesh with fans from the means of its loops: a cycle.
@@ -101,9 +102,8 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
   const auto y_t0 = closed.at(x_t0), y_t1 = closed.at(x_t1);
   const auto given = corpus::view_of_step(c, s);
   const ViewPrimitive view = given ? *given : mean_of(x_t0, x_t1);
-  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1});
-  const auto count = [&](ViewSign sign) { return std::count(signs.begin(), signs.end(), sign); };
-  if (count(ViewSign::positive) == closed.all.rows()) {
+  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1}, 1);
+  if (std::count(signs.begin(), signs.end(), ViewSign::positive) == closed.all.rows()) {
     ++rates.positive;
     rates.close += smallest_over_largest(y_t0, y_t1, closed.all, view) <= 0.01 ? 1 : 0;
   }
@@ -118,15 +118,10 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
 Rates measure(const Family& family, int cases, FirstContacts& first_contacts) {
   Rates rates;
   for (int i = 0; i < cases; ++i) {
-    const auto begin = std::clock();
-    const auto made =
-        make_case(family, "rates:1:" + std::string(family.name) + ":" + std::to_string(i));
-    rates.making += microseconds_since(begin);
-    ++rates.cases;
-    rates.triangles += made.c.triangles.rows();
-    const ClosedUp closed(made.c);
-    const auto start = closed.at(made.c.frames.front());
-    const auto layers = oracle::layers_at(oracle::Instant(start), made.c.triangles, closed.ghosts);
+    const auto c = make_case(family, fmt::format("rates:1:{}:{}", family.name, i)).c;
+    const ClosedUp closed(c);
+    const oracle::Instant start(closed.at(c.frames.front()));
+    const auto layers = oracle::layers_at(start, c.triangles, closed.ghosts, 1);
     rates.clean_starts += std::count(layers.clean.begin(), layers.clean.end(), 0) == 0 ? 1 : 0;
     for (std::size_t s = 0; s < corpus::steps_of(c).size(); ++s)
       add_step(c, closed, s, rates, first_contacts);
