@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 16462},   {"oracle", 5956},   {"corpus", 5364}, {"corpus/peers", 1249},
-      {"properties", 25925}, {"reports", 13164}, {"tests", 44948}, {"scripts", 10701}};
+      {"properties", 25925}, {"reports", 13164}, {"tests", 44978}, {"scripts", 10701}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

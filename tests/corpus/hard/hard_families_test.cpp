@@ -1,7 +1,7 @@
 // The hard families by themselves: strengths turn their knob, cases are the same every time.
 #include "corpus/hard/hard_families.h"
 
-#include "tests/test.h"
+#include "tests/problem_words.h"
 
 namespace assay::corpus {
 namespace {

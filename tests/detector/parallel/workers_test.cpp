@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Cullings, ThreadsInSearch,
                          testing::Values(Culling::automatic, Culling::bvh, Culling::normal_cone));
 
 TEST(ThreadsInStep, FreeStepsAndViewSets) {
-  const tests::Sheet ball = tests::sphere_sheet(49, 1);  // 9,604 triangles
+  const tests::Sheet ball = tests::sphere(50, 1);  // 9,800 triangles
   Positions dented = ball.x;
   dented.topRows(200) *= .7;
   for (const auto culling : {Culling::view_point, Culling::view_line, Culling::automatic}) {

@@ -42,7 +42,7 @@ struct Whole {
     switch (static_cast<int>(x_t0[0][0])) {
       case touches:
       case without_times: {
-        const bool has_times = x_t0[0][0] == touches;
+        const bool has_times = static_cast<int>(x_t0[0][0]) == touches;
         Result result = has_times ? Result::collision(.25, .5) : Result::collision();
         result.add(0, 1, .25, .5);
         has_times ? result.add(2, 1, .75, 1) : result.add(2, 1);

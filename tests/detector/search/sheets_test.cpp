@@ -200,8 +200,7 @@ TEST(Sheets, L13_OfClosedSurfaces) {
       rows.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  const Sheet ball = sphere_sheet(along, 1),
-              torus = {triangles(rows), matrix_of<Positions>(points)};
+  const Sheet ball = sphere(along, 1), torus = {triangles(rows), matrix_of<Positions>(points)};
   for (const auto* surface : {&ball, &torus}) {
     const SheetMesh mesh(surface->rows, surface->x);
     EXPECT_TRUE(mesh.sheets().hold_most());

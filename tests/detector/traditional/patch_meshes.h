@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "tests/detector/points.h"
-#include "tests/detector/view/revolved.h"
 
 namespace assay::tests {
 
@@ -43,9 +42,27 @@ inline auto ramp(double turns, double rise) {
   };
 }
 
-// A sphere whose triangles are about as high as they are wide.
-inline Sheet sphere_sheet(std::int32_t rings, double radius) {
-  return {revolved(rings, 2 * rings), sphere(radius, rings, 2 * rings)};
+// Poles joined, of `n` rings: vertices of ring i from 1 + (i - 1) 2n, the poles first and last.
+inline Sheet sphere(std::int32_t n, double radius) {
+  const std::int32_t around = 2 * n, last = 1 + (n - 1) * around;
+  Sheet out;
+  out.x.resize(last + 1, 3);
+  std::vector<Corners> rows;
+  const auto vertex = [&](std::int32_t i, std::int32_t j) {
+    return i == 0 ? 0 : i == n ? last : 1 + (i - 1) * around + j % around;
+  };
+  for (std::int32_t i = 0; i <= n; ++i) {
+    const double a = std::numbers::pi * i / n;
+    for (std::int32_t j = 0; j < around; ++j) {
+      const double b = 2 * std::numbers::pi * j / around;
+      out.x.row(vertex(i, j)) << radius * std::sin(a) * std::cos(b),
+          radius * std::sin(a) * std::sin(b), radius * std::cos(a);
+      if (i > 0 && i < n) rows.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+      if (i > 0 && i < n) rows.push_back({vertex(i, j), vertex(i, j + 1), vertex(i - 1, j + 1)});
+    }
+  }
+  out.rows = triangles(rows);
+  return out;
 }
 
 }  // namespace assay::tests

@@ -12,7 +12,7 @@ namespace assay::detector {
 namespace {
 
 using tests::bent, tests::expect_same_contacts, tests::ramp, tests::Sheet, tests::sheet,
-    tests::sphere_sheet;
+    tests::sphere;
 
 using PairSet = std::set<std::pair<std::int32_t, std::int32_t>>;
 
@@ -117,8 +117,8 @@ TEST(Traditional, ARampOfLessThanATurnIsNot) {
 }
 
 TEST(Traditional, HalvesOfASphereHaveNormalCones) {
-  const Sheet before = sphere_sheet(15, 1);
-  const Positions after = sphere_sheet(15, 1.1).x;
+  const Sheet before = sphere(16, 1);
+  const Positions after = sphere(16, 1.1).x;
   const auto result = step(before.rows, before.x, after, Culling::normal_cone);
   const auto bvh = step(before.rows, before.x, after, Culling::bvh);
   EXPECT_EQ(result.answer, Answer::free);

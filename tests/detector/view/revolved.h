@@ -11,9 +11,9 @@ namespace assay::tests {
 
 using detector::Positions, detector::Triangles;
 
-// A closed surface of revolution: rings of eight vertices or so many, then the two poles.
+// A closed surface of revolution: rings of eight vertices, then the two poles.
 inline constexpr std::int32_t sides = 8;
-inline Triangles revolved(std::int32_t rings, std::int32_t sides = tests::sides) {
+inline Triangles revolved(std::int32_t rings) {
   Triangles t(2 * sides * rings, 3);
   Eigen::Index row = 0;
   for (std::int32_t i = 0; i < sides; ++i) {
@@ -31,8 +31,7 @@ inline Triangles revolved(std::int32_t rings, std::int32_t sides = tests::sides)
 struct Ring {
   double z, r;
 };
-inline Positions revolved(const std::vector<Ring>& rings, double end_below, double end_above,
-                          std::int32_t sides = tests::sides) {
+inline Positions revolved(const std::vector<Ring>& rings, double end_below, double end_above) {
   const auto n = static_cast<Eigen::Index>(rings.size());
   Positions x(n * sides + 2, 3);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -56,14 +55,13 @@ inline Positions wavy_tube() {
 }
 
 inline constexpr std::int32_t sphere_rings = 9;
-inline Positions sphere(double radius, int count = sphere_rings,
-                        std::int32_t sides = tests::sides) {
+inline Positions sphere(double radius) {
   std::vector<Ring> rings;
-  for (int k = 1; k <= count; ++k) {
-    const double angle = std::numbers::pi * k / (count + 1);
+  for (int k = 1; k <= sphere_rings; ++k) {
+    const double angle = std::numbers::pi * k / (sphere_rings + 1);
     rings.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
   }
-  return revolved(rings, -radius, radius, sides);
+  return revolved(rings, -radius, radius);
 }
 
 }  // namespace assay::tests

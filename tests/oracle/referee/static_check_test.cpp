@@ -78,8 +78,9 @@ TEST(StaticCheck, TimesAreExact) {
   EXPECT_EQ(compare(.25, .5), -1);
 }
 
-TEST(StaticCheck, SameThreeVerticesMeet) {
-  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}, {2, 1, 0}}));
+TEST(StaticCheck, SameThreeVerticesMeetAtTheStart) {
+  const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  EXPECT_TRUE(meet_at({x, x, triangles({{0, 1, 2}, {2, 1, 0}})}, RationalTime{0, 1}));
 }
 
 // A tetrahedron, and two triangles that each share an edge with what is there before them.

@@ -98,9 +98,9 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
     EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
     EXPECT_FALSE(row.over) << row.subject->name;
   }
-  expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it holds no steps",
-                            "absent: fcl_elementary: libfcl-dev was not there",
-                            "absent: arcsim: its source was not found"});
+  tests::expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it holds no steps",
+                                   "absent: fcl_elementary: libfcl-dev was not there",
+                                   "absent: arcsim: its source was not found"});
 }
 
 TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {

@@ -10,7 +10,7 @@ namespace assay::reports {
 namespace {
 
 using properties::RunFindings, properties::test::failure, properties::test::good_findings;
-using tests::contains;
+using tests::contains, tests::expect_says;
 
 nlohmann::ordered_json judged(
     const RunFindings& findings,

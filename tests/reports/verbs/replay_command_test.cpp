@@ -55,7 +55,7 @@ TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
   ASSERT_NE(about, std::string::npos);
   text.insert(about + 10, "\\u001b[2Jgone");
   const auto outcome = expect_ended("replay " + scratch.write("case.json", text), 0, {"?[2Jgone"});
-  EXPECT_FALSE(says(outcome.out, '\033'));
+  EXPECT_FALSE(says(outcome.out, "\033"));
 }
 
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
