@@ -1,0 +1,140 @@
+// A line search with the IPC Toolkit, with Assay behind the toolkit's interfaces, and with a
+// Detector, side by side: ipc_line_search FRAME FRAME...
+//
+// As in a solver, the mesh goes from where it is toward the next frame as far as it may, and then
+// toward the one after. On each way twenty questions are asked: how far may it go toward the frame,
+// and toward places 0.9, 0.9^2, ... of the way there. Each question is put to
+//
+//   toolkit    LBVH's candidates, Tight-Inclusion
+//   narrow     LBVH's candidates, AssayNarrowPhase
+//   both       the candidates of AssayBroadPhase, AssayNarrowPhase
+//   limit      Detector::limit with keeps_near, the better way: its places are free as rounded
+//   first      Detector::first_contact with keeps_near: the exact time alone
+//
+// As solvers do, the first three list candidates once a way, at its first question, because a
+// shorter step needs no others. All work in one thread. A row is a question: the shares that may be
+// gone, and milliseconds.
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <ipc/candidates/candidates.hpp>
+#include <ipc/utils/logger.hpp>
+
+#include "corpus/formats/mesh_reader.h"
+#include "corpus/peers/ipc_adapter.h"
+#include "detector/detector.h"
+
+namespace assay::peers {
+namespace {
+
+using namespace detector;
+
+constexpr const char* ways[] = {"toolkit", "narrow", "both", "limit", "first"};
+constexpr int questions = 20;
+
+Detector detector_of(const corpus::Mesh& mesh) {
+  Options options;
+  options.culling = Culling::bvh;
+  options.keeps_near = true;
+  return Detector::create(mesh.triangles, mesh.positions, options).value();
+}
+
+ipc::CollisionMesh collision_mesh(const corpus::Mesh& mesh) {
+  const auto edges = make_topology(mesh.triangles, mesh.positions.rows()).edges;
+  Eigen::MatrixXi rows(std::ssize(edges), 2);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    rows.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
+  return ipc::CollisionMesh(mesh.positions, rows, mesh.triangles);
+}
+
+class Search {
+ public:
+  explicit Search(const corpus::Mesh& mesh)
+      : mesh_(collision_mesh(mesh)),
+        limiter_(detector_of(mesh)),
+        timer_(detector_of(mesh)),
+        x_(mesh.positions) {}
+
+  // Asks all questions of the way to this frame, and goes it as far as it is free.
+  void go_toward(const Positions& frame) {
+    const Positions x = x_;
+    const Eigen::MatrixXd start = x;
+    ipc::Candidates of_toolkit, of_assay;
+    double part = 1, total[std::size(ways)] = {};
+    for (int question = 0; question < questions; ++question, part *= 0.9) {
+      const Positions place = question == 0 ? frame : Positions(x + part * (frame - x));
+      const Eigen::MatrixXd end = place;
+      const auto size = [&](const ipc::Candidates& candidates, const ipc::NarrowPhaseCCD& narrow) {
+        return candidates.compute_collision_free_stepsize(mesh_, start, end, 0, narrow);
+      };
+      const auto toolkit = [&] {
+        if (question == 0) of_toolkit.build(mesh_, start, end, 0, &lbvh_);
+        return size(of_toolkit, tight_inclusion_);
+      };
+      const auto narrow = [&] {
+        if (question == 0) of_toolkit.build(mesh_, start, end, 0, &lbvh_);
+        return size(of_toolkit, narrow_);
+      };
+      const auto both = [&] {
+        if (question == 0) of_assay.build(mesh_, start, end, 0, &broad_);
+        return size(of_assay, narrow_);
+      };
+      const auto limit = [&] {
+        const StepLimit found = limiter_.limit(x, place);
+        if (question == 0) x_ = found.positions;
+        return found.share;
+      };
+      const auto first = [&] {
+        const StepResult found = timer_.first_contact(x, place);
+        return found.answer == Answer::free ? 1. : found.first.lo;
+      };
+      const std::function<double()> asked[] = {toolkit, narrow, both, limit, first};
+      std::printf("%8.4f", part);
+      for (std::size_t way = 0; way < std::size(ways); ++way) {
+        const auto begin = std::chrono::steady_clock::now();
+        const double share = asked[way]();
+        const std::chrono::duration<double, std::milli> time =
+            std::chrono::steady_clock::now() - begin;
+        total[way] += time.count();
+        std::printf("  %9.7f %8.2f", share, time.count());
+      }
+      std::printf("\n");
+    }
+    std::printf("     all");
+    for (const double time : total) std::printf("  %18.2f", time);
+    std::printf("\n%zu candidates of LBVH, %zu of Assay\n", of_toolkit.size(), of_assay.size());
+  }
+
+ private:
+  ipc::CollisionMesh mesh_;
+  ipc::LBVH lbvh_;
+  ipc::TightInclusionCCD tight_inclusion_;
+  AssayBroadPhase broad_;
+  AssayNarrowPhase narrow_;
+  Detector limiter_, timer_;
+  Positions x_;
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+int main(int count, char** files) {
+  using namespace assay;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  ipc::logger().set_level(spdlog::level::err);
+  std::unique_ptr<peers::Search> search;
+  for (int i = 1; i < count; ++i) {
+    const auto mesh = corpus::read_mesh(files[i]);
+    if (!mesh) return std::fprintf(stderr, "%s\n", mesh.error().message.c_str()), 2;
+    if (!search) {
+      search = std::make_unique<peers::Search>(mesh.value());
+      continue;
+    }
+    std::printf("toward %s\n    part", files[i]);
+    for (const char* way : peers::ways) std::printf("  %18s", way);
+    std::printf("\n");
+    search->go_toward(mesh.value().positions);
+  }
+}
