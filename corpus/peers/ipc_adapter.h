@@ -4,8 +4,8 @@
 //   const double size = ipc::compute_collision_free_stepsize(
 //       mesh, x_t0, x_t1, min_distance, &broad_phase, AssayNarrowPhase());
 //
-// A search that asks for shorter and shorter steps from one start is better served by a Detector
-// with Options::keeps_near: ipc_line_search.cpp shows both. Version: that of ipc_mesh.h.
+// Detector::limit answers the whole question of such a step in one call, and its places are free as
+// rounded: ipc_line_search.cpp shows both. Version: that of ipc_mesh.h.
 #pragma once
 
 #include <algorithm>

@@ -8,12 +8,13 @@
 //   toolkit    LBVH's candidates, Tight-Inclusion
 //   narrow     LBVH's candidates, AssayNarrowPhase
 //   both       the candidates of AssayBroadPhase, AssayNarrowPhase
-//   limit      Detector::limit with keeps_near, the better way: its places are free as rounded
+//   limit      Detector::limit with keeps_near; the way to its places is free, as they are rounded
 //   first      Detector::first_contact with keeps_near: the exact time alone
 //
 // As solvers do, the first three list candidates once a way, at its first question, because a
-// shorter step needs no others. All work in one thread. A row is a question: the shares that may be
-// gone, and milliseconds.
+// shorter step needs no others. A Detector keeps what it found up to the first contact, so it
+// answers shorter steps in less time once they end before it. All work in one thread. A row is a
+// question: the shares that may be gone, and milliseconds.
 #include <tbb/global_control.h>
 
 #include <chrono>
