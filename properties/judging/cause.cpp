@@ -60,8 +60,8 @@ const char* time_of(const TimeEnclosure& t) {
   return t.hi <= thousandth ? near_0 : inside;
 }
 
-// A distance that is this share of the extent: of the longest side of the box around all vertices
-// at t = 0.
+// A share of the extent at t = 0, as a distance: of the longest side of the box around all
+// vertices.
 double share_of_extent(const PositionsView& x, double share) {
   double half = 0;  // so that the difference of two doubles does not overflow
   for (int axis = 0; axis < 3; ++axis) {
@@ -152,15 +152,15 @@ class PairOfStep {
   }
 
   // Tells what is special about the contact of these two features.
-  CauseShape shape(const PairContact& contact, bool of_distance) const {
-    if (is_without_area(contact.time)) return CauseShape::without_area;
+  const char* shape(const PairContact& contact, bool of_distance) const {
+    if (is_without_area(contact.time)) return without_area;
     return of_distance ? shape_of_distance(contact)
-                       : shape_of(oracle::shape_of(oracle::points_of(motion_, contact.feature),
-                                                   contact.time));
+                       : word_of(oracle::shape_of(oracle::points_of(motion_, contact.feature),
+                                                  contact.time));
   }
 
  private:
-  CauseShape shape_of_distance(const PairContact& contact) const {
+  const char* shape_of_distance(const PairContact& contact) const {
     const bool is_vertex_face = contact.feature.kind == FeatureKind::vertex_face;
     const auto places =
         oracle::closest_places(oracle::points_of(motion_, contact.feature), contact.time.lo);

@@ -32,23 +32,6 @@ FourMoving any_exponents(test::Random& random, bool flat) {
   return points;
 }
 
-template <class Feature>
-void expect_answered(const Feature& query) {
-  const auto first = first_time_by_kernel(four_points(query));
-  const ContactAnswer answer = [&] {
-    if constexpr (std::is_same_v<Feature, VertexFace>) {
-      return vertex_face_contact(query, Want::first_time);
-    } else {
-      return edge_edge_contact(query, Want::first_time);
-    }
-  }();
-  ASSERT_EQ(first.has_value(), answer.contact);
-  if (first) {
-    EXPECT_EQ(*first, answer.first);
-  }
-  (void)referee(four_points(query), {20, 20});
-}
-
 void expect_answered(const FourMoving& p) {
   for (const int first_group : {1, 2}) {
     const detector::FourPoints query = {p, first_group};

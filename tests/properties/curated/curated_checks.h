@@ -62,7 +62,7 @@ class CuratedStep {
 
   std::vector<detector::ViewSign> signs_between(const detector::Positions& from,
                                                 const detector::Positions& to) const {
-    return oracle::view_signs({from, to}, triangles, {&primitive, 1}, 1);
+    return oracle::view_signs({from, to}, triangles, {&primitive, 1});
   }
   bool all_signs(detector::ViewSign wanted) const { return are_all(signs, wanted); }
   // Positive at t=0, 1/2, 1 when the places there are doubles.
@@ -81,7 +81,7 @@ class CuratedStep {
   // Ghosts and mesh at one end of the step, piercing included.
   Flags at_rest(bool end) const {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
-    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, {1, true});
+    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, true);
   }
   Flags at_either_end() const { return either(at_rest(false), at_rest(true)); }
   // Ghosts that stay behind, corners and all, at their places of t=0.

@@ -42,7 +42,7 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
   if (name == "boundary_edges_of_M_plus_ghost") return distinct_unmatched_edges(with_ghosts(s));
   if (name == "in_K") {
     json pairs = json::array();
-    for (const auto& [pair, time, feature] : oracle::split(s.judgement.pairs, s.k()).in_k)
+    for (const auto& [pair, time, feature] : s.pairs_of(s.k(), true))
       pairs.push_back({pair.a, pair.b});
     return pairs;
   }

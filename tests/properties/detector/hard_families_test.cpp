@@ -39,8 +39,7 @@ TEST_P(HardFamilies, TheConstructedAnswerIsTheOracles) {
       if (!known.view_signs) continue;
       const auto view = corpus::view_of_step(c, 0);
       ASSERT_TRUE(view) << c.id;
-      const auto signs =
-          oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, {&*view, 1}, 1);
+      const auto signs = oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, {&*view, 1});
       EXPECT_TRUE(
           std::equal(signs.begin(), signs.end(), known.view_signs->begin(), known.view_signs->end(),
                      [](auto a, auto b) { return static_cast<int>(a) == static_cast<int>(b); }))

@@ -102,7 +102,7 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
   const auto y_t0 = closed.at(x_t0), y_t1 = closed.at(x_t1);
   const auto given = corpus::view_of_step(c, s);
   const ViewPrimitive view = given ? *given : mean_of(x_t0, x_t1);
-  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1}, 1);
+  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1});
   if (std::count(signs.begin(), signs.end(), ViewSign::positive) == closed.all.rows()) {
     ++rates.positive;
     rates.close += smallest_over_largest(y_t0, y_t1, closed.all, view) <= 0.01 ? 1 : 0;
@@ -121,7 +121,7 @@ Rates measure(const Family& family, int cases, FirstContacts& first_contacts) {
     const auto c = make_case(family, fmt::format("rates:1:{}:{}", family.name, i)).c;
     const ClosedUp closed(c);
     const oracle::Instant start(closed.at(c.frames.front()));
-    const auto layers = oracle::layers_at(start, c.triangles, closed.ghosts, 1);
+    const auto layers = oracle::layers_at(start, c.triangles, closed.ghosts);
     rates.clean_starts += std::count(layers.clean.begin(), layers.clean.end(), 0) == 0 ? 1 : 0;
     for (std::size_t s = 0; s < corpus::steps_of(c).size(); ++s)
       add_step(c, closed, s, rates, first_contacts);

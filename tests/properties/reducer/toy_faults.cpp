@@ -184,9 +184,11 @@ Judge adjacency_judge(int least) {
 
 Judge no_closure_judge() {
   return step_judge([](const ToyStep& step, const oracle::StepJudgement& judgement) {
-    const auto lost =
-        oracle::split(judgement.pairs, step.candidates(exact_signs(step), step.dirty)).outside;
-    return missing(lost.empty() ? nullptr : &lost.front(), "all-pairs", "closure", step.number);
+    const auto candidates = step.candidates(exact_signs(step), step.dirty);
+    const auto lost = std::ranges::find_if(
+        judgement.pairs, [&](const auto& contact) { return !candidates.holds(contact.pair); });
+    return missing(lost == judgement.pairs.end() ? nullptr : &*lost, "all-pairs", "closure",
+                   step.number);
   });
 }
 
