@@ -162,7 +162,7 @@ TEST(StepDistance, WithinZeroAreTheContacts) {
 TEST(StepDistance, LeastAgreesWithFirstTimes) {
   test::Random random(166);
   int above = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 60; ++i) {
     Step step = random_step(
         random, i % 2 == 0 ? test::Coordinates::generic : test::Coordinates::tiny_grid, 12, 4);
     step.x_t1 = 0.75 * step.x_t0 + 0.25 * step.x_t1;
