@@ -21,8 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 16462},   {"oracle", 5956},   {"corpus", 5364}, {"corpus/peers", 1249},
-      {"properties", 25925}, {"reports", 13164}, {"tests", 44978}, {"scripts", 10701}};
+      {"detector", 16472},   {"oracle", 5552},   {"corpus", 5298}, {"corpus/peers", 1560},
+      {"properties", 25092}, {"reports", 13122}, {"tests", 43179}, {"scripts", 10718}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
