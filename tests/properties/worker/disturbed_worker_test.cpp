@@ -8,7 +8,6 @@
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/worker_cases.h"
-#include "tests/reports/program.h"
 
 namespace assay::properties {
 namespace {
@@ -255,6 +254,7 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   test::end_child(children().at(0));
   const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   ::unsetenv("ASSAY_TEST_FILE");
+  std::filesystem::remove(file);
   EXPECT_EQ(run.end, RunEnd::crashed);
   EXPECT_TRUE(says(run.explanation, "ended while it was loaded: killed by signal 11"));
 }

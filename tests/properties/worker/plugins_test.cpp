@@ -137,13 +137,15 @@ TEST(Plugins, FastMathIsFoundOutAndStaysInTheWorker) {
   ASSERT_EQ(before.answer, Answer::collision);
   ASSERT_EQ(before.first, (detector::TimeEnclosure{.5, .5}));
 
+  auto tally = run_all("fast_math");
+  EXPECT_GT(tally.outcomes[Outcome::defect], cases().size() / 20);
+  EXPECT_GT(tally.broken[Claim::free_sound], 0u);
+
   WorkerProcess worker(ASSAY_WORKER, plugin("fast_math"));
-  const auto claims = worker.describe().value().claims;
   const auto c = denormal_case();
   const auto run = worker.run(c, {twice.data(), 1})[0];
-  const auto verdict = judge_run(c, run, judge_case(c), claims, {});
-  EXPECT_EQ(verdict.outcome, Outcome::defect);
-  EXPECT_EQ(verdict.breaches.front(), Claim::free_sound);
+  EXPECT_EQ(judge_run(c, run, judge_case(c), tally.description.claims, {}).outcome,
+            Outcome::defect);
   EXPECT_EQ(_mm_getcsr() & 0x8040u, mode & 0x8040u);  // flush to zero, denormals are zero
   const auto after = judge_case(denormal_case())[0];
   EXPECT_EQ(after.answer, Answer::collision);
