@@ -8,6 +8,8 @@
 
 namespace assay::properties {
 
+using namespace detector;  // whose stages the faults replace
+
 namespace {
 
 // Finds no loops if `is_closed` says so. It is given the number of triangles at each edge.

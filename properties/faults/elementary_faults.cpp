@@ -8,6 +8,8 @@
 #include "properties/faults/view_polynomials.h"
 
 namespace assay::properties {
+
+using namespace detector;  // whose stages the faults replace
 namespace {
 
 // Gives right answers, but suppresses some contacts.

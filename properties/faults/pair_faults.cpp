@@ -6,6 +6,8 @@
 #include "properties/faults/planting.h"
 
 namespace assay::properties {
+
+using namespace detector;  // whose stages the faults replace
 namespace {
 
 namespace flag = detector::flag;

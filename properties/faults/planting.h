@@ -12,19 +12,20 @@
 
 namespace assay::properties {
 
-using namespace detector;  // whose stages the faults replace
-
-// The member of Stages for each stage, and the stage's name in the registry.
-inline constexpr auto stage_places = std::tuple(
-    std::pair(&Stages::classifier, "classifier"), std::pair(&Stages::boundary, "boundary"),
-    std::pair(&Stages::pair_rule, "pair_rule"), std::pair(&Stages::marking, "marking"),
-    std::pair(&Stages::pair_search, "pair_search"), std::pair(&Stages::elementary, "elementary"),
-    std::pair(&Stages::release, "release"));
+// The member of detector::Stages for each stage, and the stage's name in the registry.
+inline constexpr auto stage_places =
+    std::tuple(std::pair(&detector::Stages::classifier, "classifier"),
+               std::pair(&detector::Stages::boundary, "boundary"),
+               std::pair(&detector::Stages::pair_rule, "pair_rule"),
+               std::pair(&detector::Stages::marking, "marking"),
+               std::pair(&detector::Stages::pair_search, "pair_search"),
+               std::pair(&detector::Stages::elementary, "elementary"),
+               std::pair(&detector::Stages::release, "release"));
 
 // Calls `use` with the member and the name of the stage from which `Wrong` derives.
 template <class Wrong, class Use>
 constexpr void at_place_of(const Use& use) {
-  const auto look = [&]<class Stage>(std::shared_ptr<const Stage> Stages::*stage,
+  const auto look = [&]<class Stage>(std::shared_ptr<const Stage> detector::Stages::*stage,
                                      const char* name) {
     if constexpr (std::is_base_of_v<Stage, Wrong>) use(stage, name);
   };
@@ -35,10 +36,10 @@ constexpr void at_place_of(const Use& use) {
 // marks are searched by the binary descent, which reads the flags of every node; the wide descent
 // reads those of every third level, or fewer.
 template <class Wrong>
-Stages with(const Options& options) {
-  Stages stages = detector::standard_stages(options);
-  if constexpr (std::is_base_of_v<Marking, Wrong>)
-    stages.pair_search = std::make_shared<TreeSearch>();
+detector::Stages with(const Options& options) {
+  detector::Stages stages = detector::standard_stages(options);
+  if constexpr (std::is_base_of_v<detector::Marking, Wrong>)
+    stages.pair_search = std::make_shared<detector::TreeSearch>();
   at_place_of<Wrong>([&](auto stage, const char*) { stages.*stage = std::make_shared<Wrong>(); });
   return stages;
 }

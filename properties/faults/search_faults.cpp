@@ -10,6 +10,8 @@
 
 namespace assay::properties {
 
+using namespace detector;  // whose stages the faults replace
+
 namespace {
 
 namespace flag = detector::flag;

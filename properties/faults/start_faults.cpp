@@ -7,6 +7,8 @@
 #include "properties/faults/planting.h"
 
 namespace assay::properties {
+
+using namespace detector;  // whose stages the faults replace
 namespace {
 
 using Flags = std::vector<std::uint8_t>;

@@ -8,6 +8,8 @@
 
 namespace assay::properties {
 
+using namespace detector;  // whose stages the faults replace
+
 namespace {
 
 using PairList = std::vector<PairContact>;

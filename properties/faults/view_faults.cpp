@@ -9,6 +9,8 @@
 
 namespace assay::properties {
 
+using namespace detector;  // whose stages the faults replace
+
 namespace {
 
 ViewSign linear_in_time(const ViewPolynomials& view) {
