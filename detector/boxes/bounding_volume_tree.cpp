@@ -5,10 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 
@@ -58,9 +61,9 @@ struct BoundingVolumeTree::Builder {
   std::vector<Range> large, small;  // that are still to be split
 
   bool run() {
-    for (auto& list : lists) list = std::make_unique_for_overwrite<Spot[]>(mesh.triangles.size());
-    return grow_over_components() && find_spots(large) && find_spots(small) && split_large() &&
-           grow_small();
+    for (auto& list : lists) list = large_array<Spot>(mesh.triangles.size());
+    return grow_over_components() && find_spots(large) && find_spots(small) && cut_large() &&
+           split_large() && grow_small();
   }
 
   bool has_to_end(std::uint64_t work) { return pace && pace->after(work); }
@@ -171,6 +174,13 @@ struct BoundingVolumeTree::Builder {
     return static_cast<std::uint64_t>(spot[axis]) << 32 | static_cast<std::uint32_t>(spot[3]);
   }
 
+  struct Along {
+    std::size_t axis;
+    bool operator()(const Spot& a, const Spot& b) const {
+      return place_along(a, axis) < place_along(b, axis);
+    }
+  };
+
   // The extent of some spots along the axis on which they extend farthest.
   struct Extent {
     std::size_t axis;
@@ -208,6 +218,11 @@ struct BoundingVolumeTree::Builder {
     Spot* const to = lists[1 - range.list].get() + range.begin;
     const std::uint32_t half = half_of(range.size());
     divide(from, to, range.size(), half);
+    return children_of(range, half);
+  }
+
+  // Makes a node of the first `half` triangles and one of the others, which lie in the other list.
+  Halves children_of(const Range& range, std::uint32_t half) {
     const auto child = range.below, below = child + 2,
                below_second = below + 2 * static_cast<std::int32_t>(half) - 2;
     set_component(range.node, range.component);
@@ -222,17 +237,23 @@ struct BoundingVolumeTree::Builder {
   template <std::size_t most>
   static void rank(Spot* spots, std::size_t count, std::size_t axis) {
     Spot held[most];
-    std::uint64_t places[most];
-    std::uint32_t before[most] = {};
+    std::int32_t places[most], numbers[most], before[most];
     for (std::size_t i = 0; i < most; ++i) {
       held[i] = spots[std::min(i, count - 1)];
-      places[i] = i < count ? place_along(held[i], axis) : ~std::uint64_t{0};
+      places[i] = i < count ? held[i][axis] : std::numeric_limits<std::int32_t>::max();
+      numbers[i] = held[i][3];
     }
-    for (std::size_t i = 1; i < most; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const std::uint32_t is_behind = places[j] < places[i];
-        before[i] += is_behind;
-        before[j] += 1 - is_behind;
+    std::uint32_t taken = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::int32_t sum = 0;
+      for (std::size_t j = 0; j < most; ++j) sum += places[j] < places[i];
+      before[i] = sum;
+      taken |= std::uint32_t{1} << sum;
+    }
+    if (taken != ~std::uint32_t{0} >> (32 - count)) {
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < most; ++j)
+          before[i] += (places[j] == places[i]) & (numbers[j] < numbers[i]);
       }
     }
     for (std::size_t i = 0; i < count; ++i) spots[before[i]] = held[i];
@@ -245,7 +266,7 @@ struct BoundingVolumeTree::Builder {
   }
 
   // Makes the nodes of a few triangles.
-  static constexpr std::uint32_t few = 8, levels_of_few = 3;
+  static constexpr std::uint32_t few = 32, levels_of_few = 5;
   void grow_few(std::int32_t node, std::int32_t below, std::int32_t component, Spot* spots,
                 std::uint32_t count) {
     if (count == 1) return set_leaf(node, component, spots[0][3]);
@@ -257,8 +278,16 @@ struct BoundingVolumeTree::Builder {
       set_leaf(below, component, spots[turned][3]);
       return set_leaf(below + 1, component, spots[!turned][3]);
     }
-    count <= 4 ? rank<4>(spots, count, axis) : rank<few>(spots, count, axis);
-    const std::uint32_t half = count / 2;
+    if (count <= 4) {
+      rank<4>(spots, count, axis);
+    } else if (count <= 8) {
+      rank<8>(spots, count, axis);
+    } else if (count <= 16) {
+      rank<16>(spots, count, axis);
+    } else {
+      rank<few>(spots, count, axis);
+    }
+    const std::uint32_t half = half_of(count);
     grow_few(below, below + 2, component, spots, half);
     grow_few(below + 1, below + 2 * static_cast<std::int32_t>(half), component, spots + half,
              count - half);
@@ -294,11 +323,127 @@ struct BoundingVolumeTree::Builder {
         below += p < part;
       }
     }
-    std::nth_element(from, from + (half - below), from + waiting,
-                     [axis = axis](const Spot& a, const Spot& b) {
-                       return place_along(a, axis) < place_along(b, axis);
-                     });
+    std::nth_element(from, from + (half - below), from + waiting, Along{axis});
     std::copy_n(from, waiting, to + below);
+  }
+
+  // Cuts the places of a component into 2^levels parts, by planes that halve a sample of its
+  // triangles again and again. So its largest ranges are split in one pass over their triangles
+  // instead of a pass for each level, and into halves that are nearly as large as each other.
+  struct Cuts {
+    static constexpr int least_levels = 5, most_levels = 9;
+    static constexpr std::uint32_t of_part = 2048, of_sample = 32;  // triangles of a part
+    struct Cut {
+      std::size_t axis = 0;
+      std::int32_t place = 0;
+    };
+    int levels;
+    std::array<Cut, 1 << most_levels>
+        cuts;  // cut i has cuts 2i and 2i + 1 below it; the first is 1
+
+    // Returns how often a component is halved; 0 if its ranges are better split exactly.
+    static int levels_for(std::uint32_t triangles) {
+      const int levels = static_cast<int>(std::bit_width(triangles / of_part)) - 1;
+      return levels < least_levels ? 0 : std::min(levels, most_levels);
+    }
+
+    Cuts(const Spot* spots, std::uint32_t count) : levels(levels_for(count)) {
+      std::vector<Spot> sample(of_sample << levels);
+      for (std::size_t i = 0; i < sample.size(); ++i) sample[i] = spots[i * count / sample.size()];
+      halve(sample, 1);
+    }
+
+    void halve(std::span<Spot> sample, std::size_t cut) {
+      if (sample.size() == of_sample) return;
+      const std::size_t axis = extent_of(sample.data(), sample.size()).axis;
+      const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+      std::nth_element(sample.begin(), middle, sample.end(), Along{axis});
+      cuts[cut] = {axis, (*middle)[axis]};
+      halve(sample.first(sample.size() / 2), 2 * cut);
+      halve(sample.last(sample.size() / 2), 2 * cut + 1);
+    }
+
+    // Writes the numbers of the parts that hold some spots. They take turns, because each waits for
+    // its own last cut.
+    template <std::size_t spots_at_once>
+    void find_parts(const Spot* spots, std::uint16_t* parts) const {
+      std::size_t cut[spots_at_once];
+      std::fill_n(cut, spots_at_once, 1);
+      for (int level = 0; level < levels; ++level) {
+        for (std::size_t i = 0; i < spots_at_once; ++i) {
+          const auto [axis, place] = cuts[cut[i]];
+          cut[i] = 2 * cut[i] + std::size_t{spots[i][axis] >= place};
+        }
+      }
+      for (std::size_t i = 0; i < spots_at_once; ++i)
+        parts[i] = static_cast<std::uint16_t>(cut[i] - (std::size_t{1} << levels));
+    }
+  };
+
+  // The workers cut the largest components.
+  bool cut_large() {
+    for (const auto& range : std::exchange(large, {})) {
+      if (Cuts::levels_for(range.size()) == 0) {
+        large.push_back(range);
+      } else if (!cut(range)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool cut(const Range& range) {
+    constexpr std::size_t of_piece = 16'384;
+    constexpr std::uint64_t work_to_cut = 2;
+    const Spot* const from = lists[range.list].get() + range.begin;
+    Spot* const to = lists[1 - range.list].get() + range.begin;
+    const Cuts cuts(from, range.size());
+    const std::size_t parts = std::size_t{1} << cuts.levels;
+    const auto part_of = large_array<std::uint16_t>(range.size());
+    // By piece and part: how many triangles there are, then where the next of them goes.
+    std::vector<std::uint32_t> next((range.size() / of_piece + 1) * parts);
+    const auto count = [&](std::size_t i, std::size_t end, std::size_t) {
+      auto* const counts = &next[i / of_piece * parts];
+      constexpr std::size_t turns = 8;
+      std::size_t j = i;
+      for (; j + turns <= end; j += turns) cuts.find_parts<turns>(&from[j], &part_of[j]);
+      for (; j < end; ++j) cuts.find_parts<1>(&from[j], &part_of[j]);
+      for (; i < end; ++i) ++counts[part_of[i]];
+    };
+    if (!for_all_pieces(range.size(), of_piece, work_to_cut, pace, count)) return false;
+    std::vector<std::uint32_t> starts;
+    std::uint32_t before = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+      starts.push_back(before);
+      for (std::size_t i = part; i < next.size(); i += parts)
+        before += std::exchange(next[i], before);
+    }
+    starts.push_back(before);
+    const auto move = [&](std::size_t i, std::size_t end, std::size_t) {
+      auto* const places = &next[i / of_piece * parts];
+      for (; i < end; ++i) to[places[part_of[i]]++] = from[i];
+    };
+    if (!for_all_pieces(range.size(), of_piece, work_to_cut, pace, move)) return false;
+    add_parts(range, starts);
+    return true;
+  }
+
+  // Makes the nodes above some parts. Small parts that lie side by side stay one range, which is
+  // split exactly. starts: where each part begins, and the end of the last one.
+  void add_parts(Range range, std::span<const std::uint32_t> starts) {
+    const std::size_t middle = starts.size() / 2, parts = starts.size() - 1;
+    if (parts == 1 || range.size() <= Cuts::of_part) {
+      range.list = 1 - range.list;
+      return add(range);
+    }
+    const auto first = starts.first(middle + 1), second = starts.subspan(middle);
+    const std::uint32_t half = first.back() - first.front();
+    if (half == 0) return add_parts(range, second);
+    if (half == range.size()) return add_parts(range, first);
+    auto [below, above] = children_of(range, half);
+    for (auto* one : {&below, &above}) one->list = range.list;
+    add_parts(below, first);
+    add_parts(above, second);
   }
 
   static constexpr std::uint64_t work_to_split = 3;
@@ -345,9 +490,9 @@ struct BoundingVolumeTree::Builder {
 
 BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x,
                                        PacedStop* pace) {
-  child_.resize(2 * mesh.triangles.size() - 1);
-  parent_ = std::make_unique_for_overwrite<std::int32_t[]>(mesh.triangles.size() - 1);
-  leaf_ = std::make_unique_for_overwrite<std::int32_t[]>(mesh.triangles.size());
+  resize_large(child_, 2 * mesh.triangles.size() - 1);
+  parent_ = large_array<std::int32_t>(mesh.triangles.size() - 1);
+  leaf_ = large_array<std::int32_t>(mesh.triangles.size());
   if (mesh.components.size() > 1) component_.resize(child_.size());
   component_root_.resize(mesh.components.size());
   Builder builder{*this, mesh, x, pace, {}, {}, 0, {}, {}};
@@ -404,7 +549,7 @@ bool BoundingVolumeTree::join_boxes(PacedStop* pace) const {
   if (boxes_are_joined_) return true;
   constexpr std::uint64_t work_of_node = 2;
   constexpr std::size_t nodes_of_piece = 512;
-  if (!boxes_) boxes_ = std::make_unique_for_overwrite<MovingBox[]>(node_count());
+  if (!boxes_) boxes_ = large_array<MovingBox>(node_count());
   const auto take_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) {
       const auto n = static_cast<std::int32_t>(begin);

@@ -114,7 +114,7 @@ WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
   const std::size_t triangles = binary.node_count() / 2 + 1, expected = triangles / 6 + width;
   nodes_.reserve(expected);
   binary_of_.reserve(expected);
-  slots_.reserve(triangles + expected);
+  reserve_large(slots_, triangles + expected);
   Builder builder{*this, binary, pace};
   builder.add({BoundingVolumeTree::root, 1, static_cast<std::int32_t>(binary.node_count())});
   const auto cut = [](auto& list) {
@@ -130,8 +130,8 @@ void WideTree::make_room(bool at_rest) {
   end_ = at_rest ? 0 : box_lanes::rows / 2;
   const std::size_t room = rows() * slots_.size() + width;
   if (room_ >= room) return;
-  boxes_ = std::make_unique_for_overwrite<float[]>(room);
-  own_ = std::make_unique_for_overwrite<float[]>(rows() * nodes_.size());
+  boxes_ = large_array<float>(room);
+  own_ = large_array<float>(rows() * nodes_.size());
   room_ = room;
 }
 

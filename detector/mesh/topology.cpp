@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 namespace {
@@ -124,10 +125,10 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   const std::size_t at_once =
       of_piece * (has_workers(&pace) ? pieces_of_worker * pace.workers()->count() : 1);
   const std::size_t uses = 3 * mesh.triangles.size();
-  mesh.triangle_edges.resize(mesh.triangles.size());
-  mesh.edge_triangles.items.resize(uses);
-  mesh.edges.reserve(uses / 2 + vertex_count / 16);  // a closed mesh has half as many
-  mesh.edge_triangles.starts.reserve(uses / 2 + vertex_count / 16 + 1);
+  resize_large(mesh.triangle_edges, mesh.triangles.size());
+  resize_large(mesh.edge_triangles.items, uses);
+  reserve_large(mesh.edges, uses / 2 + vertex_count / 16);  // a closed mesh has half as many
+  reserve_large(mesh.edge_triangles.starts, uses / 2 + vertex_count / 16 + 1);
   std::vector<std::optional<EdgesOfVertices>> pieces(at_once / of_piece);
   std::size_t edges = 0, placed = 0;
   for (std::size_t first = 0; first < vertex_count; first += at_once) {
@@ -171,7 +172,7 @@ std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
 bool make_only_component(Topology& mesh, const std::vector<std::int32_t>& number,
                          std::size_t vertices, PacedStop& pace) {
   auto& all = mesh.components.emplace_back();
-  all.triangles.resize(mesh.triangles.size());
+  resize_large(all.triangles, mesh.triangles.size());
   all.vertices.reserve(vertices);
   const auto take_triangle = [&](std::size_t t) {
     all.triangles[t] = static_cast<std::int32_t>(t);
@@ -213,7 +214,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     ++sizes[at(number[v])].vertices;
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
-  mesh.component_of_triangle.resize(mesh.triangles.size());
+  resize_large(mesh.component_of_triangle, mesh.triangles.size());
   if (sizes.size() == 1) return make_only_component(mesh, number, sizes[0].vertices, pace);
   const auto number_triangle = [&](std::size_t t) {
     const auto c = number[at(mesh.triangles[t][0])];
@@ -259,7 +260,7 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace) {
   Topology mesh;
   const auto vertices = static_cast<std::size_t>(vertex_count);
-  mesh.triangles.resize(static_cast<std::size_t>(triangles.rows()));
+  resize_large(mesh.triangles, static_cast<std::size_t>(triangles.rows()));
   const auto copy = [&](std::size_t i) {
     const auto t = static_cast<Eigen::Index>(i);
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};

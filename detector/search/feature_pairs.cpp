@@ -275,7 +275,7 @@ void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double se
   margin_.axes = grid_.margin(separation);
   const auto count = static_cast<std::size_t>(motion.size());
   const std::size_t ends = motion.is_at_rest() ? 1 : 2;
-  if (ends_ < ends) points_ = std::make_unique_for_overwrite<FeaturePoint[]>(ends * count);
+  if (ends_ < ends) points_ = large_array<FeaturePoint>(ends * count);
   ends_ = ends;
   for_all_paced(count, work_of_point, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);

@@ -156,6 +156,41 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
   }
 }
 
+// A large component is cut by planes that halve a sample: every triangle has one leaf, below nodes
+// that are numbered as those of a small one, however uneven the parts are.
+TEST(MovingBox, LargeMeshesAreCutTheSameForAnyNumberOfThreads) {
+  constexpr Eigen::Index count = 80'000, corners = count + 2;
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> place(0, 1);
+  for (const double share : {0., .5, .999, 1.}) {  // of the vertices: those that stand at one place
+    Positions x = Positions::NullaryExpr(corners, 3, [&] { return place(engine); });
+    x.topRows(static_cast<Eigen::Index>(share * corners)).setConstant(.25);
+    Triangles list(count, 3);
+    for (Eigen::Index t = 0; t < count; ++t) list.row(t) << t, t + 1, t + 2;
+    const Topology mesh = make_topology(list, corners);
+    const BoundingVolumeTree tree(mesh, x);
+    std::vector<int> depth(tree.node_count());
+    for (std::int32_t node = 0; at(node) < tree.node_count(); ++node) {
+      if (node != 0) depth[at(node)] = depth[at(tree.parent(node))] + 1;
+      EXPECT_LE(depth[at(node)], 26);
+      if (tree.is_leaf(node)) {
+        ASSERT_EQ(tree.leaf_of(tree.triangle(node)), node);
+      } else {
+        ASSERT_GT(tree.child(node), node);
+        ASSERT_EQ(tree.parent(tree.child(node)), node);
+        ASSERT_EQ(tree.parent(tree.child(node) + 1), node);
+      }
+    }
+    for (const std::uint32_t threads : {2u, 5u}) {
+      const Workers workers(threads);
+      PacedStop pace(never_stops, workers);
+      const BoundingVolumeTree shared(mesh, x, &pace);
+      for (std::int32_t node = 0; at(node) < tree.node_count(); ++node)
+        ASSERT_EQ(shared.child(node), tree.child(node)) << share << " " << threads;
+    }
+  }
+}
+
 // One power of two for all axes brings every position of the step near 1: that of the longest.
 TEST(MovingBox, BoxesAreFittedOnceToTheArraysOfAStep) {
   Positions x(4, 3);
