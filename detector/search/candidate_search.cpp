@@ -147,6 +147,10 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
 }
 
 bool CandidateSearch::collect(bool uses_proofs, bool keeps) {
+  if (first_) {
+    first_->bound.until = first_->asked_until;
+    contacts_.leave_out_later_than(first_->bound);
+  }
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
   const bool has_proofs = uses_proofs && stages_.search.has_proofs();
@@ -165,6 +169,13 @@ bool CandidateSearch::collect(bool uses_proofs, bool keeps) {
 }
 
 bool CandidateSearch::collect_kept() {
+  kept_until_ = memory_.near.covered_until(motion_, pace_);
+  if (pace_.stopped()) return false;
+  if (kept_until_ < asked_until()) {
+    if (!first_ || kept_until_ == 0) return true;
+    first_->bound.until = kept_until_;
+    contacts_.leave_out_later_than(first_->bound);
+  }
   for (std::size_t i = 0; i < KeptFeatures::parts; ++i) {
     if (first_) take_earliest();
     if (!contacts_.run(memory_.near.part(i), stop_, &pace_)) return false;

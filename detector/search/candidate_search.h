@@ -42,8 +42,8 @@ class CandidateSearch {
   // nothing was collected yet.
   void look_for_first(const TimeBound& bound, BoundingVolumeTree& tree);
 
-  // A step calls mark; then collect, or collect_kept if all pairs that may meet are kept; and
-  // close, if it closes the set of pairs. Each returns false if it was stopped.
+  // A step calls mark; then collect_kept, if pairs may be kept, and collect, unless these were
+  // enough; and close, if it closes the set of pairs. Each returns false if it was stopped.
 
   // Sets the marks of the tree to these types, by triangle. REQUIRES that no type is one of the
   // closure.
@@ -52,13 +52,13 @@ class CandidateSearch {
   // pairs that it can prove apart (PatchProofs). With `keeps` it keeps the near feature pairs for a
   // later question (L20). REQUIRES a search that was fitted to the step, with its tree.
   bool collect(bool uses_proofs = true, bool keeps = false);
-  // Returns whether an earlier search of the same types has kept all feature pairs that may meet.
-  // REQUIRES mark().
-  bool prepare_kept() {
-    return memory_.near.cover(motion_, first_ ? first_->asked_until : 1, pace_);
-  }
-  // Tests the feature pairs that are kept. REQUIRES that prepare_kept() returned true.
+  // Tests the feature pairs that an earlier search of the same types has kept, if these are all
+  // that may meet, or all that may meet by a time at which a first contact may be. REQUIRES mark().
   bool collect_kept();
+  // Returns whether collect_kept() has found all that is asked for. Otherwise collect() has to.
+  bool is_answered() const {
+    return kept_until_ >= asked_until() || (first_ && contacts_.least_end() <= kept_until_);
+  }
   // See MeshSearch.
   ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
   // Estimates, from a few hundred edges spread over the mesh, the share of pairs of triangles at an
@@ -125,6 +125,8 @@ class CandidateSearch {
     double fitted = 1;  // the boxes cover the step up to here
   };
   std::optional<First> first_;
+  double asked_until() const { return first_ ? first_->asked_until : 1; }
+  double kept_until_ = 0;  // the time by which all feature pairs that meet are kept
 };
 
 }  // namespace assay::detector

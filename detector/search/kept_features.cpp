@@ -46,8 +46,8 @@ bool KeptFeatures::make_parts(PacedStop& pace) {
   return true;
 }
 
-bool KeptFeatures::cover(const SteppedMesh& other, double until, PacedStop& pace) {
-  if (until_ == 0 || other.is_at_rest() || other.size() != x_t0_.rows()) return false;
+double KeptFeatures::covered_until(const SteppedMesh& other, PacedStop& pace) {
+  if (until_ == 0 || other.is_at_rest() || other.size() != x_t0_.rows()) return 0;
   if (!fastest_) {
     auto& [row, axis] = fastest_.emplace();
     (x_t1_ - x_t0_).cwiseAbs().maxCoeff(&row, &axis);
@@ -55,8 +55,8 @@ bool KeptFeatures::cover(const SteppedMesh& other, double until, PacedStop& pace
   const auto [row, axis] = *fastest_;
   const double from = x_t0_(row, axis),
                share = (other.vertices_t1(row, axis) - from) / (x_t1_(row, axis) - from);
-  if (!(share >= 0 && share * until <= until_) || !follows(other, share, pace)) return false;
-  return begins_.back() == found_.size() || make_parts(pace);
+  if (!(share >= 0) || !follows(other, share, pace)) return 0;
+  return begins_.back() == found_.size() || make_parts(pace) ? until_ / share : 0;
 }
 
 // Whether the other step begins at the same places and ends where the kept step was after this

@@ -26,10 +26,11 @@
 // If features within a distance are asked for, the same holds, because margins go beyond that
 // distance.
 //
-// The ends are compared in doubles. Any s will do, so its own rounding does not matter: only the
-// place after this share, and the distance to it, are rounded. For coordinates up to M both are off
-// by less than 2^-50 M + 2^-1073, as in moving_box.h. FloatGrid::tolerance() is r less four times
-// as much.
+// The ends are compared in doubles. Any s will do, so its own rounding does not matter, nor that of
+// T / s: only the place after this share, and the distance to it, are rounded. For coordinates up
+// to M both are off by less than 2^-50 M + 2^-1073, as in moving_box.h, and by s times as much if s
+// is above 1; but then only times up to 1 / s count, by which a vertex is 1 / s as far off.
+// FloatGrid::tolerance() is r less four times as much.
 #pragma once
 
 #include <array>
@@ -62,9 +63,10 @@ class KeptFeatures {
   // a vertex.
   void keep(const SteppedMesh& step, double until, const FloatGrid& grid,
             std::vector<FeatureKey> found, PacedStop& pace);
-  // Returns whether all feature pairs that meet in the other step up to this time are kept (L20). 2
-  // ns a vertex, and the first time 5 ns a feature pair.
-  bool cover(const SteppedMesh& other, double until, PacedStop& pace);
+  // Returns up to which time of the other step all feature pairs that meet are kept (L20): 0 if
+  // none need be, more than 1 if a longer step would do. 2 ns a vertex, and the first time 5 ns a
+  // feature pair.
+  double covered_until(const SteppedMesh& other, PacedStop& pace);
 
   // Returns one part of all that is kept. Each part is spread over the mesh. Which pairs a part
   // holds does not depend on the order in which they were found. REQUIRES that it covers a step.

@@ -278,10 +278,11 @@ bool StepRun::find_pairs() {
   {
     Stopwatch watch(times.broad_phase);
     const bool keeps = context_.options.keeps_near && !marks_.has_views();
-    completed = keeps && search_->prepare_kept()
-                    ? search_->collect_kept()
-                    : context_.pair_search->fit(step_.tree, mesh_, step_.motion, cost_.pace) &&
-                          search_->collect(policy_.worth_proving(marks_, *search_), keeps);
+    completed = !keeps || search_->collect_kept();
+    if (completed && !(keeps && search_->is_answered())) {
+      completed = context_.pair_search->fit(step_.tree, mesh_, step_.motion, cost_.pace) &&
+                  search_->collect(policy_.worth_proving(marks_, *search_), keeps);
+    }
   }
   // Tests are made as candidates come up, so their time is part of the time measured above.
   times.narrow_phase = search_->test_time();

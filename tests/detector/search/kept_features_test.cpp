@@ -57,7 +57,7 @@ class AskedAgain : public testing::TestWithParam<Culling> {
 };
 
 TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
-  int kept_steps = 0, collisions = 0, inside = 0;
+  int kept_steps = 0, kept_beyond = 0, collisions = 0, inside = 0;
   for (int i = 0; i < tests::usual(60); ++i) {
     make(i);
     Options options{GetParam(), Start::verified, i % 5 < 2 ? Pairs::first : Pairs::all};
@@ -70,15 +70,18 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
     if (i % 4 == 3) options.counted = &counted;
     Detector older = detector(options);
     const StepResult whole = older.evaluate(x_t0_, x_t1_);
-    for (const double part : {1., .99, .7, .5, 1e-3}) {
-      const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
-      const Positions x = end_at(part * (is_bounded ? whole.first.lo : 1), i % 2);
+    const bool is_bounded = options.pairs == Pairs::first && whole.answer == Answer::collision;
+    const double met = is_bounded ? whole.first.lo : 1;
+    for (const double share :
+         {met, .99 * met, .7 * met, .5 * met, 1e-3 * met, .1 + .9 * met, 1., 3.}) {
+      const Positions x = end_at(share, i % 2);
       const StepResult again = older.evaluate(x_t0_, x);
       Detector fresh = detector(options, false);
       const StepResult expected = fresh.evaluate(x_t0_, x);
-      ASSERT_EQ(again.answer, expected.answer) << i << " " << part;
+      ASSERT_EQ(again.answer, expected.answer) << i << " " << share;
       tests::expect_same_contacts(again, expected);
       kept_steps += was_kept(again);
+      kept_beyond += was_kept(again) && share > met;
       collisions += again.answer == Answer::collision;
       inside += again.first.lo > 0;
       if (chooses_views(GetParam())) continue;
@@ -89,6 +92,8 @@ TEST_P(AskedAgain, L20_AShorterStepIsAnsweredAsIfItWereTheFirst) {
   EXPECT_GT(kept_steps, tests::usual(100));
   EXPECT_GT(collisions, tests::usual(30));
   EXPECT_GT(inside, tests::usual(20));
+  // A step that goes on beyond a first contact meets it again.
+  EXPECT_GT(kept_beyond, tests::usual(10));
 }
 
 TEST_P(AskedAgain, WhatLeavesTheStepIsSearched) {
