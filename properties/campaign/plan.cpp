@@ -253,7 +253,7 @@ class PlanWriter {
     out = Json::array();
     for (const StratumPlan& stratum : strata) out.push_back(json_of(stratum));
   }
-  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
+  static void write(Json& out, const decltype(Policy::speed_limits)& limits) {
     out = Json::object();
     for (const auto& [figure, limit] : limits) out[figure] = limit;
   }
@@ -305,13 +305,12 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
       strata.push_back(std::move(stratum));
     }
   }
-  static void read(const JsonField& field, std::vector<SpeedLimit>& limits) {
+  static void read(const JsonField& field, decltype(Policy::speed_limits)& limits) {
     if (!field.json().is_object()) throw Refused{field.problem("an object expected")};
     for (const auto& [figure, value] : field.json().items()) {
       if (std::ranges::find(speed_figures, figure) == std::end(speed_figures))
         throw Refused{field.problem("no figure '" + figure + "' is known")};
-      limits.push_back({figure, 0});
-      read(corpus::want(field.at(figure)), limits.back().limit, above_0);
+      read(corpus::want(field.at(figure)), limits[figure], above_0);
     }
   }
 };
