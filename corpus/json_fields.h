@@ -75,9 +75,9 @@ class JsonField {
 // too:
 //
 //   template <class Archive>
-//   void fields(Archive& archive, StratumPlan& stratum) {
-//     archive.must("family", stratum.family);                // it is refused if it is missing
-//     archive.may("bound", stratum.wanted_bound, is_bound);  // it stays as it is if it is missing
+//   void fields(Archive& archive, Case& c) {
+//     archive.must("id", c.id);                        // it is refused if it is missing
+//     archive.may("script", c.script, Below{frames});  // it stays as it is if it is missing
 //   }
 //
 // Rules may follow the member; they say which values are allowed.
@@ -111,10 +111,10 @@ inline void expect_size(const JsonField& field, std::size_t count) {
 
 // `Reader` derives from this, and has a function `read` for each further kind of value:
 //
-//   class PlanReader : public JsonReader<PlanReader> {
+//   class CaseReader : public JsonReader<CaseReader> {
 //    public:
 //     using JsonReader::JsonReader, JsonReader::read;
-//     static void read(const JsonField& field, bool& x);
+//     static void read(const JsonField& field, Point& x);
 //   };
 template <class Reader>
 class JsonReader {

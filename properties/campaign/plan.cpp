@@ -9,6 +9,7 @@
 #include "corpus/json_fields.h"
 #include "corpus/problem.h"
 #include "detector/mesh/problem.h"
+#include "properties/fields.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_families.h"
 #include "properties/words.h"
@@ -165,103 +166,53 @@ CampaignPlan query_plan(CampaignPlan plan) {
 
 // Campaign files: schema `assay-campaign/1`.
 
-namespace {
-
-using corpus::JsonField, corpus::Refused;
-using Json = corpus::Json;
-
-constexpr const char* schema = "assay-campaign/1";
-constexpr corpus::Below most_cases{1'000'000'000}, most_repeated_triangles{1'000'000};
-
-// A condition on a number, and its text.
-struct Rule {
-  bool (*holds)(double);
-  const char* expectation;
-};
-constexpr Rule at_least_0 = {[](double x) { return x >= 0; }, "a number of at least 0 expected"};
-constexpr Rule above_0 = {[](double x) { return x > 0; }, "a number above 0 expected"};
-constexpr Rule is_bound = {[](double x) { return x >= 0 && x < 1; }, "0 <= bound < 1 expected"};
-constexpr Rule is_power = {[](double x) { return x > 0 && x <= 1; }, "0 < power <= 1 expected"};
-
-// The value null says that there is no limit. It has to be stated, so that nobody leaves the limit
-// out by mistake.
-struct Seconds {
-  double& value;
-};
-// Takes the same numbers as the option --memory.
-struct Bytes {
-  std::uint64_t& value;
-};
-
-// The fields of a plan and of its parts, each named here and nowhere else. An archive reads those
-// that `must` be there and those that `may`, or writes all of them.
 template <class Archive>
 void fields(Archive& archive, StratumPlan& stratum) {
-  archive.must("family", stratum.family);
-  archive.must("cases", stratum.cases, most_cases);
-  archive.may("bound", stratum.wanted_bound, is_bound);
+  archive("family", stratum.family, "cases", stratum.cases, "bound", stratum.wanted_bound);
 }
 
-template <class Archive>
-void fields(Archive& archive, Policy& policy) {
-  archive.may("power", policy.power, is_power);
-  archive.may("self_test_queries", policy.self_test_queries, most_cases);
-  archive.may("repeated_triangles", policy.repeated_triangles, most_repeated_triangles);
-  archive.may("speed_limits", policy.speed_limits);
-}
+ASSAY_FIELDS(Policy, power, self_test_queries, repeated_triangles, speed_limits)
 
 template <class Archive>
 void fields(Archive& archive, CampaignPlan& plan) {
-  archive.must("name", plan.name);
-  archive.must("strata", plan.strata);
-  archive.may("seconds", Seconds{plan.seconds});
-  archive.may("case_seconds", plan.case_seconds, at_least_0);
-  archive.may("case_bytes", Bytes{plan.case_bytes});
-  archive.may("laws_every", plan.laws_every, most_cases);
-  archive.may("law_premises", plan.law_premises, most_cases);
-  archive.may("fault_cases", plan.fault_cases, most_cases);
-  archive.may("fault_seeds", plan.fault_seeds, most_cases);
-  archive.may("tetrahedron_seconds", plan.tetrahedron_seconds, at_least_0);
-  archive.may("shrink_share", plan.shrink_share, at_least_0);
-  archive.may("search", plan.search, most_cases);
-  archive.may("policy", plan.policy);
+  archive("name", plan.name, "strata", plan.strata, "seconds", plan.seconds, "case_seconds",
+          plan.case_seconds, "case_bytes", plan.case_bytes, "laws_every", plan.laws_every,
+          "law_premises", plan.law_premises, "fault_cases", plan.fault_cases, "fault_seeds",
+          plan.fault_seeds, "tetrahedron_seconds", plan.tetrahedron_seconds, "shrink_share",
+          plan.shrink_share, "search", plan.search, "policy", plan.policy);
 }
 
-class PlanWriter {
- public:
-  template <class T, class... Rules>
-  void must(const char* name, const T& x, const Rules&...) {
-    write(json[name], x);
-  }
-  template <class T, class... Rules>
-  void may(const char* name, const T& x, const Rules&...) {
-    write(json[name], x);
-  }
-  template <class T>
-  static Json json_of(T x) {
-    PlanWriter writer;
-    fields(writer, x);
-    return writer.json;
-  }
+namespace {
 
- private:
-  static void write(Json& out, const auto& x) { out = x; }
-  static void write(Json& out, const Seconds& x) { out = x.value > 0 ? Json(x.value) : Json(); }
-  static void write(Json& out, const Bytes& x) { out = x.value; }
-  static void write(Json& out, const Policy& policy) { out = json_of(policy); }
-  static void write(Json& out, const std::vector<StratumPlan>& strata) {
-    out = Json::array();
-    for (const StratumPlan& stratum : strata) out.push_back(json_of(stratum));
-  }
-  static void write(Json& out, const std::vector<SpeedLimit>& limits) {
-    out = Json::object();
-    for (const auto& [figure, limit] : limits) out[figure] = limit;
-  }
+using corpus::JsonField, corpus::Refused, corpus::want;
+using Json = corpus::Json;
 
-  Json json;
+constexpr const char* schema = "assay-campaign/1";
+
+// Fields that have to be there. The others keep their values if they are missing.
+constexpr std::string_view needed[] = {"name", "strata", "family", "cases"};
+
+// Whole numbers from 0 to below these.
+constexpr std::int64_t most_cases = 1'000'000'000, most_repeated_triangles = 1'000'000;
+
+// The condition on the number of a field, and its text.
+struct Rule {
+  std::string_view field;
+  bool (*holds)(const Json&);
+  const char* expectation;
 };
+constexpr Rule rules[] = {
+    {"bound", [](const Json& x) { return x >= 0 && x < 1; }, "0 <= bound < 1 expected"},
+    {"power", [](const Json& x) { return x > 0 && x <= 1; }, "0 < power <= 1 expected"},
+    // Takes the same numbers as the option --memory.
+    {"case_bytes",
+     [](const Json& x) { return x.is_number_unsigned() && x <= std::uint64_t{1} << 60; },
+     "a whole number of bytes expected"},
+};
+constexpr Rule other_rule = {"", [](const Json& x) { return x >= 0; },
+                             "a number of at least 0 expected"};
 
-class PlanReader : public corpus::JsonReader<PlanReader> {
+class PlanReader : public corpus::JsonReader<PlanReader>, public NamedFields<PlanReader> {
  public:
   using JsonReader::JsonReader, JsonReader::read;
 
@@ -270,7 +221,7 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
   template <class T>
   static void read_all(const JsonField& object, T& x, Json names = Json::object()) {
     if (!object.json().is_object()) throw Refused{object.problem("an object expected")};
-    names.update(PlanWriter::json_of(x));
+    names.update(json_of_fields<Json>(x));
     for (const auto& [key, value] : object.json().items()) {
       if (!names.contains(key)) throw Refused{object.problem("no field '" + key + "' is known")};
     }
@@ -278,40 +229,48 @@ class PlanReader : public corpus::JsonReader<PlanReader> {
     fields(reader, x);
   }
 
-  static void read(const JsonField& field, double& x, const Rule& rule) {
-    read(field, x);
-    if (!rule.holds(x)) throw Refused{field.problem(rule.expectation)};
-  }
-  static void read(const JsonField& field, const Seconds& x) {
-    if (!field.json().is_null()) read(field, x.value, at_least_0);
-  }
-  static void read(const JsonField& field, const Bytes& x) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 60;
-    if (!field.json().is_number_unsigned() || field.json().get<std::uint64_t>() > most)
-      throw Refused{field.problem("a whole number of bytes expected")};
-    x.value = field.json().get<std::uint64_t>();
+  template <class T>
+  void field(std::string_view name, T& x) const {
+    if (std::ranges::count(needed, name) == 0 && !object().has(name)) return;
+    const auto value = want(object().at(name));
+    // The value null says that there is no limit. It has to be stated (fault_of), so that nobody
+    // leaves the limit out by mistake.
+    if (name == "seconds" && value.json().is_null()) return;
+    if constexpr (std::is_arithmetic_v<T>) {
+      const auto* found = std::ranges::find(rules, name, &Rule::field);
+      const Rule& rule = found == std::end(rules) ? other_rule : *found;
+      if (std::is_floating_point_v<T>) {
+        want(value.number());
+      } else if (&rule == &other_rule) {
+        want(value.integer(0, name == "repeated_triangles" ? most_repeated_triangles : most_cases));
+      }
+      if (!rule.holds(value.json())) throw Refused{value.problem(rule.expectation)};
+      value.json().get_to(x);
+    } else {
+      read(value, x);
+    }
   }
   static void read(const JsonField& field, Policy& policy) { read_all(field, policy); }
   static void read(const JsonField& field, std::vector<StratumPlan>& strata) {
-    const auto size = corpus::want(field.size());
+    const auto size = want(field.size());
     for (std::size_t i = 0; i < size; ++i) {
       StratumPlan stratum;
       read_all(field.item(i), stratum);
       const auto family = field.item(i).at("family").value();
       if (!find_family(stratum.family)) throw Refused{family.problem("no family of this name")};
-      if (std::ranges::any_of(
-              strata, [&](const StratumPlan& other) { return other.family == stratum.family; }))
+      if (std::ranges::count(strata, stratum.family, &StratumPlan::family) > 0)
         throw Refused{family.problem("this family is there already")};
       strata.push_back(std::move(stratum));
     }
   }
-  static void read(const JsonField& field, std::vector<SpeedLimit>& limits) {
+  static void read(const JsonField& field, decltype(Policy::speed_limits)& limits) {
     if (!field.json().is_object()) throw Refused{field.problem("an object expected")};
     for (const auto& [figure, value] : field.json().items()) {
       if (std::ranges::find(speed_figures, figure) == std::end(speed_figures))
         throw Refused{field.problem("no figure '" + figure + "' is known")};
-      limits.push_back({figure, 0});
-      read(corpus::want(field.at(figure)), limits.back().limit, above_0);
+      const auto limit = want(field.at(figure));
+      if (want(limit.number()) <= 0) throw Refused{limit.problem("a number above 0 expected")};
+      limits[figure] = value;
     }
   }
 };
@@ -339,9 +298,9 @@ std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan
 
 corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
                                           const std::filesystem::path& name) try {
-  const auto json = corpus::want(corpus::parse_json(text, name));
+  const auto json = want(corpus::parse_json(text, name));
   const JsonField top(json, name);
-  const auto schema_field = corpus::want(top.at("schema"));
+  const auto schema_field = want(top.at("schema"));
   if (schema_field.json() != schema) return schema_field.problem(std::string(schema) + " expected");
   CampaignPlan plan;
   PlanReader::read_all(top, plan, {{"schema", schema}, {"about", ""}});
@@ -353,7 +312,8 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
 
 std::string plan_text(const CampaignPlan& plan) {
   Json json = {{"schema", schema}};
-  json.update(PlanWriter::json_of(plan));
+  json.update(json_of_fields<Json>(plan));
+  if (plan.seconds <= 0) json["seconds"] = nullptr;
   return json.dump();
 }
 

@@ -147,18 +147,7 @@ std::string seeds_text(const Json& parts) {
 
 std::string text(const Json& word) { return word.get<std::string>(); }
 
-enum class TestState : std::uint8_t { holds, failed, skipped };
-
-struct TestCase {
-  std::string name;
-  TestState state;
-  std::string why;  // not used for a test that holds
-};
-using Tests = std::vector<TestCase>;
-
-TestState state_of(bool is_failed, bool is_skipped = false) {
-  return is_failed ? TestState::failed : is_skipped ? TestState::skipped : TestState::holds;
-}
+using Tests = std::vector<JunitTest>;
 
 Tests gates_tests(const Json& p) {
   Tests tests;
@@ -167,7 +156,8 @@ Tests gates_tests(const Json& p) {
     std::string reasons = is_judged ? "" : "not judged: ";
     for (const auto& reason : gate["reasons"]) reasons += text(reason) + "\n";
     if (gate.contains("remedy")) reasons += text(gate["remedy"]) + "\n";
-    tests.push_back({text(gate["gate"]), state_of(gate["state"] == "fails", !is_judged), reasons});
+    const char* element = gate["state"] == "fails" ? "failure" : is_judged ? "" : "skipped";
+    tests.push_back({text(gate["gate"]), element, reasons});
   }
   return tests;
 }
@@ -191,8 +181,9 @@ Tests strata_tests(const Json& p) {
       const auto counts = fmt::format(
           "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count(bound["holds"]),
           count(bound["n"]), defects, count(bound["undecided"]), bound["bound"].get<double>());
-      tests.push_back({text(stratum["family"]) + ", " + text(bound["configuration"]),
-                       state_of(is_failed, bound["n"] == 0), is_failed ? counts : "no trial"});
+      const char* element = is_failed ? "failure" : bound["n"] == 0 ? "skipped" : "";
+      tests.push_back({text(stratum["family"]) + ", " + text(bound["configuration"]), element,
+                       is_failed ? counts : "no trial"});
     }
   }
   return tests;
@@ -209,29 +200,10 @@ Tests failures_tests(const Json& p) {
     const auto line = fmt::format(
         "{} ({}), {}; {}\n{}", text(failure["what"]), text(failure["configuration"]),
         met_text(failure), text(failure["case"]), group.empty() ? "" : "group: " + group + "\n");
-    tests.push_back({text(failure["signature"]), TestState::failed,
+    tests.push_back({text(failure["signature"]), "failure",
                      line + "replay, in the folder of the run: " + text(failure["replay"])});
   }
   return tests;
-}
-
-std::string suite_text(const char* name, const Tests& tests) {
-  if (tests.empty()) return "";
-  std::string cases;
-  for (const auto& test : tests) {
-    cases += fmt::format("    <testcase classname=\"assay.{}\" name=\"{}\"", name,
-                         xml_escaped(test.name));
-    const char* element = test.state == TestState::failed ? "failure" : "skipped";
-    cases += test.state == TestState::holds
-                 ? "/>\n"
-                 : fmt::format(">\n      <{} message=\"{}\">{}</{}>\n    </testcase>\n", element,
-                               xml_escaped(test.why.substr(0, test.why.find('\n'))),
-                               xml_escaped(test.why), element);
-  }
-  return fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n",
-      name, tests.size(), std::ranges::count(tests, TestState::failed, &TestCase::state),
-      std::ranges::count(tests, TestState::skipped, &TestCase::state), cases);
 }
 
 }  // namespace
@@ -288,8 +260,9 @@ std::string judged_text(const Json& p) {
 
 std::string junit_text(const Json& p) {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"assay\">\n" +
-         suite_text("gates", gates_tests(p)) + suite_text("strata", strata_tests(p)) +
-         suite_text("failures", failures_tests(p)) + "</testsuites>\n";
+         junit_suite("gates", "assay.gates", gates_tests(p)) +
+         junit_suite("strata", "assay.strata", strata_tests(p)) +
+         junit_suite("failures", "assay.failures", failures_tests(p)) + "</testsuites>\n";
 }
 
 }  // namespace assay::reports

@@ -23,34 +23,22 @@ using Json = nlohmann::ordered_json;
 using corpus::json_text;
 using Lines = std::vector<std::string>;
 
-// An empty object or list is a leaf, as a number is.
-bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
+// Returns the text of a value, or the beginning of a long one.
+std::string short_text(const Json& value) {
+  constexpr std::size_t most = 200;
+  const auto text = json_text(value);
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
 
-// Reports each leaf that only one side has, or that differs. A side without a value at this place
-// is null. Equal parts are passed over as a whole, without naming their places.
-void compare_fields(const Json* theirs, const Json* ours, const Json::json_pointer& place,
-                    Lines& lines) {
-  const bool has_both = theirs != nullptr && ours != nullptr;
-  if (has_both && *theirs == *ours) return;
-  if ((theirs == nullptr || is_leaf(*theirs)) && (ours == nullptr || is_leaf(*ours)))
-    return lines.push_back(
-        fmt::format("{}: {}, {}", place.to_string(),
-                    theirs ? json_text(*theirs) + " is stated" : "is not stated",
-                    ours ? json_text(*ours) + " is computed" : "nothing of it is stored"));
-  if (has_both && theirs->type() != ours->type()) {
-    compare_fields(theirs, nullptr, place, lines);
-    compare_fields(nullptr, ours, place, lines);
-    return;
-  }
-  const auto part_of = [](const Json* whole, const Json::json_pointer& name) {
-    return whole != nullptr && whole->contains(name) ? &whole->at(name) : nullptr;
-  };
-  const Json nothing = Json::object();
-  for (const auto& [name, value] : (theirs == nullptr ? nothing : *theirs).items())
-    compare_fields(&value, part_of(ours, Json::json_pointer() / name), place / name, lines);
-  for (const auto& [name, value] : (ours == nullptr ? nothing : *ours).items()) {
-    if (part_of(theirs, Json::json_pointer() / name) == nullptr)
-      compare_fields(nullptr, &value, place / name, lines);
+// Reports each place at which the two differ.
+void compare_fields(const Json& theirs, const Json& ours, Lines& lines) {
+  for (const auto& change : Json::diff(ours, theirs)) {
+    const auto place = change["path"].get<std::string>();
+    lines.push_back(fmt::format(
+        "{}: {}, {}", place,
+        change["op"] == "remove" ? "is not stated" : short_text(change["value"]) + " is stated",
+        change["op"] == "add" ? "nothing of it is stored"
+                              : short_text(ours[Json::json_pointer(place)]) + " is computed"));
   }
 }
 
@@ -112,7 +100,7 @@ void compare(const std::filesystem::path& certificate,
   }
   const auto folder = folder_of(certificate);
   const Json& ours = result_of_stores.value();
-  compare_fields(&result.statement, &ours, Json::json_pointer(), lines);
+  compare_fields(result.statement, ours, lines);
   // The bytes of the file are compared as well, because a compressed certificate would be read
   // like its contents, and assay writes none.
   if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(ours)), lines);

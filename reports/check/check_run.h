@@ -179,10 +179,4 @@ struct Keeping {
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);
 
-// Returns the result of each claim of a log as a suite of JUnit XML. A broken claim fails; a claim
-// about which the log says nothing, or not enough, is skipped.
-std::string junit_suite(const std::string& log, const CheckOutcome& outcome);
-// Returns the suite of a log that could not be judged.
-std::string junit_suite_of_problem(const std::string& log, const std::string& message);
-
 }  // namespace assay::reports

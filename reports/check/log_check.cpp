@@ -1,7 +1,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -292,37 +291,6 @@ Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
       std::make_unique<RecordedSteps>(std::move(log), recorded.subject.description, selection);
   auto answers = std::make_unique<LoggedAnswers>(std::move(recorded), *steps);
   return CheckInput{name.file, std::move(steps), false, std::move(answers)};
-}
-
-std::string junit_suite(const std::string& log, const CheckOutcome& outcome) {
-  using State = ClaimResult::State;
-  const auto results = outcome.claim_results();
-  const auto breaks = std::ranges::count(results, State::broken, &ClaimResult::state);
-  const auto holds = std::ranges::count(results, State::holds, &ClaimResult::state);
-  const auto name = xml_escaped(log);
-  std::string text = fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", name,
-      results.size(), breaks, static_cast<std::ptrdiff_t>(results.size()) - breaks - holds);
-  for (const auto& [claim, state, why] : results) {
-    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", name, claim);
-    text += state == State::holds
-                ? "/>\n"
-                : fmt::format("><{} message=\"{}\"/></testcase>\n",
-                              state == State::broken ? "failure" : "skipped", xml_escaped(why));
-  }
-  if (!outcome.asked_again.empty())
-    text += fmt::format("    <system-out>{}</system-out>\n",
-                        xml_escaped(join(outcome.asked_again, "\n")));
-  return text + "  </testsuite>\n";
-}
-
-std::string junit_suite_of_problem(const std::string& log, const std::string& message) {
-  const auto name = xml_escaped(log);
-  return fmt::format(
-      "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n"
-      "    <testcase classname=\"{0}\" name=\"log\"><error message=\"{1}\"/></testcase>\n"
-      "  </testsuite>\n",
-      name, xml_escaped(message));
 }
 
 }  // namespace assay::reports

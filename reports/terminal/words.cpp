@@ -106,6 +106,30 @@ std::string xml_escaped(const std::string& text) {
   return replace(text, replacements);
 }
 
+std::string junit_suite(const std::string& suite, const std::string& class_name,
+                        const std::vector<JunitTest>& tests, const std::string& output) {
+  if (tests.empty()) return "";
+  std::string text;
+  std::map<std::string, int> counts;  // by element
+  for (const auto& [name, element, why] : tests) {
+    ++counts[element];
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_escaped(class_name),
+                        xml_escaped(name));
+    text += element.empty()
+                ? "/>\n"
+                : fmt::format(">\n      <{0} message=\"{1}\">{2}</{0}>\n    </testcase>\n", element,
+                              xml_escaped(why.substr(0, why.find('\n'))), xml_escaped(why));
+  }
+  if (!output.empty())
+    text += fmt::format("    <system-out>{}</system-out>\n", xml_escaped(output));
+  const int errors = counts["error"];
+  return fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\"{} skipped=\"{}\">\n{}  "
+      "</testsuite>\n",
+      xml_escaped(suite), tests.size(), counts["failure"],
+      errors == 0 ? "" : fmt::format(" errors=\"{}\"", errors), counts["skipped"], text);
+}
+
 std::string commit_text() { return ASSAY_COMMIT; }
 
 std::string version_text() {

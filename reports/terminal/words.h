@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace assay::reports {
 
@@ -18,6 +19,16 @@ std::string replace(std::string_view text, const std::map<char, std::string_view
 
 // Returns the text escaped for XML, with characters that XML 1.0 does not allow replaced.
 std::string xml_escaped(const std::string& text);
+
+// A test in a JUnit file.
+struct JunitTest {
+  std::string name;
+  std::string element;  // "failure", "error" or "skipped"; empty: it holds
+  std::string why;      // not used for a test that holds
+};
+// Returns the tests as a suite of a JUnit file. Empty if there are none.
+std::string junit_suite(const std::string& suite, const std::string& class_name,
+                        const std::vector<JunitTest>& tests, const std::string& output = "");
 
 // Returns the items of a list as one line of text, with `between` between them.
 template <class List>

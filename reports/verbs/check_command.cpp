@@ -205,6 +205,21 @@ Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
                       request.weld});
 }
 
+// Returns the result of each claim of a log as a suite of JUnit XML. A broken claim fails; a claim
+// about which the log says nothing, or not enough, is skipped.
+std::string suite_of(const std::string& log, const CheckOutcome& outcome) {
+  using State = ClaimResult::State;
+  std::vector<JunitTest> tests;
+  for (const auto& [claim, state, why] : outcome.claim_results()) {
+    const char* element = state == State::broken ? "failure" : "skipped";
+    tests.push_back({claim, state == State::holds ? "" : element, why});
+  }
+  return junit_suite(log, log, tests, join(outcome.asked_again, "\n"));
+}
+std::string suite_of(const std::string& log, const Problem& problem) {
+  return junit_suite(log, log, {{"log", "error", problem.message}});
+}
+
 // Judges steps: of one mesh, or of one log, which adds its suite of JUnit XML.
 Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& suites) {
   CheckQuestion question = request.question;
@@ -230,7 +245,7 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
     return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
   auto result = read_input(kind, request, question);
   if (!result) {
-    if (is_log) suites += junit_suite_of_problem(request.inputs.front(), result.error().message);
+    if (is_log) suites += suite_of(request.inputs.front(), result.error());
     return result.error();
   }
   auto& input = result.value();
@@ -262,7 +277,7 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
   if (question.wants_report) {
     BOOST_OUTCOME_TRY(write_json_file(request.json_file, answer.report));
   }
-  if (is_log) suites += junit_suite(request.inputs.front(), answer.outcome);
+  if (is_log) suites += suite_of(request.inputs.front(), answer.outcome);
   return answer.outcome.end(request.fail_on_collision);
 }
 
@@ -288,8 +303,7 @@ Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
       one.keeping.folder = fmt::format("{}/{}-{}", request.keeping.folder, i + 1, name);
     const auto before = suites.size();
     const auto code = check_steps(a_log, one, suites);
-    if (!code && suites.size() == before)
-      suites += junit_suite_of_problem(word, code.error().message);
+    if (!code && suites.size() == before) suites += suite_of(word, code.error());
     worst =
         std::max(worst, std::ranges::find(from_best, code ? code.value() : refuse(code.error())));
   }

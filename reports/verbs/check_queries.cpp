@@ -18,10 +18,14 @@
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/rungs.h"
 #include "properties/fields.h"
+#include "properties/judging/exam.h"
+#include "properties/judging/step_measures.h"
 #include "properties/queries/query_methods.h"
+#include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/bench/sweep.h"
-#include "reports/check/query_detector.h"
+#include "reports/steps/measures_text.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"
 #include "reports/terminal/work.h"
 #include "reports/verbs/verbs.h"
@@ -38,6 +42,24 @@ struct QueryDifference {
 };
 ASSAY_FIELDS(QueryDifference, file, query, answer, label, label_disputed, separation)
 
+// A way in which the query of a plug-in breaks a claim.
+struct BrokenWay {
+  std::string signature;  // of the failure
+  std::uint64_t met = 0;  // how many queries had it
+  std::string query;      // the first of them: "FILE query 12"
+  std::string what;       // explains it
+};
+ASSAY_FIELDS(BrokenWay, signature, met, query, what)
+
+// What the claims of a plug-in's query came to.
+struct ClaimsOnQueries {
+  std::uint64_t judged = 0, left_out = 0, undecided = 0, not_asked = 0;
+  nlohmann::ordered_json measures;
+  std::map<std::string, std::uint64_t> broken;  // how many queries broke each claim
+  std::vector<BrokenWay> failures;
+};
+ASSAY_FIELDS(ClaimsOnQueries, judged, left_out, undecided, not_asked, measures, broken, failures)
+
 // The report, schema assay-queries/1.
 struct QueryReport {
   std::string schema = "assay-queries/1", version = version_text(), method;
@@ -50,10 +72,11 @@ struct QueryReport {
   std::uint64_t open = 0;  // neither yes nor a difference
   std::uint64_t contradictions = 0;
   std::optional<std::map<std::string, std::uint64_t>> rungs;  // of a method that has some
+  std::optional<ClaimsOnQueries> detector;                    // of a plug-in
 };
 ASSAY_FIELDS(QueryReport, schema, version, method, files, separation, count, yes, unlabelled,
              false_positives, false_negatives, disputed_labels, differences, mean_us, median_us,
-             p99_us, p999_us, max_us, open, contradictions, rungs)
+             p99_us, p999_us, max_us, open, contradictions, rungs, detector)
 
 namespace {
 
@@ -81,7 +104,7 @@ bool is_label_disputed(const properties::QueryMethod& method, const properties::
 
 class QueryScore {
  public:
-  // Without a method it is the score of a plug-in, whose answers are added by add_answer.
+  // Without a method it is the score of a plug-in (QueryPlugin).
   QueryScore(std::string name, std::vector<std::string> files,
              const properties::QueryMethod* method)
       : method_(method) {
@@ -209,14 +232,15 @@ class QueryScore {
     fmt::print("\n");
   }
 
-  // The referee contradicts the oracle.
-  bool is_unsound() const { return !contradictions_.empty(); }
-  // An answer differs from its truth in a way that the method claims to avoid. A plug-in is judged
-  // by its claims instead (check/query_detector.h).
-  bool is_wrong() const {
+  // Of a method: whether the referee contradicts the oracle, and then whether an answer differs
+  // from its truth in a way that the method claims to avoid.
+  int exit_code() const {
     using properties::Claim;
-    return method_ && ((report_.false_positives > 0 && method_->claims.has(Claim::no_spurious)) ||
-                       (report_.false_negatives > 0 && method_->claims.has(Claim::free_sound)));
+    if (!contradictions_.empty()) return exit_unsound;
+    const bool is_wrong =
+        (report_.false_positives > 0 && method_->claims.has(Claim::no_spurious)) ||
+        (report_.false_negatives > 0 && method_->claims.has(Claim::free_sound));
+    return is_wrong ? exit_defect : exit_holds;
   }
 
  private:
@@ -230,62 +254,182 @@ class QueryScore {
 
 using QuerySet = std::vector<corpus::LabelledQuery>;
 
-// Writes the report. `detector`: the results of the plug-in's answers, or null.
-Expected<void> write_report(const std::string& file, const QueryScore& score,
-                            const nlohmann::ordered_json& detector) {
+// Asks the query of a plug-in, scores its answers, and judges them by its claims. Nothing is
+// stored.
+class QueryPlugin {
+ public:
+  explicit QueryPlugin(properties::Subject subject) : subject_(std::move(subject)) {}
+
+  // Asks the queries of a file. Fails if no worker can be started. After too many crashes, the
+  // remaining queries count as not asked.
+  Expected<void> ask(const std::string& file, const QuerySet& set, QueryScore& score) {
+    constexpr std::size_t at_once = 512;
+    const auto& plugin = subject_.detector;
+    // The second worker is asked in the other order.
+    const bool asks_twice = plugin.claims.has(properties::Claim::deterministic);
+    for (std::size_t begin = 0; begin < set.size(); begin += at_once) {
+      const std::size_t end = std::min(begin + at_once, set.size());
+      if (crashes_ > most_crashes) {
+        found_.not_asked += end - begin;
+        continue;
+      }
+      std::vector<std::size_t> places;
+      std::vector<corpus::Case> cases;
+      for (std::size_t i = begin; i < end; ++i) {
+        auto contracted_case = properties::contract_case(
+            properties::case_of_query(set[i].query, "query"), plugin.contract);
+        if (!contracted_case) continue;
+        places.push_back(i);
+        cases.push_back(std::move(*contracted_case));
+      }
+      found_.left_out += end - begin - places.size();
+      const auto results = properties::examine(
+          {plugin, {&asked_query, 1}, &worker_, asks_twice ? &second_ : nullptr}, std::move(cases));
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto& run = results[i].runs[0];
+        if (run.end == properties::RunEnd::not_run) return Problem{run.explanation};
+        judge(results[i], fmt::format("{} query {}", file, places[i]));
+        if (!run.steps.empty()) add_to(score, file, places[i], set[places[i]], results[i]);
+      }
+    }
+    return outcome::success();
+  }
+
+  ClaimsOnQueries found() const {
+    auto found = found_;
+    found.measures = measures_json(measures_);
+    return found;
+  }
+
+  // Prints to stdout: the measures that do not depend on claims, the broken claims with the queries
+  // that break them, and the verdict.
+  void print() const {
+    const auto& [judged, left_out, undecided, not_asked, unused, broken, failures] = found_;
+    fmt::print("{}\n{}\n", measures_head(true), measures_row(measures_, true));
+    if (left_out > 0) fmt::print("{} queries are left out by its contract\n", left_out);
+    if (not_asked > 0)
+      fmt::print("{} queries were not asked: it had crashed {} times\n", not_asked, crashes_);
+    for (const auto& way : std::span(failures).first(std::min(most_shown, failures.size())))
+      fmt::print("DEFECT {}, met {}\n  {}: {}\n", way.signature, properties::times_text(way.met),
+                 way.query, way.what);
+    if (failures.size() > most_shown)
+      fmt::print("... {} signatures more\n", failures.size() - most_shown);
+    for (const auto& [claim, n] : broken) fmt::print("broken: {}, by {} queries\n", claim, n);
+    if (!broken.empty()) {
+      fmt::print("{} of {} queries break a claim\n", defects_, judged);
+    } else if (undecided + not_asked > 0) {
+      fmt::print("undecided: {} of {} queries\n", undecided + not_asked, judged + not_asked);
+    } else if (judged == 0) {
+      fmt::print("undecided: no query is within its contract\n");
+    } else {
+      fmt::print("all claims hold in {} queries\n", judged);
+    }
+  }
+
+  int exit_code() const {
+    if (defects_ > 0) return exit_defect;
+    return found_.undecided + found_.not_asked > 0 || found_.judged == 0 ? exit_undecided
+                                                                         : exit_holds;
+  }
+
+ private:
+  // The number is chosen so that a library that crashes at each of a million queries is found out
+  // in a minute.
+  static constexpr std::uint64_t most_crashes = 100;
+  static constexpr std::size_t most_shown = 20;  // signatures
+
+  void judge(const properties::CaseResults& results, const std::string& name) {
+    using properties::Outcome;
+    const auto& run = results.runs[0];
+    const auto& verdict = results.verdicts[0];
+    crashes_ += run.end == properties::RunEnd::crashed ? 1 : 0;
+    measures_ += properties::measures_of(verdict.steps, run.steps);
+    ++found_.judged;
+    if (verdict.outcome == Outcome::undecided || verdict.outcome == Outcome::error)
+      ++found_.undecided;
+    const auto& failure = verdict.failure;
+    if (!failure) return;
+    ++defects_;
+    ++found_.broken[properties::name_of(failure->claim)];
+    const auto signature = failure->signature();
+    auto way = std::ranges::find(found_.failures, signature, &BrokenWay::signature);
+    if (way == found_.failures.end()) {
+      const bool is_alone_too = found_.failures.size() >= most_shown || answers_alone(results);
+      way = found_.failures.insert(way,
+                                   {signature, 0, name,
+                                    properties::printable(failure->explanation) +
+                                        (is_alone_too ? "" : properties::needs_what_came_before)});
+    }
+    ++way->met;
+  }
+
+  // Returns whether a new process that is asked only this query gives the same answer.
+  bool answers_alone(const properties::CaseResults& results) const {
+    auto fresh = subject_.process();
+    return same_answers(results.runs[0], properties::run_alone(fresh, results.c, asked_query));
+  }
+
+  // Scores an answer; nothing if there is none.
+  void add_to(QueryScore& score, const std::string& file, std::size_t index,
+              const corpus::LabelledQuery& query, const properties::CaseResults& results) const {
+    using detector::Answer;
+    const auto& run = results.runs[0];
+    const auto answer = run.steps[0].answer;
+    if (answer != Answer::free && answer != Answer::collision) return;
+    // A label is true only for its own question.
+    const double separation = subject_.detector.contract.separation;
+    const bool is_rounded = results.c.frames != properties::case_of_query(query.query, "").frames;
+    const bool is_asked = !is_rounded && query.separation.value_or(0) == separation;
+    const auto truth = is_asked ? query.truth : std::nullopt;
+    score.add_answer(
+        file, index,
+        {answer == Answer::collision, truth,
+         separation > 0 ? std::optional(separation) : std::nullopt,
+         truth && *truth == results.truth[0].pairs.empty(), 1e6 * run.times->steps[0]});
+  }
+
+  static inline const properties::Configuration asked_query{"query", {}, {}, true};
+
+  properties::Subject subject_;
+  properties::WorkerProcess worker_ = subject_.process(), second_ = subject_.process(1);
+  properties::StepMeasures measures_;  // of all queries that were judged
+  std::uint64_t crashes_ = 0, defects_ = 0;
+  ClaimsOnQueries found_;
+};
+
+Expected<void> write_report(const std::string& file, const QueryReport& report) {
   if (file.empty()) return outcome::success();
-  auto report = properties::json_of_fields<nlohmann::ordered_json>(score.report());
-  report["detector"] = detector;
-  const auto status = write_json_file(file, report);
+  const auto status =
+      write_json_file(file, properties::json_of_fields<nlohmann::ordered_json>(report));
   if (status) fmt::print("wrote {}\n", file);
   return status;
 }
 
-// Asks the plug-in the queries of a file. The answers are judged and scored.
-Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, const QuerySet& set,
-                          QueryScore& score) {
-  std::vector<properties::Query> queries;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    queries.push_back(set[i].query);
-    names.push_back(fmt::format("{} query {}", file, i));
-  }
-  BOOST_OUTCOME_TRY(results, detector.judge(queries, names));
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto& one = results[i];
-    if (!one || one->runs[0].steps.empty()) continue;
-    const auto& run = one->runs[0];
-    const auto answer = run.steps[0].answer;
-    if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
-    // A label is true only for its own question.
-    const double separation = detector.separation();
-    const bool is_rounded = one->c.frames != properties::case_of_query(set[i].query, "").frames;
-    const bool is_asked = !is_rounded && set[i].separation.value_or(0) == separation;
-    const auto truth = is_asked ? set[i].truth : std::nullopt;
-    score.add_answer(file, i,
-                     {answer == detector::Answer::collision, truth,
-                      separation > 0 ? std::optional(separation) : std::nullopt,
-                      truth && *truth == one->truth[0].pairs.empty(), 1e6 * run.times->steps[0]});
-  }
-  return outcome::success();
-}
-
 Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet>& sets) {
-  BOOST_OUTCOME_TRY(detector, QueryDetector::open(task.detector));
-  if (task.separation.value_or(detector.separation()) != detector.separation()) {
+  auto words = task.detector;
+  words.part = DetectorPart::query;
+  BOOST_OUTCOME_TRY(subject, choose_detector(words));
+  const auto& detector = subject.detector;
+  const double separation = detector.contract.separation;
+  if (judged_claims(detector.claims, detector.contract, true).empty())
+    return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
+  if (task.separation.value_or(separation) != separation) {
     return Problem{fmt::format("--separation {}: {} answers by that of its contract, {}",
-                               *task.separation, detector.name(), detector.separation())};
+                               *task.separation, detector.name, separation)};
   }
-  fmt::print("{}\n", detector.title());
+  fmt::print("{}\n", plugin_text(subject));
   std::fflush(stdout);
-  QueryScore score(detector.name(), task.files, nullptr);
+  QueryScore score(detector.name, task.files, nullptr);
+  QueryPlugin plugin(std::move(subject));
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    BOOST_OUTCOME_TRY(ask_plugin(detector, task.files[i], sets[i], score));
+    BOOST_OUTCOME_TRYV(plugin.ask(task.files[i], sets[i], score));
   }
   score.print();
-  fmt::print("{}", detector.text());
-  BOOST_OUTCOME_TRY(write_report(task.json_file, score, detector.to_json()));
-  return detector.exit_code();
+  plugin.print();
+  auto report = score.report();
+  report.detector = plugin.found();
+  BOOST_OUTCOME_TRYV(write_report(task.json_file, report));
+  return plugin.exit_code();
 }
 
 // The problem of a method that knows no distance, if some query has a separation.
@@ -332,9 +476,8 @@ Expected<int> check_queries(const QueryQuestion& task) {
   QueryScore score(task.method->word, task.files, task.method);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(task.files[i], sets[i]);
   score.print();
-  BOOST_OUTCOME_TRY(write_report(task.json_file, score, nullptr));
-  if (score.is_unsound()) return exit_unsound;
-  return score.is_wrong() ? exit_defect : exit_holds;
+  BOOST_OUTCOME_TRYV(write_report(task.json_file, score.report()));
+  return score.exit_code();
 }
 
 void add_query_options(CLI::App& verb, QueryQuestion& task) {

@@ -111,17 +111,6 @@ void check_evaluate_changes_nothing(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Plays the first step again, after the last one.
-void check_reset(CaseFacts& facts, LawTally& tally) {
-  const auto run = pinned_run(facts);
-  auto player = run ? PinnedPlayer::make(*run, facts.options(), facts.stages_of()) : std::nullopt;
-  if (!player) return;
-  player->play();
-  player->detector().reset();
-  const std::string differing = difference(facts.result(0), player->evaluate(0));
-  note(facts, 0, differing.empty() ? holds() : differing + " differs", tally);
-}
-
 // Makes another detector from the positions with which the case ends, so that it has chosen other
 // apexes and primitives. It has a state of its own, and is in the middle of something else: one
 // step is committed, and another one is evaluated and not committed.
@@ -189,30 +178,6 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
     if (differing.empty() && other.value().detector().state().bytes() != expectation)
       differing = "the state after the step";
     if (differing.empty()) differing = rests_alike(facts, player.value().detector(), facts.x_t1(s));
-    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
-  }
-}
-
-// Positions that stand among other numbers of the caller.
-struct WideRows {
-  Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
-  explicit WideRows(const Positions& x) : rows(decltype(rows)::Constant(x.rows(), 5, 0.5)) {
-    rows.leftCols<3>() = x;
-  }
-};
-
-void check_row_stride(CaseFacts& facts, LawTally& tally) {
-  const auto& c = facts.source();
-  const WideRows first(c.frames[0]);
-  auto creation = detector::assemble(c.triangles, first.rows.leftCols<3>(), facts.options(),
-                                     facts.stages_of()(facts.options()));
-  for (std::size_t s = 0; creation && s < facts.steps(); ++s) {
-    const auto view = given_view(view_of_step(c, s), facts.options().culling);
-    const WideRows x_t0(facts.x_t0(s)), x_t1(facts.x_t1(s));
-    const StepResult result =
-        creation.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), view);
-    if (facts.script(s).commit && is_answered(result)) creation.value().commit();
-    const std::string differing = difference(facts.result(s), result);
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
@@ -297,12 +262,6 @@ constexpr Law repetition_law_table[] = {
      "Steps that are evaluated and not committed leave no trace in the results that follow.",
      "nothing", check_evaluate_changes_nothing, one_case_in_16, PremiseScope::any_culling,
      &changes::other_evaluations},
-    {"Change_ResetStartsAnew", "change",
-     "After a reset the first step gives the same bytes as it did at first.", "nothing",
-     check_reset, one_case_in_16},
-    {"Change_RowStride", "change",
-     "Positions that stand in wider rows give the same bytes as packed ones.", "nothing",
-     check_row_stride, one_case_in_16},
     {"Change_ThreadsDoNotShow", "change",
      "A detector of three threads gives the same bytes as one of one thread, counts and state too, "
      "and so does one that runs the pieces of its loops one by one, in a drawn order and in drawn "

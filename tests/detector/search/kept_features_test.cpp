@@ -182,6 +182,7 @@ TEST_P(AskedAgain, L20_WhatIsBetweenTwoQuestionsChangesNoAnswer) {
     older.evaluate(x_t0_, x_t1_);
     const Positions x = end_at(.5, 1);
     Positions start = x_t0_;
+    ASSERT_FALSE(i % 4 == 0 && older.commit());
     if (i % 4 == 0) older.reset();
     ASSERT_FALSE(i % 4 == 1 && older.restore(before));
     if (i % 4 == 2 && !older.commit()) start = x_t1_;

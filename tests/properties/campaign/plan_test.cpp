@@ -50,7 +50,7 @@ TEST_F(Plans, SurviveTheirText) {
   std::set<std::string> texts;
   for (const auto& plan : plans) {
     const std::string text = plan_text(plan);
-    const auto again = read(text);
+    const auto again = read(nlohmann::json::parse(text).dump());  // a store sorts the keys
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(plan_text(again.value()), text);
     EXPECT_EQ(again.value().strata.size(), plan.strata.size());

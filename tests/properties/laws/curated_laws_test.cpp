@@ -14,8 +14,7 @@ const auto carried_laws = tests::words(
     "L8_CarriedCleanIsClean L8_WhatIsNotCleanStaysDirty L8_CleanAndUntouchedStaysClean "
     "L9_DirtyIsTheOraclesAccount L9_NewStartIsTheOraclesLayers "
     "L15_StepsWithoutViewsAreInTheAccount L11_ViolatedIsWhatGhostsTouch "
-    "L11_ApexesGoOnFromWhereTheyWere Change_RepeatedCall Change_RowStride "
-    "Change_RestoredStateGoesOn");
+    "L11_ApexesGoOnFromWhereTheyWere Change_RepeatedCall Change_RestoredStateGoesOn");
 
 // The case behind a step in which nothing moves. Of a first step view-auto knows less than of later
 // ones, so this lets every step of the case go on from a committed one.

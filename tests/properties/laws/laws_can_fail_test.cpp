@@ -131,8 +131,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
         {wrong_size,
          "Sets_AreDisjointAndCover L12_BadInputIsNamedAndChangesNothing "
          "Change_EqualEndsAreAPoint Change_EvaluateChangesNothing "
-         "Change_ResetStartsAnew Change_RowStride Change_ThreadsDoNotShow "
-         "Change_StopsChangeNothing"},
+         "Change_ThreadsDoNotShow Change_StopsChangeNothing"},
         {meet_among_one_sign,
          "L3_FirstContactIsACandidate L6_OutsideKSomethingMetBefore "
          "L4_AllPositiveIsCollisionFree_Point L4_AllPositiveIsCollisionFree_Line "

@@ -93,11 +93,10 @@ const auto law_tests = tests::words(
     "L15_StepsWithoutViewsAreInTheAccount Change_VertexNumbers Change_TriangleOrder "
     "Change_PowerOfTwo Change_Translation Change_Mirror Change_AxesExchanged "
     "Change_InsideOutSwapsSigns Change_StepHalved Change_EqualEndsAreAPoint "
-    "Change_RepeatedCall Change_EvaluateChangesNothing Change_ResetStartsAnew "
-    "Change_RowStride Change_ThreadsDoNotShow Change_RestoredStateGoesOn Change_StepReversed "
-    "Change_StepsBeforeDoNotShow L16_WithinADistanceIsWhatTheOracleFinds "
-    "L17_LimitsAreFreeAndGoFar Change_StopsChangeNothing L18_RefinedMeshHasTheSameContacts "
-    "Claim_InEveryPairOfOptions");
+    "Change_RepeatedCall Change_EvaluateChangesNothing Change_ThreadsDoNotShow "
+    "Change_RestoredStateGoesOn Change_StepReversed Change_StepsBeforeDoNotShow "
+    "L16_WithinADistanceIsWhatTheOracleFinds L17_LimitsAreFreeAndGoFar "
+    "Change_StopsChangeNothing L18_RefinedMeshHasTheSameContacts Claim_InEveryPairOfOptions");
 
 class LawTest : public testing::Test {
  public:

@@ -193,10 +193,10 @@ TEST_F(CheckLog, LinesPointsAndLooseVerticesAreCounted) {
 TEST_F(CheckLog, JUnitHasEachClaim) {
   const auto file = scratch_ / "junit.xml";
   EXPECT_EQ(run_assay("check " + record(with_a_miss()) + " --junit " + file).exit_code, 1);
-  expect_says(
-      read_text(file),
-      {fmt::format("name=\"free-sound\"><failure message=\"first in step {}\"/>", collision_ + 1),
-       "name=\"no-spurious\"/>"});
+  expect_says(read_text(file),
+              {fmt::format("name=\"free-sound\">\n      <failure message=\"first in step {}\">",
+                           collision_ + 1),
+               "name=\"no-spurious\"/>"});
 }
 
 TEST_F(CheckLog, TenOfAKindAreKept) {
