@@ -211,7 +211,7 @@ constexpr auto names_of(Deed) {
 // All facts about a claim, for the code that judges it, leaves it out or names it.
 struct ClaimRow {
   Claim value;
-  const char* name;     // its word; with _ in place of -, its name in exported_case.h
+  const char* name;     // its word; with _ in place of -, its name in reports/steps/exported_case.h
   std::uint32_t bit;    // of assay_description::claims; 0: nobody claims it from outside
   std::uint32_t since;  // the version of the interface in which that bit came
   About about;
