@@ -1,6 +1,6 @@
 // Turns values into words and back: the values of an enum, by a table in their order from 0;
 // counts; and whole numbers. Makes outside text, such as a plug-in's name, safe to print. Gives the
-// types of meshes, cases, steps and results by the names that they have below this room.
+// types of meshes, cases, steps, results and problems by the names that they have below this room.
 #pragma once
 
 #include <charconv>
@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "corpus/cases/case_file.h"
+#include "corpus/problem.h"
 #include "detector/mesh/enum_names.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
@@ -19,6 +20,8 @@ namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 using corpus::Case, corpus::CaseStep, corpus::CaseView;
+// What failed is a value; the only exception that leaves this room is std::bad_alloc.
+using corpus::Expected, corpus::Problem, corpus::ProblemKind;
 using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::Culling,
     detector::Feature, detector::FeatureKind, detector::FourPoints, detector::MovingPoint,
     detector::Options, detector::PairContact, detector::Point, detector::Positions,

@@ -6,7 +6,9 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
+#include <exception>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace assay::oracle {
@@ -54,7 +56,62 @@ void BoxTree::meeting(const Box& box, std::vector<std::int32_t>& found) const {
 
 namespace {
 
+constexpr std::chrono::milliseconds time_between_questions{2};
+
+}  // namespace
+
+StopGate::StopGate(detector::StopFunction stop)
+    : stop_(std::move(stop)), next_(Clock::time_point::min().time_since_epoch().count()) {}
+
+bool StopGate::stopped() {
+  if (was_stopped()) return true;
+  if (!stop_) return false;
+  const Clock::time_point now = Clock::now();
+  if (now.time_since_epoch().count() < next_.load(std::memory_order_relaxed)) return false;
+  const std::unique_lock lock(asking_, std::try_to_lock);
+  if (!lock) return was_stopped();
+  if (stop_()) stopped_.store(true, std::memory_order_relaxed);
+  next_.store((Clock::now() + time_between_questions).time_since_epoch().count(),
+              std::memory_order_relaxed);
+  return was_stopped();
+}
+
+namespace {
+
 constexpr std::size_t features_at_once = 128;  // features a thread takes at once
+
+// Calls work(begin, end, worker) for consecutive chunks that cover [0, count); whichever thread is
+// free takes the next chunk. Once the gate has stopped, no further chunk is begun; within a chunk
+// `work` asks the gate itself. If calls throw, rethrows the first exception.
+using ChunkWork = std::function<void(std::size_t begin, std::size_t end, int worker)>;
+void for_each_chunk(std::size_t count, int jobs, StopGate& gate, const ChunkWork& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> failed = false;
+  std::mutex failure_lock;
+  std::exception_ptr failure;
+  auto run = [&](int worker) {
+    try {
+      while (!failed && !gate.stopped()) {
+        const std::size_t begin = next.fetch_add(features_at_once);
+        if (begin >= count) return;
+        work(begin, std::min(begin + features_at_once, count), worker);
+      }
+    } catch (...) {
+      const std::lock_guard guard(failure_lock);
+      if (!failure) failure = std::current_exception();
+      failed = true;
+    }
+  };
+  const std::size_t chunks = (count + features_at_once - 1) / features_at_once;
+  const auto threads = static_cast<int>(
+      std::min(static_cast<std::size_t>(std::max(jobs, 1)), std::max<std::size_t>(chunks, 1)));
+  {
+    std::vector<std::jthread> helpers;
+    for (int worker = 1; worker < threads; ++worker) helpers.emplace_back(run, worker);
+    run(0);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
 
 template <class BoxOf, class Visit>
 void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree,
@@ -62,16 +119,15 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
   StopGate never({});
   StopGate& gate = workers.gate ? *workers.gate : never;
   std::vector<std::vector<std::int32_t>> partners(std::max(workers.jobs, 1));
-  for_each_chunk(items, features_at_once, workers.jobs, gate,
-                 [&](std::size_t begin, std::size_t end, int worker) {
-                   for (std::size_t item = begin; item < end; ++item) {
-                     tree.meeting(box_of(item), partners[worker]);
-                     for (const std::int32_t other : partners[worker]) {
-                       if (gate.stopped()) return;
-                       visit(item, other, worker);
-                     }
-                   }
-                 });
+  for_each_chunk(items, workers.jobs, gate, [&](std::size_t begin, std::size_t end, int worker) {
+    for (std::size_t item = begin; item < end; ++item) {
+      tree.meeting(box_of(item), partners[worker]);
+      for (const std::int32_t other : partners[worker]) {
+        if (gate.stopped()) return;
+        visit(item, other, worker);
+      }
+    }
+  });
 }
 
 }  // namespace

@@ -1,16 +1,18 @@
 // Candidate feature pairs of two meshes, or of one mesh with itself: pairs whose boxes meet and
 // that share no vertex. Several threads find them and hand each to a visitor as it is found; none
-// is stored. The exact test of a pair is the caller's.
+// is stored, and the caller can stop them. The exact test of a pair is the caller's.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
 #include "oracle/mesh/mesh_features.h"
-#include "oracle/parallel_chunks.h"
 
 namespace assay::oracle {
 
@@ -95,12 +97,31 @@ inline detector::FourPoints points_of(const detector::SteppedMesh& motion,
           feature.kind == detector::FeatureKind::vertex_face ? 1 : 2};
 }
 
+// Asks the caller's stop function every few milliseconds, from one thread at a time.
+class StopGate {
+ public:
+  explicit StopGate(detector::StopFunction stop);
+  // Returns whether the stop function has asked for an end. Asks it if it is time to ask again;
+  // cheap enough to be called for every query.
+  bool stopped();
+  // Returns whether the stop function has asked for an end so far; does not ask it.
+  bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  detector::StopFunction stop_;
+  std::mutex asking_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic<Clock::rep> next_;
+};
+
 struct Workers {
-  int jobs = 1;
+  int jobs = 1;              // threads; below 1 counts as 1
   StopGate* gate = nullptr;  // once it has stopped, no further pair is visited; null: no stop
 };
 
-// `worker` is as in parallel_chunks.h.
+// `worker`, in [0, jobs), is the number of the calling thread. If calls throw, the first exception
+// is thrown again by the function that visits.
 using VisitPair = std::function<void(const FeaturePair& pair, int worker)>;
 using VisitFaces = std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)>;
 

@@ -19,7 +19,9 @@
 namespace assay::properties {
 
 // Claims are judged by a StepDiff: how the detector and the oracle differ in a step, which pairs
-// the candidates of a broad phase lack, and whether a limiter allows too much or too little.
+// the candidates of a broad phase lack, and whether a limiter allows too much or too little. It
+// shows an answer as the host has read it: pairs ascend and each stands once (plugin_reading.cpp).
+// So no claim can be about their order.
 
 enum class Claim : std::uint8_t;  // below
 
@@ -83,7 +85,7 @@ struct StepDiff {
   bool oracle_complete = false;       // false: the oracle was stopped
   bool nothing_in_contact = false;    // says a complete oracle, whatever is left out
   bool starts_near = false;           // StepTruth::starts_near
-  bool claims_pairs = false;          // all-pairs or first-pairs is claimed
+  bool claims_pairs = false;          // a claim about pairs is made (About::pairs)
   bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
   bool owes_answer = false;           // a valid step within the capacity has none
   // The detector or the oracle was stopped: only the part that both reached is compared.
@@ -179,6 +181,8 @@ enum class Claim : std::uint8_t {
 };
 
 // The subject of a claim, which tells which part of a library can make it. `runs`: any part can.
+// The explanation of a failure depends on it: of `times` it says how late or early (verdict.cpp).
+// If a claim about `pairs` is made, a missing pair makes a step unsafe (StepDiff::claims_pairs).
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
 
 // The kind of step or run that puts a claim to the test.
@@ -192,7 +196,8 @@ enum class Probe : std::uint8_t {
   by_second_run,     // of the same case
 };
 
-// The misdeed that breaks a claim. One change of the detector may mend all failures of one deed.
+// The misdeed that breaks a claim. One change of the detector may mend all failures of one deed. A
+// failure whose kind begins with "early" counts as `reports`, whatever its claim.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;
@@ -206,7 +211,7 @@ constexpr auto names_of(Deed) {
 // All facts about a claim, for the code that judges it, leaves it out or names it.
 struct ClaimRow {
   Claim value;
-  const char* name;
+  const char* name;     // its word; with _ in place of -, its name in reports/steps/exported_case.h
   std::uint32_t bit;    // of assay_description::claims; 0: nobody claims it from outside
   std::uint32_t since;  // the version of the interface in which that bit came
   About about;

@@ -6,7 +6,6 @@
 #include <map>
 #include <string>
 
-#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

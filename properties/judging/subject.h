@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "properties/problem.h"
 #include "properties/queries/query_methods.h"
 #include "properties/worlds/small_steps.h"
 

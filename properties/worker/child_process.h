@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/problem.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

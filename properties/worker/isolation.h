@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "properties/problem.h"
 #include "properties/words.h"
 #include "properties/worker/child_process.h"
 

@@ -26,7 +26,6 @@
 #include "detector/mesh/problem.h"
 #include "properties/claims/claims.h"
 #include "properties/fields.h"
-#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/plugin/query_case.h"

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation.h"
 

@@ -33,7 +33,8 @@ struct Step {
   std::vector<Pair> allowed;
 };
 
-// What a detector may claim, as in properties/claims/claims.h.
+// What a detector may claim: the claims of properties/claims/claims.h in their order, each named by
+// its word.
 enum class Claim {
   free_sound,
   not_late,

@@ -168,6 +168,8 @@ NOT_RUN = {
     ".github/CONTRIBUTING.md": {
         "tests/run": RECURSION,
         "tests/run --whole": RECURSION,
+        "ninja -C build/release properties_judging_tests": LENT,
+        "ctest --preset unit -R '^Claims'": RECURSION,
     },
     "corpus/vectors/README.md": {
         "python3 corpus/vectors/vectors.py run --out build/results.json -- build/plain": MISSES,

@@ -8,7 +8,6 @@
 
 #include "properties/campaign/request.h"
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
 
 namespace assay::properties {
 

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "properties/problem.h"
 #include "properties/worker/child_process.h"
 
 struct sqlite3;

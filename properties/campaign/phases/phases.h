@@ -18,7 +18,6 @@
 #include "properties/faults/fault.h"
 #include "properties/judging/exam.h"
 #include "properties/judging/verdict.h"
-#include "properties/problem.h"
 #include "properties/reducer/reducer.h"
 #include "properties/search/search.h"
 #include "properties/worker/worker_process.h"

@@ -11,8 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/problem.h"
-#include "properties/problem.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 

@@ -6,7 +6,6 @@
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/claims/claims.h"
-#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
