@@ -237,7 +237,7 @@ for line in sys.stdin:
                               {"answer": "collision", "time": [0.5, 0.5], "pairs": [[0, 1]]},
                               {"answer": "free", "pairs": []}])
             self.assertEqual(code, 0, text)
-            self.assertIn("A limits: 1 safe, the median uses 87.5 % of the way", text)
+            self.assertIn("A limits: 1 of 1 safe, the median uses 87.5 % of the way", text)
             self.assertIn("A pairs: 0 missing, 0 spurious", text)
 
 
@@ -370,14 +370,14 @@ class Page(InScratch):
                 '<tr><th scope="row">CoplanarThroughout<br><small>The cubic is zero, and a solver that '
                 'divides by it answers free.</small></th><td class="bad" data-of="A"><b>&#x2717; 1/1'
                 '</b></td><td class="good" data-of="B"><b>&#x2713; 0/1</b></td></tr>',
-                "<small>1 alarm", "1 unanswered</small>", "<h3>A bad 1: 2 misses</h3>",
-                "<h3>B good 1: no miss</h3>",
+                "<small>1 alarm", "1 unanswered</small>", "<h3>A bad, version 1, s: 2 misses</h3>",
+                "<h3>B good, version 1, s: no miss</h3>",
                 "<code>ee-d-0003</code> Two edges slide along one line, in one plane throughout, and "
                 "meet half way.<br><small>contact at t = 0.5; answered free. CoplanarThroughout, "
                 "ParallelEdges</small>",
                 "answered share 0.5", "<p>Alarms (1): <code>vf-d-0003</code></p>",
                 "<p>Undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1): ",
-                "<li>A bad: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
+                "<li>A bad, s: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
             self.assertIn(part, text)
         for part in ("<script", "http:", "https:", "url(", "src=", "href="):
             self.assertNotIn(part, text)
