@@ -81,10 +81,12 @@ WORDS = """<p>A <b>miss</b> is the answer free where features meet, or a share o
 safe. It counts whether the product promises to find such contacts or not: some test vertices against
 faces alone, or say themselves that they miss. What those of <code>corpus/peers</code> promise is told
 there, and in its FINDINGS.md the causes of defects. A <b>late</b> time is a first time after the
-contact, be it by the last digit. An <b>alarm</b> is a contact that there is not. <b>Unsupported</b> is
-what the product was not asked, because its contract leaves it out. Where features only touch, both
-answers are right; these are counted below. <b>To run it again</b>: <code>vectors.py run --detector
-LIB.so</code> asks all, with <code>--group NAME</code> one group.</p>
+contact, be it by the last digit. An <b>alarm</b> is a contact that there is not. <b>Unanswered</b> are
+cases that ended undecided, by an error, a crash, or no answer in time. <b>Unsupported</b> is what the
+product was not asked, because its contract leaves it out. Where features only touch, be it at the end
+of the step, both answers are right; these are counted below. <b>To run it again</b>:
+<code>vectors.py run --detector LIB.so</code> asks all, with <code>--group NAME</code> one group;
+<code>vectors.py flags</code> says what each flag means.</p>
 """
 
 TOUCHING = """<h2>Where features only touch</h2>
@@ -137,7 +139,7 @@ def matrix_html(title, members, every, reason):
     """A row a name, which has ids in `members`; `reason` says what stands below the name."""
     html = (f'<div class="wide"><table class="matrix">\n<thead><tr><th scope="col">{title}</th>' +
             "".join(f'<th scope="col">{vectors.letter_of(i)} '
-                    f"<small>{escaped(judged.product['name'])}</small></th>"
+                    f"<small>{escaped(judged.name())}</small></th>"
                     for i, judged in enumerate(every)) + "</tr></thead>\n<tbody>\n")
     for name, ids in members.items():
         counts = [collections.Counter(judged.outcome[i] for i in ids if i in judged.outcome)
@@ -150,16 +152,15 @@ def matrix_html(title, members, every, reason):
 
 
 def products_html(every):
-    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product</th><th>cases</th>'
-            "<th>misses</th>" + "".join(f"<th>{words}</th>" for words, _ in COLUMNS) +
+    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product</th>'
+            "<th>cases asked</th><th>misses</th>" + "".join(f"<th>{words}</th>" for words, _ in COLUMNS) +
             "</tr></thead>\n<tbody>\n")
     for i, judged in enumerate(every):
-        name, version, settings = (escaped(judged.product[key])
-                                   for key in ("name", "version", "settings"))
         misses = len(judged.ids("miss"))
-        html += (f'<tr><th scope="row">{vectors.letter_of(i)} &nbsp;{name} {version} '
-                 f"<small>{settings}</small></th>"
-                 f'<td data-of="cases">{len(judged.outcome) - len(judged.ids("unsupported"))}</td>'
+        html += (f'<tr><th scope="row">{vectors.letter_of(i)} &nbsp;{escaped(judged.name())} '
+                 f"<small>version {escaped(judged.product['version'])}</small></th>"
+                 f'<td data-of="cases asked">'
+                 f'{len(judged.outcome) - len(judged.ids("unsupported"))}</td>'
                  f'<td class="{"bad" if misses else "good"}" data-of="misses"><b>{misses}</b></td>' +
                  "".join(f'<td data-of="{words}">{len(judged.ids(*outcomes))}</td>'
                          for words, outcomes in COLUMNS) + "</tr>\n")
@@ -167,7 +168,7 @@ def products_html(every):
 
 
 def touching_html(every):
-    items = "".join(f"<li>{vectors.letter_of(i)} {escaped(judged.product['name'])}: "
+    items = "".join(f"<li>{vectors.letter_of(i)} {escaped(judged.name())}: "
                     f"{judged.closed} called contact, {judged.open} free</li>\n"
                     for i, judged in enumerate(every) if judged.closed or judged.open)
     return f"{TOUCHING}{items}</ul>\n" if items else ""
@@ -190,9 +191,8 @@ def case_html(case, judged):
 
 def product_html(judged, letter, cases):
     misses = judged.ids("miss")
-    name, version = (escaped(judged.product[key]) for key in ("name", "version"))
     told = count_text(len(misses), "miss", "misses") if misses else "no miss"
-    html = f"<h3>{letter} {name} {version}: {told}</h3>\n"
+    html = f"<h3>{letter} {escaped(judged.name_and_version())}: {told}</h3>\n"
     if misses:
         items = "".join(case_html(cases[i], judged) for i in misses)
         html += f'<ul class="cases">\n{items}</ul>\n'
@@ -202,7 +202,7 @@ def product_html(judged, letter, cases):
             codes = "".join(f" <code>{escaped(i)}</code>" for i in ids)
             html += f"<p>{words} ({len(ids)}):{codes}</p>\n"
     if judged.early:
-        html += f"<p>Times before the contact, which is safe: {judged.early}</p>\n"
+        html += f"<p>Early, which is safe: the times of {judged.early} steps</p>\n"
     if judged.gave_pairs:
         html += (f"<p>Pairs of triangles: {judged.missing} in contact not named, {judged.spurious} "
                  "named without contact</p>\n")
@@ -218,7 +218,7 @@ def page(asked, every):
 
     def wrong(flag):
         return f"<br><small>{escaped(info['flags'][flag]['wrong'])}</small>"
-    html = (f"{HEAD}<h1>Who misses what</h1>\n<p>{info['cases']} small hard cases of continuous "
+    html = (f"{HEAD}<h1>Who misses what</h1>\n<p>{info['cases']:,} small hard cases of continuous "
             "collision detection, whose answers are known exactly. <span class=\"quiet\">Set "
             f"{escaped(info['version'])} ({escaped(info['profile'])}), digest <code>"
             f"{info['digest']}</code></span></p>\n" + WORDS + products_html(every) +

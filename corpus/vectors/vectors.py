@@ -679,11 +679,14 @@ class Judged:
         self.closed = self.open = self.early = self.missing = self.spurious = 0
         self.gave_pairs = False
         self.uses = []  # of the way that could be gone, the share that a limiter let go
+        self.limits = 0  # that have one right answer
 
-    def name(self):
-        words = f"{self.product['name']} {self.product['version']}"
-        settings = self.product["settings"]
-        return f"{words}, {settings}" if settings else words
+    def name(self, *between):
+        words = (self.product["name"], *between, self.product["settings"])
+        return ", ".join(filter(None, words))
+
+    def name_and_version(self):
+        return self.name(f"version {self.product['version']}")
 
     def ids(self, *outcomes):
         return [i for i, outcome in self.outcome.items() if outcome in outcomes]
@@ -712,6 +715,7 @@ class Judged:
         return "right"
 
     def limit(self, step, share):
+        self.limits += step.result != "acceptable"
         if not step.first_time:
             self.uses.append(share)
             return "right"
@@ -799,8 +803,8 @@ def table_text(rows, left):
 
 
 def uses_text(judged):
-    return (f"{len(judged.uses)} safe, the median uses {100 * statistics.median(judged.uses):.1f} % "
-            "of the way")
+    return (f"{len(judged.uses)} of {judged.limits} safe, the median uses "
+            f"{100 * statistics.median(judged.uses):.1f} % of the way")
 
 
 def matrix_rows(title, members, every, brief):
@@ -826,7 +830,7 @@ def score_text(vectors, every, brief=False):
     for i, judged in enumerate(every):
         counts = collections.Counter(judged.outcome.values())
         cases = len(judged.outcome) - counts["unsupported"]
-        rows.append([letter_of(i), judged.name(), str(cases)] + [
+        rows.append([letter_of(i), judged.name_and_version(), str(cases)] + [
             str(counts[o]) for o in ("miss", "late", "alarm", "undecided", "error", "crash",
                                      "timeout", "unsupported")])
     text += table_text(rows, 2)

@@ -118,7 +118,7 @@ def speed_against_error(report):
     looks = looks_of(subjects, of_peers)
     times = [t for s in subjects for t in s["time_over_reference"]["interval"]] + [1]
     most = max([1] + [100 * s[e]["interval"][1] for s in subjects for e in ("unsafe", "alarming")])
-    rows, width = [], 1080
+    rows, width = [], 1110 if of_peers else 1080
     for left, error, title in ((60, "unsafe", "Unsafe: a contact or pair missed, or a time too late"),
                                (470, "alarming", "Alarming: a contact or pair that there is not")):
         panel = Panel(left, 360, (min(times), max(times)), most)

@@ -2,6 +2,7 @@
 import copy
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOM = HERE.parents[2] / "corpus" / "vectors"
+PEERS = ROOM.parent / "peers"
 MINI = HERE / "mini_set"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOM))
@@ -237,7 +239,7 @@ for line in sys.stdin:
                               {"answer": "collision", "time": [0.5, 0.5], "pairs": [[0, 1]]},
                               {"answer": "free", "pairs": []}])
             self.assertEqual(code, 0, text)
-            self.assertIn("A limits: 1 safe, the median uses 87.5 % of the way", text)
+            self.assertIn("A limits: 1 of 1 safe, the median uses 87.5 % of the way", text)
             self.assertIn("A pairs: 0 missing, 0 spurious", text)
 
 
@@ -370,14 +372,14 @@ class Page(InScratch):
                 '<tr><th scope="row">CoplanarThroughout<br><small>The cubic is zero, and a solver that '
                 'divides by it answers free.</small></th><td class="bad" data-of="A"><b>&#x2717; 1/1'
                 '</b></td><td class="good" data-of="B"><b>&#x2713; 0/1</b></td></tr>',
-                "<small>1 alarm", "1 unanswered</small>", "<h3>A bad 1: 2 misses</h3>",
-                "<h3>B good 1: no miss</h3>",
+                "<small>1 alarm", "1 unanswered</small>", "<h3>A bad, version 1, s: 2 misses</h3>",
+                "<h3>B good, version 1, s: no miss</h3>",
                 "<code>ee-d-0003</code> Two edges slide along one line, in one plane throughout, and "
                 "meet half way.<br><small>contact at t = 0.5; answered free. CoplanarThroughout, "
                 "ParallelEdges</small>",
                 "answered share 0.5", "<p>Alarms (1): <code>vf-d-0003</code></p>",
                 "<p>Undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1): ",
-                "<li>A bad: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
+                "<li>A bad, s: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
             self.assertIn(part, text)
         for part in ("<script", "http:", "https:", "url(", "src=", "href="):
             self.assertNotIn(part, text)
@@ -387,6 +389,19 @@ class Page(InScratch):
         self.assertEqual(code, 0)
         self.assertNotIn("<script", text)
         self.assertIn("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;", text)
+
+
+# Of corpus/peers/README.md: how a row begins, whose results its conformance is, and its campaign.
+ROWS_OF_PEERS = (
+    ("cubic, doubles", None, "cubic_double"), ("cubic, floats", None, "cubic_float"),
+    ("cubic by Eigen", None, "cubic_eigen"), ("FCL", None, "fcl_elementary"),
+    ("Bullet", None, "bullet_bernstein"), ("TightCCD", "TightCCD", "tight_ccd"),
+    ("libuipc", "libuipc, additive", "libuipc"), ("ppf", "ppf-contact-solver, accd", "ppf"),
+    ("C-IPC", "C-IPC, additive", "codim_ipc"), ("El Topo, cubic", "El Topo, cubic", "eltopo_cubic"),
+    ("El Topo, root parity", "El Topo, root parity", "eltopo_root_parity"),
+    ("CTCD, eta 1e-8", "CTCD, eta 1e-8", "ctcd"), ("CTCD, eta 1e-3", None, "ctcd_within"),
+    ("ArcSim", "ArcSim", "arcsim"), ("BSC", "BSC", "bsc"),
+    ("Fast Approximate Root", "Fast Approximate Root", "fast_approximate_root"))
 
 
 class Committed(unittest.TestCase):
@@ -402,6 +417,25 @@ class Committed(unittest.TestCase):
         every = [vectors.judge(results, self.set) for results in self.results]
         self.assertEqual(len(every), 21)
         self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
+
+    def test_the_page_of_the_peers_has_the_counts_that_are_stored(self):
+        page = (PEERS / "README.md").read_text().replace("*", "")
+        campaigns = json.loads((PEERS / "campaigns.json").read_text())
+        judged = {results["product"]["name"]: vectors.judge(results, self.set)
+                  for results in self.results}
+        for row, name, campaign in ROWS_OF_PEERS:
+            cells = re.search(rf"^\| {row}.*$", page, re.M)[0].split(" | ")
+            if campaign in campaigns:
+                came = campaigns[campaign]
+                is_whole = came["trials"] == came["wanted"]
+                told = str(came["defects"]) + ("" if is_whole else f" of {came['trials']}")
+                self.assertEqual(told, cells[2].split(":")[0] if ":" in cells[2] else cells[1], row)
+            if name:
+                of = judged[name]
+                counts = [len(of.ids(*o)) for o in (("miss",), ("late",), vectors.NO_ANSWERS)]
+                asked = len(of.outcome) - len(of.ids("unsupported"))
+                told = list(map(int, re.findall(r"\d+", cells[4])))
+                self.assertEqual(told, counts + ([asked] if asked != 764 else []), row)
 
     def test_the_rationals_are_those_of_the_groups(self):
         self.assertEqual(len(list((ROOM / "csv").glob("*/*.csv"))), 11)
