@@ -2,7 +2,6 @@
 // says against distances sampled exactly.
 #include "oracle/referee/distance_referee.h"
 
-#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/oracle/query/query_kinds.h"
 

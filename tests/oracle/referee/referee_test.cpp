@@ -3,7 +3,6 @@
 
 #include "oracle/query/contact.h"
 #include "oracle/referee/existence.h"
-#include "tests/asked.h"
 #include "tests/oracle/query/query_kinds.h"
 
 namespace assay::oracle {

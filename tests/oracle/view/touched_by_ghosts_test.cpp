@@ -2,7 +2,6 @@
 
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
-#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
