@@ -22,4 +22,7 @@ constexpr int usual(int cases) {
 #endif
 }
 
+// Returns how far apart the places are at which a test looks, where so far is usual.
+constexpr int spaced(int apart) { return 4 * apart / usual(4); }
+
 }  // namespace assay::tests

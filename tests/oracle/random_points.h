@@ -2,6 +2,7 @@
 #pragma once
 
 #include "detector/mesh/step_types.h"
+#include "tests/asked.h"
 #include "tests/test.h"
 
 namespace assay::oracle::test {

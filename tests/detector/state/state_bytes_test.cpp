@@ -318,7 +318,8 @@ void expect_states_at(const ScaledMesh& mesh, const Positions& x, const Position
 
 TEST(SavedStateScales, AreTakenBackAtAllScales) {
   for (const auto& mesh : scaled_meshes()) {
-    for (int exponent = -1076; exponent <= 1023; exponent += exponent < -1060 ? 1 : 59) {
+    for (int exponent = -1076; exponent <= 1023;
+         exponent += exponent < -1060 ? 1 : tests::spaced(59)) {
       Positions x = mesh.x, next = mesh.x.rowwise().reverse();
       for (Eigen::Index i = 0; i < x.size(); ++i) {
         x.data()[i] = std::ldexp(x.data()[i], exponent);

@@ -5,7 +5,6 @@
 #include "oracle/distance/feature_distance.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
-#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/detector/small_stack.h"
 #include "tests/oracle/query/query_kinds.h"
@@ -38,7 +37,7 @@ Separation random_distance(Random& random) {
 TEST(DistanceLaws, AgreesWithRationalTimes) {
   Random random(161);
   int later = 0;
-  constexpr int queries = 150, samples = 16;
+  constexpr int queries = tests::usual(150), samples = 16;
   for_each_kind(random, queries, [&](FourPoints q) {
     if (random.below(5) == 0) {
       for (auto& p : q.points) p.t1 = p.t0;
@@ -63,7 +62,7 @@ TEST(DistanceLaws, AgreesWithRationalTimes) {
     if (lo > 0) expect(Rational(std::nextafter(lo, 0)));
     for (int s = 1; s < 8; ++s) expect(Rational(lo) * s / 8);
   });
-  EXPECT_GT(later, 100);
+  EXPECT_GT(later, tests::usual(100));
 }
 
 TEST(DistanceLaws, TurnedAndMirroredQueriesAgree) {

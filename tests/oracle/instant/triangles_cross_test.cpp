@@ -87,7 +87,7 @@ bool cross_by_line(const std::array<Vector, 3>& a, const std::array<Vector, 3>& 
 TEST(TrianglesCross, AsTheLineOfTheirPlanesSays) {
   Random random(5202);
   int crossing = 0, touching = 0;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < tests::usual(10000); ++i) {
     const auto motion = random_motion(random, 3 * i);
     std::array<std::array<Vector, 3>, 2> corners;
     bool has_area = true;
@@ -105,8 +105,8 @@ TEST(TrianglesCross, AsTheLineOfTheirPlanesSays) {
     crossing += answer ? 1 : 0;
     touching += meets && !answer ? 1 : 0;
   }
-  EXPECT_GT(crossing, 200);
-  EXPECT_GT(touching, 50);
+  EXPECT_GT(crossing, tests::usual(200));
+  EXPECT_GT(touching, tests::usual(50));
 }
 
 }  // namespace

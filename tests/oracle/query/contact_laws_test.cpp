@@ -5,7 +5,6 @@
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"
 #include "oracle/query/times/times.h"
-#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 
 #if defined(__SSE2__)

@@ -1,6 +1,5 @@
 // The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
 #include "oracle/query/rungs.h"
-#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

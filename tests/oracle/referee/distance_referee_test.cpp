@@ -2,7 +2,6 @@
 // says against distances sampled exactly.
 #include "oracle/referee/distance_referee.h"
 
-#include "tests/asked.h"
 #include "tests/detector/distance/rational_distance.h"
 #include "tests/oracle/query/query_kinds.h"
 
@@ -175,7 +174,7 @@ TEST(DistanceReferee, LessWorkOnlyLeavesMoreOpen) {
 TEST(DistanceProofs, DoublesDoNotClaimWhatTheyCannotTell) {
   Random random(72);
   int near = 0, apart = 0, doubtful = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < tests::usual(6000); ++i) {
     const auto kind = static_cast<test::Coordinates>(random.below(test::coordinate_kinds));
     std::array<MovingPoint, 4> x;
     for (auto& p : x) p = test::random_point(random, kind);
@@ -226,7 +225,7 @@ TEST(DistanceProofs, OneDirectionThatTurns) {
 TEST(DistanceReferee, ExactSamplesOfSmallIntegers) {
   Random random(73);
   int near = 0, far = 0, open = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < tests::usual(20'000); ++i) {
     SCOPED_TRACE(i);
     const int first_group = 1 + i % 2;
     const test::Points x = random_query(random, test::QueryKind::small_integers, first_group);

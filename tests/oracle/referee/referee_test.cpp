@@ -148,7 +148,7 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
 TEST(Referee, AgreesAndLeavesLittleOpen) {
   for (int k = 0; k < test::query_kinds; ++k) {
     const auto kind = static_cast<QueryKind>(k);
-    constexpr int queries = 1500;
+    constexpr int queries = tests::usual(1500);
     const Tally tally = compare_with_contact(kind, 41 + static_cast<std::uint64_t>(k), queries);
     const bool is_plain = kind == QueryKind::generic || kind == QueryKind::mesh_like;
     EXPECT_LE(tally.open, (is_plain ? 0.05 : test::is_near_degenerate(kind) ? 0.5 : 1) * queries);

@@ -1,7 +1,6 @@
 // Exact view signs; L1 and L2 are the laws of view points and view lines.
 #include "oracle/view/view_sign.h"
 
-#include "tests/asked.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 
