@@ -24,7 +24,8 @@ std::uint64_t digest_of(const StepContext& context) {
          context.relation.digest_of_left_out();
 }
 
-// Views and cones prove that there is no contact, but say nothing about distances.
+// Checks the separation. Views and cones prove that there is no contact, but say nothing about
+// distances.
 std::optional<Problem> check_separation(const Options& options) {
   const double d = options.separation;
   const auto wrong = [](std::string message) {
@@ -75,7 +76,7 @@ class PartsToTry {
     ++tried_;
     return part_;
   }
-  // Whether the place that was tried last is free.
+  // Notes whether the place that was tried last is free.
   void note(bool is_free) {
     if (is_free) {
       free_ = part_;

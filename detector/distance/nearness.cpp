@@ -97,7 +97,7 @@ std::optional<std::array<bool, 9>> regions_that_hold(const FourPoints& query, do
   return holds;
 }
 
-// Nothing if balls or counts of sign changes do not tell.
+// Returns nothing if balls or counts of sign changes do not tell.
 std::optional<TimeEnclosure> time_in_piece(const FourPoints& query, double d, double lo, double hi,
                                            double guess) {
   const auto holds = regions_that_hold(query, d, lo, hi);

@@ -15,7 +15,8 @@
 
 namespace assay::detector {
 
-// 0.1 us for a candidate that stays apart or begins near; a first time after t=0 costs 30 us more.
+// Tests a query. 0.1 us for a candidate that stays apart or begins near; a first time after t=0
+// takes 30 us more.
 ContactResult test_near(const FourPoints& query, double d, Want want);
 
 // Returns the stage of the detector.
@@ -26,8 +27,9 @@ std::shared_ptr<const ElementaryTest> make_near_test(double d);
 // else some 100 us; up to 0.1 s where the exponents of coordinates and d spread over all doubles.
 std::optional<TimeEnclosure> exact_near_time(const FourPoints& query, double d);
 
-// The same for features that are farther apart than d from t=0 to lo and nearer than d at hi. Only
-// [lo,hi] is looked at if that is enough; `guess` is about the first time. 15 us for a short piece.
+// Does the same for features that are farther apart than d from t=0 to lo and nearer than d at hi.
+// Only [lo,hi] is looked at if that is enough; `guess` is about the first time. 15 us for a short
+// piece.
 TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double lo, double hi,
                                       double guess);
 

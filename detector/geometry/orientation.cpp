@@ -47,8 +47,8 @@ struct Differences {
   bool in_range;
 };
 
-// Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
-// plane.
+// Returns whether doubles prove that both ends of the segment are strictly on one side of the
+// triangle's plane.
 bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   const Differences from(face[0], {&face[1], &face[2], &e0, &e1});
   const double side0 = from.volume(2, 0, 1), side1 = from.volume(3, 0, 1);
@@ -56,8 +56,8 @@ bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point
                            (side0 < -from.bound && side1 < -from.bound));
 }
 
-// Whether doubles prove that the segment's line passes outside of the triangle: two of its edges
-// turn around the line in opposite senses.
+// Returns whether doubles prove that the segment's line passes outside of the triangle: two of its
+// edges turn around the line in opposite senses.
 bool surely_turns_both_ways(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   const Differences from(e0, {&e1, &face[0], &face[1], &face[2]});
   const double turns[3] = {from.volume(0, 1, 2), from.volume(0, 2, 3), from.volume(0, 3, 1)};

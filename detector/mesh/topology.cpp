@@ -13,7 +13,7 @@ namespace {
 // The work on a corner and on a triangle, in box tests.
 constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
 
-// The triangles at each vertex, ascending.
+// Lists the triangles at each vertex, ascending.
 bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   const auto vertices = [&](std::size_t t) -> const auto& { return mesh.triangles[t]; };
   return list_by_row(mesh.triangles.size(), vertex_count, vertices, mesh.vertex_triangles, pace);
@@ -189,7 +189,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   const auto join = [&](std::size_t t) {
     const auto& corners = mesh.triangles[t];
     for (std::size_t corner = 1; corner < 3; ++corner) {
-      if (parent[at(corners[0])] == parent[at(corners[corner])]) continue;  // as mostly
+      if (parent[at(corners[0])] == parent[at(corners[corner])]) continue;  // the usual case
       const auto a = root_of(parent, corners[0]), b = root_of(parent, corners[corner]);
       parent[at(std::max(a, b))] = std::min(a, b);
     }

@@ -22,7 +22,7 @@ namespace assay::detector {
 // The threads themselves. They are those of oneTBB; only thread_arena.cpp names that library.
 class ThreadArena {
  public:
-  // Null if the library was built without oneTBB.
+  // Returns null if the library was built without oneTBB.
   static std::unique_ptr<ThreadArena> make(std::size_t threads);
   virtual ~ThreadArena() = default;
   class Work {

@@ -51,7 +51,7 @@ class Descent {
     above_.clear();
   }
 
-  // Hands over what was found last. False if the search has ended early.
+  // Hands over the last candidates. Returns false if the search has ended early.
   bool finish() {
     found_.hand_over(is_ended());
     return !is_ended();

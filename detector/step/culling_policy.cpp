@@ -12,8 +12,8 @@ namespace {
 // The estimate of what a step with views may save and cost. The cost model decides by these numbers
 // (culling_policy.h).
 
-// The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
-// have equal signs more often than far ones, so of a component with p positive and n negative
+// Returns the share of pairs that are left out because both triangles lie in V+ or both in V-. Near
+// pairs have equal signs more often than far ones, so of a component with p positive and n negative
 // triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out. Only triangles whose
 // `counts` is not 0 are among the p and n; without `counts` all are.
 double saved_share(const GivenStep& step, const StepMarks& marks,
@@ -35,7 +35,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
   return count == 0 ? 0 : saved / count;
 }
 
-// By triangle: 1 if it was in no contact with its own component in the step before.
+// Returns, by triangle, 1 if it was in no contact with its own component in the step before.
 // REQUIRES that the step goes on from a committed one.
 std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
   std::vector<std::uint8_t> untouched(step.surface.mesh.triangles.size(), 1);
@@ -73,7 +73,8 @@ SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
   return sample;
 }
 
-// Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
+// Returns whether more than `limit` triangles lie in the boxes of ghosts of components that are not
+// free.
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
   if (!step.tree.join_boxes(&pace)) return true;
@@ -160,9 +161,9 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
 // others, and, for an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// Only this share of the saving estimated at a glance is counted on. With holes, or without such a
-// saving, this many times the least work has to be affordable: work on views that turn out too dear
-// is lost.
+// share_of_hope: the part of the saving estimated at a glance that is counted on. The others say
+// how many times the least work has to be affordable with holes, and without such a saving: work on
+// views that turn out too dear is lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {
@@ -374,7 +375,7 @@ bool CostModel::worth_using(const GivenStep& step, const StepMarks& marks,
   return does_without(ViewUse::among_dirty);
 }
 
-// In candidates; the closure not included.
+// Returns the cost in candidates, without the closure.
 double CostModel::cost_beside_search(const StepCounts& counts) const {
   const double tests = static_cast<double>(counts.ghosts.elementary_tests) +
                        static_cast<double>(counts.release.elementary_tests);

@@ -130,11 +130,11 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // earns a share of what it takes. A step with views earns the work by which culling bvh would at
 // least have exceeded it, and pays for the work of views. Views are made and tried only if they can
 // be paid for. So after any number of steps, automatic has spent little more than culling bvh would
-// have spent. A mesh that a glance from its middle shows to be positive may spend beforehand what
-// this saves within the step. If only a first contact is known of a start, it would have to be
-// verified anew, which costs more than views save: such a step is done without them. Work that
-// depends on the tree is not counted, so that a restored detector, whose tree is another one,
-// decides alike. A mesh at rest earns nothing.
+// have spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
+// in advance what views will save within it. If only the first contact of the last step is known,
+// the start would have to be verified anew. That costs more than views save, so such a step does
+// without views. Work that depends on the tree is not counted, so that a restored detector, whose
+// tree is another one, decides alike. A mesh at rest earns nothing.
 //
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.
@@ -151,7 +151,7 @@ class CostModel : public CullingPolicy {
 
   bool may_use_views() const override { return true; }
   void begin(const SteppedMesh& motion, const StepState* last_state, bool needs_views) override;
-  // Views are due unless a pause lasts or they cost more than may be spent.
+  // Returns whether views are due: no pause lasts, and they cost no more than may be spent.
   bool is_due() const override { return state_.pause == 0 && !waits_; }
   double most_for_views() const override;
   void pay_for_views(bool are_made, double work) override;
@@ -179,7 +179,8 @@ class CostModel : public CullingPolicy {
   // asked_share: the share of pairs of neighbours that K asks for and that fans leave open.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
-  // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
+  // Notes whether views have paid: release, ghost sweep and closure cost less than the pairs that
+  // views left out.
   void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
 
   ViewUse use() const override {

@@ -35,8 +35,8 @@ class FirstViews {
   // Returns the work that making them took, once they are made. It is counted in one thread.
   double work() const { return work_; }
 
-  // The anchors by component, and the rules by loop. Empty before they are made, and with a culling
-  // without views.
+  // Return the anchors by component, and the rules by loop. Empty before they are made, and with a
+  // culling without views.
   const std::vector<ViewAnchor>& anchors() const { return anchors_; }
   const std::vector<ApexRule>& apex_rules() const { return apex_rules_; }
 
