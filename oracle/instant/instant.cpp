@@ -125,7 +125,7 @@ int sign_for(const Rest& q, int i, const Integer& lam) {
   return i < q.first_group ? sgn(lam) : -sgn(lam);
 }
 
-// Whether the groups meet if all points lie on one line. They miss each other when they are
+// Returns whether the groups meet if all points lie on one line. They miss each other when they are
 // strictly ordered along an axis along which the points differ.
 bool meet_on_a_line(const Rest& q) {
   for (int k = 0; k < 3; ++k) {
@@ -180,7 +180,7 @@ bool features_meet(StaticPoints x, const Feature& feature) {
 
 namespace {
 
-// The box, widened by the distance, so that the boxes of two features that are nearer meet.
+// Returns the box, widened by the distance, so that the boxes of two features that are nearer meet.
 Box widened(Box box, double distance) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {

@@ -64,7 +64,7 @@ mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& 
   return std::min(least, mpq_class(height * height / length));
 }
 
-// Whether the distance along some axis alone is not below the limit.
+// Returns whether the distance along some axis alone is not below the limit.
 template <class First, class Second>
 bool boxes_apart(const std::vector<detector::Point>& places, const First& a, const Second& b,
                  const mpq_class& limit) {

@@ -42,7 +42,7 @@ struct StepJudgement {
   detector::TimeEnclosure first;             // the least time of all; set for a collision
   std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
   // If JudgeOptions names one kind of features, or some pairs as tested: the pairs in which two
-  // tested features of that kind meet, each with the first time at which they do. With one kind,
+  // tested features of that kind meet, each with the first time of such a meeting. With one kind,
   // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
   // Empty if JudgeOptions names neither.
   std::vector<detector::PairContact> asked_pairs;
@@ -54,12 +54,12 @@ struct StepJudgement {
   RungCounts rungs;
 };
 
-// REQUIRES indices in range, finite positions, equal row counts. Two triangles with the same three
-// vertices are in contact at t=0 by convention.
+// Judges a step. REQUIRES indices in range, finite positions, equal row counts. Two triangles with
+// the same three vertices are in contact at t=0 by convention.
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
-// The features of a mesh over a step, and the pairs of them that counted pairs of triangles hold.
+// The features of a mesh over a step, and the feature pairs that counted pairs of triangles hold.
 class StepFeatures {
  public:
   // If `neighbours` is false, triangles that share a vertex do not count. `also_asked` says of a
@@ -94,7 +94,7 @@ class StepFeatures {
 
   void for_each_of(detector::FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
                    const VisitPair& visit) const;
-  bool may_count(std::int32_t s, std::int32_t t) const;  // but for the relation
+  bool may_count(std::int32_t s, std::int32_t t) const;  // before the relation
   bool counts(std::int32_t s, std::int32_t t) const;
   bool some_of(const FeaturePair& pair, Says says) const;
   static bool passes(const Relation& relation, const FeaturePair& pair);

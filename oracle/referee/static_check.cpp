@@ -50,7 +50,7 @@ bool meet(const A& a, const B& b) {
   return CGAL::do_intersect(a, b);
 }
 
-// The hull of points on one line: from the least to the greatest.
+// Returns the hull of points on one line: from the least to the greatest.
 Shape hull_on_a_line(const std::vector<Point>& points) {
   const auto [least, greatest] = std::minmax_element(points.begin(), points.end());
   if (*least == *greatest) return *least;
