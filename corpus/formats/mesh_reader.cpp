@@ -17,7 +17,7 @@ namespace assay::corpus {
 
 namespace {
 
-// The extension without .gz, in lower case: ".obj" for SHELL.OBJ.gz.
+// Returns the extension without .gz, in lower case: ".obj" for SHELL.OBJ.gz.
 std::string mesh_extension(std::filesystem::path path) {
   const auto lower = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),

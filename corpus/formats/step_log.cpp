@@ -37,7 +37,7 @@ Number big_endian(const char* bytes) {
   return out;
 }
 
-// The value of a key. Null if it is not there.
+// Returns the value of a key. Null if it is not there.
 const Json& value_of(const Json& map, const char* key) {
   static const Json none;
   const auto found = map.find(key);
@@ -108,7 +108,7 @@ class Members {
     }
     return *this;
   }
-  // Each item is made of `row` consecutive numbers.
+  // Reads a list. Each item is made of `row` consecutive numbers.
   template <std::size_t row, class Item, class Make>
   Members& list(const char* key, std::vector<Item>& items, const Make& make) {
     if (!map_.contains(key)) return *this;
@@ -117,7 +117,7 @@ class Members {
     for (std::size_t i = 0; i < read->size(); i += row) items.push_back(make(read->data() + i));
     return *this;
   }
-  // The member that is wrong; empty if none is.
+  // Returns the member that is wrong; empty if none is.
   const std::string& wrong() const { return wrong_; }
 
  private:
@@ -169,7 +169,7 @@ std::string read_counted(const Json& map, detector::CountedPairs& counted) {
   return members.wrong();
 }
 
-// The exact sums; nothing if one of them is no double.
+// Returns the exact sums; nothing if one of them is no double.
 std::optional<Positions> exact_sum(const Positions& x, const Positions& way) {
   const Positions end = x + way;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -278,7 +278,7 @@ std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
   return Record{parse(*body), offset + head_bytes + length + tail_bytes};
 }
 
-// The body of this length, if its checksum stands behind it.
+// Returns the body of this length, if its checksum stands behind it.
 std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t length) {
   const auto left = size_ - offset;
   if (left < tail_bytes || length > left - tail_bytes) return std::nullopt;
@@ -296,8 +296,8 @@ std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t 
   return piece;
 }
 
-// Whether all that is left is the beginning of one record. If a whole body and its checksum are
-// there, or further records, the length alone is wrong.
+// Returns whether all that is left is the beginning of one record. If a whole body with its
+// checksum is there, or further records are, the length alone is wrong.
 bool StepLog::begins_record(std::uint64_t offset) {
   const auto left = size_ - offset;
   std::string piece;
@@ -502,7 +502,7 @@ Expected<LogStep> StepLog::step(std::size_t i) {
     LoggedLimit& limit = step.limit.emplace();
     limit.share = number("share", -1);
     limit.positions = places(value_of(body, "positions"), head_.positions.rows());
-    // Positions that cannot be read become positions that no limiter may give.
+    // If the positions cannot be read, the limit gets positions that no limiter may give.
     if (body.contains("positions") && !limit.positions)
       limit.positions = Positions::Constant(head_.positions.rows(), 3, none);
   }

@@ -52,7 +52,7 @@ KnownFacts with_signs(KnownFacts facts, std::vector<ViewSign> signs) {
   return facts;
 }
 
-// A tetrahedron on a wide face, its fourth corner on the axis; its last triangle is the floor.
+// Adds a tetrahedron on a wide face, its fourth corner on the axis. Its last triangle is the floor.
 void add_tent(GridMesh& mesh, Variation& vary, const GridVertex& top, const GridPoint& moved) {
   const auto face = wide_face(vary, usual_size);
   const auto floor = [&](std::size_t i) { return GridVertex{face[i], face[i] + moved}; };
@@ -87,8 +87,8 @@ Case touches_zero(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, std::move(facts));
 }
 
-// A tent that moves along with its view-point, which stays above, below or on the floor, or is one
-// of its corners.
+// Returns a tent that moves along with its view-point, which stays above, below or on the floor, or
+// is one of its corners.
 Case on_the_surface(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
@@ -159,7 +159,7 @@ namespace {
 // Coordinates are below 2^53, so a volume is below 2^165.
 using Wide = boost::multiprecision::int256_t;
 
-// Six times the volume at t=0 of abcd.
+// Returns six times the volume at t=0 of abcd.
 Wide volume(const std::array<GridVertex, 4>& corners) {
   Wide e[3][3];
   const auto& o = corners[0].t0;
@@ -174,7 +174,7 @@ Wide volume(const std::array<GridVertex, 4>& corners) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-// Ends the process if the product is not exact or not finite.
+// Returns units * 2^exponent. Ends the process if the product is not exact or not finite.
 double scaled(std::int64_t units, int exponent) {
   constexpr std::int64_t limit = std::int64_t{1} << 53;
   const auto whole = static_cast<double>(units);

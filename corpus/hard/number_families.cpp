@@ -9,7 +9,7 @@ namespace assay::corpus {
 // and much shorter than the mesh.
 namespace {
 
-// A block, and a spike whose tip goes from one height to another.
+// Returns a block, and a spike whose tip goes from one height to another.
 Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts facts) {
   GridMesh mesh;
   add_block(mesh, vary, usual_size, vary.between(usual_size / 2, usual_size));
@@ -59,11 +59,12 @@ Case double_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
-// A vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the rows of
-// M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion
-// matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0)
-// (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with weights
-// 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes from.
+// Returns a vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the
+// rows of M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the
+// companion matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0)
+// (0,1,0) (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with
+// weights 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes
+// from.
 Case triple_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t one = std::int64_t{1} << 43;
   const std::int64_t d2 = two_to(43 + 2 * exponent);  // the square of the distance of roots
@@ -91,8 +92,8 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }
 
-// Solids far smaller than the way that the spike goes. By kind, it goes through the face, past it,
-// or onto it.
+// Returns solids far smaller than the way that the spike goes. By kind, the spike goes through the
+// face, past it, or onto it.
 Case long_step(Variation& vary, int exponent, int kind) {
   const std::int64_t reach = two_to(usual_exponent - exponent), way = usual_size;
   const bool misses = kind == 1;
@@ -143,8 +144,8 @@ std::vector<HardFamily> time_families() {
 // all axes or another for each; denormals.
 namespace {
 
-// A mesh that is not hard by itself. By kind, a spike goes through a face (at half time), stops in
-// it, stops well above it, or passes beside it.
+// Returns a mesh that is not hard by itself. By kind, a spike goes through a face (at half time),
+// stops in it, stops well above it, or passes beside it.
 GridMesh easy(Variation& vary, int kind, std::int64_t reach, std::int64_t way) {
   GridMesh mesh;
   const bool beside = kind == 3;
@@ -167,8 +168,8 @@ KnownFacts known_of(int kind) {
   return kind < 2 ? known_collision(first[kind]) : known_free();
 }
 
-// Solids of 2^(45 - exponent) units, 2^51 units and more away from the origin. On the grid the
-// spike moves by one, two or four units.
+// Returns solids of 2^(45 - exponent) units, 2^51 units and more away from the origin. On the grid
+// the spike moves by one, two or four units.
 Case far_offset(Variation& vary, int exponent, int kind) {
   const GridMesh mesh = easy(vary, kind, two_to(usual_exponent - exponent), 1);
   GridMap map = GridMap::any(vary);

@@ -23,7 +23,7 @@ class IpcMesh {
  public:
   static constexpr double separation = ASSAY_PEER_SEPARATION;
 
-  // The toolkit works in threads of TBB, so their number is limited there.
+  // Limits the number of TBB's threads, because the toolkit works in these.
   static void use_threads(std::uint32_t count) {
     static std::unique_ptr<tbb::global_control> limit;
     limit =

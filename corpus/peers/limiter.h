@@ -1,4 +1,4 @@
-// Makes a limiter, which says how far a step may be gone, of a peer that tells when the step first
+// Makes a limiter, which says how far a step may be taken, of a peer that tells when the step first
 // touches. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
 #pragma once
 
@@ -39,7 +39,7 @@ class LimiterOf {
   Peer peer_;
 };
 
-// The peer of `Tests` whose times are lower bounds, so that a caller may go all of that way.
+// The peer of `Tests` whose times are lower bounds, so that a caller may go up to the time itself.
 template <class Tests>
 struct LowerBoundOf : PeerOf<Tests> {
   static constexpr double part_of_time = 1;
