@@ -221,7 +221,7 @@ struct Piece {
   }
 };
 
-// Returns the index of the i-th corner around the hull. Consecutive corners are joined by its edges.
+// Returns the index of the i-th corner around the hull. Its edges join consecutive corners.
 int around(int corners, int i) {
   constexpr std::array<int, 4> parallelogram = {0, 1, 3, 2};
   i %= corners;
