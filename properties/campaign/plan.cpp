@@ -16,7 +16,8 @@
 namespace assay::properties {
 namespace {
 
-// Every generic family gets the first number of cases, every other family the second.
+// Makes the strata. Every generic family gets the first number of cases, every other family the
+// second.
 std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, double generic_bound,
                                 double other_bound) {
   std::vector<StratumPlan> list;
@@ -193,7 +194,7 @@ struct Bytes {
   std::uint64_t& value;
 };
 
-// The fields of a plan and of its parts, each named here and nowhere else. An archive reads those
+// Lists the fields of a plan and of its parts, which are named nowhere else. An archive reads those
 // that `must` be there and those that `may`, or writes all of them.
 template <class Archive>
 void fields(Archive& archive, StratumPlan& stratum) {
@@ -360,7 +361,7 @@ std::string plan_text(const CampaignPlan& plan) {
 namespace {
 
 // Returns whether a run's options and its detector's parts turn the named plan `other` into this
-// one. Options limit a case; a plug-in is not asked question families, nor relations if it takes
+// one. Options limit a case; a plug-in is asked no question families, and no relations if it takes
 // none; its query is judged beside the steps, or alone. Times may differ: a campaign that was
 // stopped by --time keeps its name.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& other) {

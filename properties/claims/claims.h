@@ -81,7 +81,7 @@ struct StepDiff {
   std::vector<Claim> breaches;        // claims of the detector that this step refutes
   Answer answer = Answer::undecided;  // the detector's
   bool oracle_complete = false;       // false: the oracle was stopped
-  bool nothing_in_contact = false;    // says a complete oracle, whatever is left out
+  bool nothing_in_contact = false;    // by a complete oracle, whatever is left out
   bool starts_near = false;           // StepTruth::starts_near
   bool claims_pairs = false;          // all-pairs or first-pairs is claimed
   bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
@@ -155,8 +155,8 @@ Symptom if_any(const char* kind, const std::vector<Wrong>& list) {
 // The claims that a detector can make.
 
 // In the list below t* is the first contact time of the step. Under a contract with a separation d,
-// a contact is a pair that comes within d, and t* is the first time of one. The contact graph at t*
-// has the triangles as nodes, and the pairs in contact at t* as edges.
+// a contact is a pair that comes within d. The contact graph at t* has the triangles as nodes, and
+// the pairs in contact at t* as edges.
 enum class Claim : std::uint8_t {
   free_sound,     // never `free` when the oracle has a contact
   not_late,       // lower end of its first time <= t*
@@ -172,9 +172,9 @@ enum class Claim : std::uint8_t {
   path_free,    // the share that it allows is below t*
   progress,     // the share is at least Contract::progress of the possible one (judge_limit)
   whole,        // it allows a step without a contact to its very end
-  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. For a
-  // detector that claims this, the other claims on times are read in the same strict way. Only the
-  // built-in detector claims it: plug-ins cannot, and no list names it.
+  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. If a
+  // detector claims this, its other claims on times are read as strictly. Only the built-in
+  // detector claims it; plug-ins cannot, and no list names it.
   times_unique,
 };
 
@@ -185,7 +185,7 @@ enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, ru
 enum class Probe : std::uint8_t {
   by_step,           // any judged step
   by_contact,        // a step with a contact that counts
-  by_stated_time,    // such a step with a stated first time
+  by_stated_time,    // a step with a contact that counts and a stated first time
   by_candidates,     // a step with pairs that must be among the candidates
   by_contact_ahead,  // of a limiter
   by_free_way,       // of a limiter
@@ -237,7 +237,7 @@ constexpr auto names_of(Claim) {
       {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, 1, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
       {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, 1, times, by_stated_time, loses,
-       [](D d) {  // an oracle that was stopped knows no exact first time
+       [](D d) {  // if the oracle was stopped, it knows no exact first time
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },

@@ -14,8 +14,8 @@ namespace {
 
 using PairList = std::vector<PairContact>;
 
-// What the step leaves behind is computed from a start at which too much is believed clean, or
-// from a step that is made to have seen too little.
+// Computes the state behind a step from a start at which too much is believed clean, or from too
+// few of the step's findings.
 template <void (*forget)(StepMarks&, PairList&, bool& complete)>
 struct Forgotten : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,

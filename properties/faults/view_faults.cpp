@@ -89,7 +89,7 @@ ViewSign zero_area_is_positive(const MovingTriangle& triangle, const ViewPrimiti
                                                      : right_sign(triangle, primitive);
 }
 
-// Each triangle takes the one of two views that suits it (L10).
+// Lets each triangle take the one of two views that suits it (L10).
 ViewSign positive_from_either_place(const MovingTriangle& triangle,
                                     const ViewPrimitive& primitive) {
   const auto q0 = still(Sample::start, primitive.q0), q1 = still(Sample::end, primitive.q0);

@@ -97,8 +97,8 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start);
 // q1 for all frames; tags "view:...". A third of the cases gets none.
 void choose_view(Random& random, Draft& draft);
 
-// The same for meshes that are positive from `drift`, a place for each frame: chooses none, the
-// point `drift`, or a short segment about it.
+// Does the same for meshes that are positive from `drift`, a place for each frame: chooses none,
+// the point `drift`, or a short segment about it.
 void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 // Coordinate menus: the kinds of doubles that a case is made of. Each function changes all frames

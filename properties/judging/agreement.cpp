@@ -23,8 +23,9 @@ struct Times {
   bool unique;
   double tolerance;
 
-  // The t* of the oracle is its lo if lo == hi; else it lies strictly between two adjacent
-  // doubles. In that case an interval of doubles holds t* if it holds both.
+  // Returns whether our interval begins after t*. The t* of the oracle is its lo if lo == hi; else
+  // it lies strictly between two adjacent doubles. In that case an interval of doubles holds t* if
+  // it holds both.
   bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs) const {
     return unique ? theirs < ours : ours.lo > theirs.lo + tolerance;
   }
@@ -158,8 +159,8 @@ struct Comparison {
     diff_.excuses = std::move(excuses);
   }
 
-  // With a slack a first time may be earlier than the exact one, but not earlier than the first
-  // pair that comes within the slack.
+  // Compares with the slack. A first time may then be earlier than the exact one, but not earlier
+  // than the first pair that comes within the slack.
   void compare_with_slack() {
     if (!judgement_.within_slack || !judgement_.complete || result_.answer != Answer::collision)
       return;
@@ -179,7 +180,7 @@ struct Comparison {
   }
 };
 
-// The place of a finite double among all of them. -0 and 0 have the same place.
+// Returns the place of a finite double among all of them. -0 and 0 have the same place.
 std::int64_t ordinal(double x) {
   const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
   return x < 0 ? -bits : bits;

@@ -30,8 +30,8 @@ bool has_no_area_by(const TrianglesView& triangles, std::int32_t triangle, const
   return is_zero_cross(u, v);
 }
 
-// The words of a cause. Each list goes from the most ordinary to the oddest, and what is not worth
-// a word is empty.
+// The words of a cause. Each list goes from the most ordinary to the oddest. An empty word stands
+// for something not worth a word.
 constexpr const char *inside = "t inside", *at_1 = "t at 1", *near_0 = "t near 0", *at_0 = "t at 0";
 constexpr const char* time_words[] = {inside, at_1, near_0, at_0};
 
@@ -60,8 +60,7 @@ const char* time_of(const TimeEnclosure& t) {
   return t.hi <= thousandth ? near_0 : inside;
 }
 
-// A share of the extent at t = 0, as a distance: of the longest side of the box around all
-// vertices.
+// Returns a share of the extent at t = 0, which is the longest side of the box around all vertices.
 double share_of_extent(const PositionsView& x, double share) {
   double half = 0;  // so that the difference of two doubles does not overflow
   for (int axis = 0; axis < 3; ++axis) {

@@ -134,7 +134,7 @@ struct StepMeasures {
   // For each trial, the square of its number of free steps, and of steps with a contact; summed
   // over trials. They show how much the steps of one trial depend on each other.
   std::uint64_t free_squared = 0, contact_squared = 0;
-  std::uint64_t without_time = 0;      // of the collisions: with a wider interval
+  std::uint64_t without_time = 0;      // collisions answered with a wider interval
   std::uint64_t unanswered = 0;        // steps with a contact and without an answer to judge
   std::uint64_t candidate_steps = 0;   // steps for which candidates were given
   std::uint64_t candidates = 0;        // given in these steps

@@ -31,7 +31,7 @@ Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// Looks only at contacts inside a component, because pairs of two components are all in K and make
+// Looks only at contacts inside a component, because all pairs of two components are in K and make
 // nothing dirty (L10).
 Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
@@ -156,7 +156,7 @@ std::span<const Law> pair_set_laws() { return pair_set_law_table; }
 
 namespace {
 
-// Whether the step is judged and some patch of two triangles or more is certified.
+// Returns whether the step is judged and some patch of two triangles or more is certified.
 bool has_certified_patch(CaseFacts& facts, std::size_t s) {
   return facts.is_judged(s) && facts.traditional_scheme() && facts.certified_patches(s).largest > 1;
 }

@@ -22,7 +22,7 @@ using detector::InputError;
 
 // Doubtful input (L12) is no surface of a body, and is answered nevertheless.
 
-// Two vertices of triangles are at one place at the start of the step.
+// Returns whether two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   std::vector<Point> places;
   for (const auto& component : facts.surface().mesh.components) {
@@ -32,10 +32,10 @@ bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   return std::ranges::adjacent_find(places) != places.end();
 }
 
-// Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
-// of two products has an error of 3 units of 2^-53 (two differences and one product), and their
-// difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
-// false if the vector is nearer to 0, or if a product overflowed or vanished.
+// Returns whether the area vector, computed in doubles, is farther from 0 than its rounding errors.
+// Each of two products has an error of 3 units of 2^-53 (two differences and one product), and
+// their difference has 2 more. The bound is twice that, to cover errors of second order. The answer
+// is false if the vector is nearer to 0, or if a product overflowed or vanished.
 bool surely_has_area(const Positions& x, const std::array<std::int32_t, 3>& v) {
   constexpr double error = 16 * 0x1p-53;
   const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
@@ -43,7 +43,7 @@ bool surely_has_area(const Positions& x, const std::array<std::int32_t, 3>& v) {
   return product > 0x1p-900 && a.cross(b).cwiseAbs().maxCoeff() > error * product;
 }
 
-// The triangle is a segment or a point at one end of the step or at both. Decided exactly.
+// Returns whether the triangle is a segment or a point at one end of the step or at both. Exact.
 bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle) {
   const auto& v = facts.surface().mesh.triangles[at(triangle)];
   for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
@@ -54,8 +54,8 @@ bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle)
   return false;
 }
 
-// Untouched triangles of one component lie on different layers: nested shells, parts turned inside
-// out.
+// Returns whether untouched triangles of one component lie on different layers: nested shells,
+// parts turned inside out.
 bool has_several_layers(CaseFacts& facts, std::size_t s) {
   const auto& layers = facts.layers_at_start(s);
   std::map<std::int32_t, oracle::Layer> of_component;
@@ -171,7 +171,7 @@ std::string step_wrongly(Detector& detector, const CaseFacts& facts, std::size_t
   return {};
 }
 
-// Input that must be refused by name: repeats the case's own run, with every kind of bad call
+// Checks that bad input is refused by name: repeats the case's own run, with every kind of bad call
 // before each step.
 void check_bad_input(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);

@@ -18,14 +18,15 @@ namespace {
 // The oracle takes long for distances among many triangles.
 constexpr std::size_t most_triangles_apart = 40;
 
-// A power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without extent.
+// Returns a power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without
+// extent.
 double drawn_distance(const CaseFacts& facts, Random& random) {
   const double extent = extent_of(facts.source());
   if (!(extent > 0) || !std::isfinite(extent)) return 0;
   return std::ldexp(1, std::ilogb(extent) - random.between(3, random.one_in(4) ? 20 : 8));
 }
 
-// The same under every culling of the case, so one of them will do.
+// Checks under one culling, because distances are the same under every culling of the case.
 void check_distance(CaseFacts& facts, LawTally& tally) {
   if (!facts.stages_of() || facts.options().culling != Culling::view_line ||
       facts.surface().mesh.triangles.size() > most_triangles_apart)

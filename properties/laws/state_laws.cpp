@@ -182,8 +182,8 @@ Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The triangles that ghosts have touched since the last new start, up to the end of step s, and
-// that the oracle did not find clean at the start of any step since. This is computed from the
+// Returns the triangles that ghosts have touched since the last new start, up to the end of step s,
+// and that the oracle did not find clean at the start of any step since. This is computed from the
 // oracle alone.
 TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   TriangleFlags is_held = facts.touched(s);
@@ -195,8 +195,8 @@ TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   return is_held;
 }
 
-// An apex must not jump between two steps. If both steps had views, both have apexes; otherwise
-// the premise does not hold.
+// Observes whether apexes go on: an apex must not jump between two steps. If both steps had views,
+// both have apexes; otherwise the premise does not hold.
 Observation apexes_go_on(CaseFacts& facts, std::size_t s) {
   const auto& before = facts.known_from(s);
   if (!before) return not_met();

@@ -73,8 +73,8 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
   });
 }
 
-// The signs come from the detector. So this law ties what the detector says to the function that
-// L1 speaks of.
+// Observes the detector's signs. So this law ties the detector's answers to the view function of
+// L1.
 Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
   return each_sample(
       facts, s, [](const ExactView& view, ViewSign sign, Random& random) -> std::string {

@@ -32,7 +32,7 @@ void see_from(Case& c, const Row& q0, const Row& q1, const Row& way, bool is_lin
   }
 }
 
-// A view primitive near the features, or the middle, or none.
+// Gives the case a view primitive near the features or in the middle, or none.
 void view(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   c.view.reset();

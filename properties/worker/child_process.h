@@ -48,7 +48,8 @@ struct ChildEnd {
   int signal = 0;        // the signal that killed it; 0: it exited
   int code = 0;          // the code that it exited with
   bool by_host = false;  // the host killed it, because it did not end in time
-  // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when by_host.
+  // The end in words: "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when
+  // by_host.
   std::string text;
 };
 
@@ -161,7 +162,7 @@ class ProcessorTime {
   double seconds() const;
   // Returns seconds(), and begins anew at that point.
   double lap();
-  // Also measures the started processes. About 5 us for each process of the machine.
+  // Measures the started processes too. About 5 us for each process of the machine.
   ProcessTree look();
 
  private:

@@ -44,7 +44,7 @@ struct WorkerProcess::Parts {
       const ChildEnd end = child.finish(patience);
       return is_behind_bubblewrap ? end_behind_bubblewrap(end) : end;
     }
-    // Called again and again while the host waits for the worker.
+    // Is called again and again while the host waits for the worker.
     std::optional<std::chrono::milliseconds> wait(WorkerWatch& watch) {
       if (output) output->keep_short();
       return watch.patience();
@@ -147,7 +147,7 @@ struct WorkerProcess::Parts {
                 std::move(output));
   }
 
-  // Why the worker is not started behind bubblewrap; empty if it is.
+  // Returns why the worker is not started behind bubblewrap; empty if it is.
   std::string fault_of_isolation() const {
     if (limits.isolation == Isolation::limits) return "not asked for";
     std::error_code ignored;
@@ -265,7 +265,7 @@ struct WorkerProcess::Parts {
     return end;
   }
 
-  // The worker fell silent.
+  // Ends a worker that fell silent.
   void end_silent_worker(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = is_hung ? RunEnd::hung : RunEnd::crashed;

@@ -33,7 +33,7 @@ struct GateFindings {
   }
 };
 
-// What can be done about the reasons of gate `complete`.
+// Returns what can be done about the reasons of gate `complete`.
 std::string remedy_of(const GateFindings& gate) {
   const auto all = gate.against.size(), lasting = gate.lasting.size();
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
@@ -268,8 +268,8 @@ GateFindings check_bounds(const RunFindings& f, const VerbRequest&) {
   return gate;
 }
 
-// The lines leave out the figures themselves, which stand among the times, so that the lines are
-// the same from run to run. Of several runs the median counts.
+// Checks the figures. The lines leave the figures out, which stand among the times, so that the
+// lines are the same from run to run. Of several runs the median counts.
 GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
   GateFindings gate;
   const auto& limits = f.run.plan.policy.speed_limits;

@@ -63,8 +63,8 @@ struct GateResult {
   GateState state = GateState::holds;
   // Why the gate fails or was not judged, one line for each reason. Empty if it holds.
   std::vector<std::string> reasons;
-  // A sentence that says which reasons vanish if the same run goes on, and which do not. Only for a
-  // gate `complete` that fails; else empty.
+  // For a gate `complete` that fails: which reasons vanish if the same run goes on, and which do
+  // not, in a sentence. Else empty.
   std::string remedy = {};
 };
 
@@ -149,11 +149,11 @@ struct FailureGroup {
   // The traits that all contacts lost by the group share; possibly none.
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
-  // `holds_with` of `all_holds` cases that hold also have a contact with all `shared` traits.
+  // Of `all_holds` cases that hold, `holds_with` have a contact with all `shared` traits too.
   std::size_t holds_with = 0, all_holds = 0;
 };
 
-// The group with the most kinds comes first. A single kind is in no group.
+// Returns the groups, the one with the most kinds first. A single kind is in no group.
 //
 // Failures that do different things are in different groups. Failures that lose a contact (answered
 // free, late, left out a pair or a candidate, let a limiter through) are grouped by the traits of

@@ -95,11 +95,11 @@ struct SourceRow {
   Source counts_as;    // itself, or the source of which it is a part
   bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
   const char* prefix;  // of the ids of its failures; no trial's id begins so
-  // Says where a kind of failure was met if no trial has shown it; the same in a summary; and the
+  // Texts: where a kind of failure that no trial shows was met; the same for a summary; and the
   // name of the count behind the verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
   // The section of a certificate that lists the source's inputs, if any; and the members of
-  // JudgedSource that the section shows. "queries=cases" shows `cases` under the name `queries`.
+  // JudgedSource shown there. "queries=cases" shows `cases` under the name `queries`.
   const char *section = "", *shown_text = "";
 };
 constexpr auto names_of(Source) {

@@ -16,7 +16,7 @@
 namespace assay::properties {
 namespace {
 
-// The schema that a binding names, if it is not that of this build.
+// Returns the schema that a binding names, if it is not that of this build.
 std::optional<std::string> other_schema(const std::string& binding) {
   const auto json = corpus::parse_json(binding, "binding");
   // If the text is no binding at all, whoever reads the binding reports that.

@@ -15,7 +15,7 @@ void scale_and_move(Draft& d, double scale, const Point& by) {
   for (auto& p : d.rest()) p = scale * p + by;
 }
 
-// The least and the greatest x of the draft.
+// Returns the least and the greatest x of the draft.
 std::array<double, 2> extent(const Draft& d) {
   const auto [low, high] = std::minmax_element(
       d.rest().begin(), d.rest().end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });

@@ -35,7 +35,7 @@ using oracle::JudgeOptions, oracle::StepJudgement;
 using ExactInteger = boost::multiprecision::cpp_int;
 using ExactPoint = std::array<ExactInteger, 3>;
 
-// The place of a point along the axis of the segment q0q1, which decides from where it is seen.
+// The place of a point along the axis of the segment q0q1. It decides from where the point is seen.
 enum class Region : std::uint8_t {
   r0,  // before q0: view from q0
   r1,  // beyond q1: view from q1
@@ -212,7 +212,8 @@ class CaseFacts {
   bool is_free_by_view(std::size_t s, std::size_t component);
   const oracle::LayerState& layers_at_start(std::size_t s);
   const oracle::LayerState& layers_at_end(std::size_t s);
-  // By triangle; 1: in contact with another triangle of its component. REQUIRES is_judged(s).
+  // Returns, by triangle, 1 if it is in contact with another triangle of its component, else 0.
+  // REQUIRES is_judged(s).
   const std::vector<std::uint8_t>& own_contacts(std::size_t s);
 
   bool same_component(const TrianglePair& pair) const {
@@ -323,7 +324,7 @@ TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
 // all triangles of a component with ghosts are in doubt. REQUIRES has_account(s).
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s);
 
-// Returns flags by triangle; 1: the result of step s marks it with doubt::dirty.
+// Returns, by triangle, 1 if the result of step s marks it with doubt::dirty, else 0.
 TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s);
 
 }  // namespace assay::properties

@@ -16,9 +16,9 @@
 namespace assay::properties {
 namespace {
 
-// Whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t - 1 are
-// exact. A time that no double equals has a closer enclosure in the second half, which lies inside
-// of the one that is computed here.
+// Returns whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t -
+// 1 are exact. A time that no double equals has a closer enclosure in the second half, which lies
+// inside of the one that is computed here.
 bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
   const TimeEnclosure doubled = {2 * t.lo - half, 2 * t.hi - half};
   if (t.lo == t.hi) return u == doubled;
@@ -163,8 +163,8 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   return difference(facts.result(s), result);
 }
 
-// What the step committed last left in contact is settled by the next step, so it shows where the
-// mesh rests there.
+// Compares the two detectors by a next step at rest, which settles the triangles that the last
+// committed step left in contact.
 std::string rests_alike(const CaseFacts& facts, detector::Detector& detector, const Positions& x) {
   const auto state_read = detector::SavedState::read(detector.state().bytes());
   auto restored = busy_detector(facts);
@@ -193,7 +193,7 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Positions that stand among other numbers of the caller.
+// Positions stored between other numbers of the caller.
 struct WideRows {
   Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
   explicit WideRows(const Positions& x) : rows(decltype(rows)::Constant(x.rows(), 5, 0.5)) {
@@ -217,8 +217,8 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. So a
-// result that depends on order or lanes can be repeated, and its case can be shrunk.
+// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. If a
+// result depends on order or lanes, the run can so be repeated, and its case can be shrunk.
 class DrawnOrder : public detector::ThreadArena {
  public:
   DrawnOrder(Random random, std::size_t lanes) : random_(random), lanes_(lanes) {}

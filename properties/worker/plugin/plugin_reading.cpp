@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// How much of the table a version has, and how much of the description.
+// Returns how much of the table a version has, and how much of the description.
 std::size_t table_bytes(std::uint32_t version) {
   if (version == 1) return offsetof(assay_detector_api, use_threads);
   return version == 2 ? offsetof(assay_detector_api, count) : sizeof(assay_detector_api);
@@ -189,8 +189,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
-// Where a caller stops if it computes in this format, with one rounding for each operation. Share 1
-// is x_t1.
+// Computes where a caller stops that computes in this format, with one rounding for each operation.
+// Share 1 is x_t1.
 template <class Real>
 void stop_at(double share, LimitGives gives, const Positions& x_t0, const Positions& x_t1,
              const Positions* displacement, Positions& stop) {
