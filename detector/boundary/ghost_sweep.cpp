@@ -84,7 +84,7 @@ class HoleSweep {
   }
 
  private:
-  // Both nodes are split at once, so that their boxes stay of like size.
+  // Descends. Both nodes are split at once, so that their boxes stay of like size.
   void descend(std::size_t of_hole, std::int32_t node) {
     if (stopped_) return;
     ++counts_.box_tests;

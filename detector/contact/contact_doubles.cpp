@@ -158,7 +158,7 @@ struct RootPiece {
   Cubic f;
   double bound, lo, hi;
 
-  // While this holds every middle is a multiple of 2^-53, and so it is exact.
+  // Returns whether the piece may be halved. If so, its middle is a multiple of 2^-53, and exact.
   bool may_halve() const { return hi - lo > 0x1p-52; }
 };
 

@@ -40,7 +40,7 @@ class FixedSearch {
         products_(query, first_group),
         b_(products_.coplanarity()) {}
 
-  // Is called once.
+  // Decides the query. Is called once.
   Decision run() {
     Piece whole;
     whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};

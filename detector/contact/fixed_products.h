@@ -52,7 +52,7 @@ class QueryIntegers {
     }
   }
 
-  // Every integer is below 2^bits() in size.
+  // Returns the bits of the longest integer: every integer is below 2^bits() in size.
   int bits() const { return bits_; }
 
   // Returns the coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits()

@@ -239,7 +239,7 @@ namespace {
 
 constexpr std::uint64_t prime = (std::uint64_t{1} << 61) - 1;
 
-// 2^61 is 1 modulo the prime.
+// Returns the value modulo the prime, for which 2^61 is 1.
 std::uint64_t reduced(DoubleLimb value) {
   value = (value & prime) + (value >> 61);
   value = (value & prime) + (value >> 61);

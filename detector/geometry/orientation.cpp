@@ -35,7 +35,7 @@ struct Differences {
     for (const double m : magnitude) in_range &= m > least_magnitude && m < greatest_magnitude;
     bound = orientation_error<ProvedBounds> * (magnitude[0] * magnitude[1] * magnitude[2]);
   }
-  // u[i] . (u[j] x u[k])
+  // Returns u[i] . (u[j] x u[k]).
   double volume(std::size_t i, std::size_t j, std::size_t k) const {
     const double n[3] = {u[j][1] * u[k][2] - u[j][2] * u[k][1],
                          u[j][2] * u[k][0] - u[j][0] * u[k][2],

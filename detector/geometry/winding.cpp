@@ -316,7 +316,8 @@ CrossingSigns exact_signs(const std::array<Point, 3>& corners, const RayOrigin& 
   return signs;
 }
 
-// A sign is 0 if doubles cannot tell it, or in plain numbers if the computed determinant is 0.
+// Returns the signs by doubles. A sign is 0 if they cannot tell it, or in plain numbers if the
+// computed determinant is 0.
 template <class Bounds>
 CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigin& o,
                              const RayDirection& r) {

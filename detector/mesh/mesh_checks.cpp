@@ -63,7 +63,8 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
   return std::nullopt;
 }
 
-// Triangles with the same three vertices have the same lowest vertex.
+// Compares triangles with the same lowest vertex, because those with the same three vertices have
+// that.
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace) {
   const auto vertices = static_cast<std::size_t>(vertex_count);

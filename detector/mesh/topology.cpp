@@ -116,7 +116,7 @@ class EdgesOfVertices {
   std::int32_t first_edge_ = 0, first_use_ = 0;
 };
 
-// Edges are made in pieces, so that the uses of a piece are still in the fastest cache when it is
+// Makes the edges, in pieces, so that the uses of a piece are still in the fastest cache when it is
 // written. The workers share a few pieces at a time.
 bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   constexpr std::size_t of_piece = 512, pieces_of_worker = 8;

@@ -58,8 +58,8 @@ struct Sheets::Builder {
   std::size_t most_edges = 0;                           // of a contour
   std::vector<std::vector<ContourEdge>> contours = {};  // of this level, by region and direction
 
-  // A triangle is seen from a side if that component of its normal is not small beside the greatest
-  // one. So where a sheet ends, a sheet of another side goes on.
+  // Finds the sides of a triangle. It is seen from a side if that component of its normal is not
+  // small beside the greatest one. So where a sheet ends, a sheet of another side goes on.
   void look(std::size_t t) {
     const auto& [u, v, w] = mesh.triangles[t];
     const Point a = point_of(x, u), b = point_of(x, v), c = point_of(x, w);

@@ -179,8 +179,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   bool has_proofs() const override { return true; }
 
-  // If a large patch is free, so are all patches within it. If all large patches are free, the
-  // others are not looked at.
+  // Tries the samples. If a large patch is free, so are all patches within it. If all large patches
+  // are free, the others are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {
     MovingContour moving(*motion_);
     const double of_large = share_of(samples_.large, mesh, moving);
