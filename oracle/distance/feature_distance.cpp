@@ -260,13 +260,13 @@ using detector::Point;
 
 Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-// The share of 0 in 0 is not defined; any value will do.
+// Returns a share. The share of 0 in 0 is not defined; any value will do.
 double share(double part, double whole) {
   return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0;
 }
 
-// The face's place nearest to the point. The signs of products tell whether it is at a vertex, on
-// an edge or inside (Ericson, Real-Time Collision Detection, 5.1.5).
+// Finds the place of the face that is nearest to the point. The signs of products tell whether it
+// is at a vertex, on an edge or inside (Ericson, Real-Time Collision Detection, 5.1.5).
 void nearest_on_face(const Point& p, const Point& a, const Point& b, const Point& c,
                      ClosestPlaces& places) {
   const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -292,7 +292,7 @@ void nearest_on_face(const Point& p, const Point& a, const Point& b, const Point
   }
 }
 
-// The two edges begin at a and c, with the directions u and v.
+// Finds the nearest places of two edges, which begin at a and c and have the directions u and v.
 void nearest_on_edges(const Point& a, const Point& u, const Point& c, const Point& v,
                       ClosestPlaces& places) {
   const Point r = a - c;

@@ -176,7 +176,7 @@ StepJudgement StepFeatures::judge(const BoxOfVertices& boxes, StopGate& gate,
       }
     }
   });
-  // What pierces at the start is of no kind of features: it is asked for where all kinds are.
+  // Piercings at the start are of neither kind of features. They are asked for if all kinds are.
   for_each_pierced_at_start(
       workers, [&](std::int32_t s, std::int32_t t, const Feature& feature, int worker) {
         found[worker].pairs.add(s, t, {0, 0}, feature);

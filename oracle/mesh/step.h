@@ -62,9 +62,9 @@ StepJudgement judge_step(const detector::SteppedMesh& motion,
 // The features of a mesh over a step, and the feature pairs that counted pairs of triangles hold.
 class StepFeatures {
  public:
-  // If `neighbours` is false, triangles that share a vertex do not count. `also_asked` says of a
-  // pair whether it counts; empty: every pair does. REQUIRES indices in range, finite positions,
-  // equal row counts, and a motion that outlives it.
+  // Makes the features. If `neighbours` is false, triangles that share a vertex do not count.
+  // `also_asked` says of a pair whether it counts; empty: every pair does. REQUIRES indices in
+  // range, finite positions, equal row counts, and a motion that outlives it.
   StepFeatures(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                const JudgeOptions& options, bool neighbours = true, WantedPair also_asked = {});
   StepFeatures(const StepFeatures&) = delete;

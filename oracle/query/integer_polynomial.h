@@ -74,7 +74,7 @@ class IntegerScale {
 
   // REQUIRES a coordinate of the given points.
   Integer operator()(double coordinate) const;
-  // A coordinate is its integer times 2^exponent().
+  // Returns the exponent: a coordinate is its integer times 2^exponent().
   int exponent() const { return exponent_; }
 
  private:

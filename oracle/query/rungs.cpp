@@ -149,7 +149,7 @@ IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want) {
   const std::vector<IntegerPolynomial> events = event_polynomials(polynomials);
   if (events.size() > 1) {  // coplanar throughout
-    // Many such queries begin in contact: then the other times are not needed.
+    // Many such queries begin in contact, and then the other times are not needed.
     const QuadraticTimes start({events.data(), 1});
     const ExactAnswer at_start = first_contact(polynomials, start, want);
     if (at_start.contact) return at_start;

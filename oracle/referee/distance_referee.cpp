@@ -165,7 +165,7 @@ class DistanceReferee {
     look_for_contact(piece);
   }
 
-  // A short contact shows at no rational time when d is small.
+  // Looks for a contact, because a short one shows at no rational time when d is small.
   void look_for_contact(const TimePiece& piece) {
     constexpr double small = 0x1p-12, same_time = 0x1p-45;
     if (!reach_.hull.usable || reach_.most > small) return;
@@ -199,8 +199,9 @@ class DistanceReferee {
   const DoubleReach reach_;
   std::optional<IntegerReach> exact_;
   std::uint64_t cost_ = 0, cells_ = 0;
-  // From here on integers are asked where doubles see no direction. Slivers have poor directions in
-  // doubles, which shows after many halvings; once it has shown, integers are asked at once.
+  // From this depth on integers are asked where doubles see no direction. Slivers have poor
+  // directions in doubles, which shows after many halvings; once it has shown, integers are asked
+  // at once.
   int depth_of_doubt_ = 16;
   Fraction after_{0, 1};
   std::optional<Fraction> by_;

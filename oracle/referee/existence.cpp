@@ -211,7 +211,7 @@ struct Piece {
     middle.corners = s.corners;
     for (int i = 0; i < s.corners; ++i) middle.corner[i] = plus(s.corner[i], e.corner[i]);
   }
-  // The weights decide how good a candidate is, never whether it is right.
+  // Sets the weights, which decide how good a candidate is, never whether it is right.
   void set_weights(const std::array<Number, 4>& weight) {
     motion = nearest = {Number(0), Number(0), Number(0)};
     for (int i = 0; i < s.corners; ++i) {

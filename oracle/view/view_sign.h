@@ -51,7 +51,7 @@ std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
 // edge are pairs like all others.
 class Candidates {
  public:
-  // Each list is by triangle. `violated` is 1 for a triangle of Vv (dirty, or touched by a ghost),
+  // Takes lists by triangle. `violated` is 1 for a triangle of Vv (dirty, or touched by a ghost),
   // else 0; it may be empty if Vv is. `groups` holds components; it may be empty if all are of one
   // group.
   Candidates(std::vector<detector::ViewSign> signs, std::vector<std::uint8_t> violated,
