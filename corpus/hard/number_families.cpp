@@ -18,16 +18,16 @@ Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFac
   return sheared_case(mesh, vary, std::move(facts));
 }
 
-// The spike starts above, inside or on the block and leaves it. If it starts inside, it is pierced
-// at t=0.
+// Returns a spike that starts above, inside or on the block and leaves it. If it starts inside, it
+// is pierced at t=0.
 Case at_the_start(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), start[] = {gap, -gap, 0};
   return spike_falls(vary, start[kind], start[kind] + usual_size / 4,
                      kind == 0 ? known_free() : known_collision(0));
 }
 
-// The spike comes from 2^44 - gap and stops above, inside or on the block. If inside, t* = 1 - gap
-// / 2^44; if on it, t* = 1.
+// Returns a spike that comes from 2^44 - gap and stops above, inside or on the block. If inside, t*
+// = 1 - gap / 2^44; if on it, t* = 1.
 Case at_the_end(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), end[] = {gap, -gap, 0};
   const double first = kind == 2 ? 1 : 1 - std::ldexp(1, exponent - 44);
@@ -35,12 +35,12 @@ Case at_the_end(Variation& vary, int exponent, int kind) {
                      kind == 0 ? known_free() : known_collision(first));
 }
 
-// The face turns about the y axis, from z = x to z = -x, while the tip goes along x from -W to W
-// at height -dip. With tau = 2t - 1 the face is z = -tau x, and the tip is tau^2 W - dip above it.
-// That is zero twice, at tau = -+sqrt(dip / W), and only touches zero if dip is 0. With W = 2^44
-// and dip = 2^(2m), t* is (1 - 2^(m - 22)) / 2. The rest of the spike, within W / 2 of the tip
-// along x and W or more above it, is at least W / 2 above the face; the block's fourth corner is
-// below it on the axis.
+// Returns a face and a spike. The face turns about the y axis, from z = x to z = -x, while the tip
+// goes along x from -W to W at height -dip. With tau = 2t - 1 the face is z = -tau x, and the tip
+// is tau^2 W - dip above it. That is zero twice, at tau = -+sqrt(dip / W), and only touches zero if
+// dip is 0. With W = 2^44 and dip = 2^(2m), t* is (1 - 2^(m - 22)) / 2. The rest of the spike,
+// within W / 2 of the tip along x and W or more above it, is at least W / 2 above the face; the
+// block's fourth corner is below it on the axis.
 Case double_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t path = std::int64_t{1} << 44;
   const std::int64_t gap = two_to(exponent), dips[] = {gap, -gap, 0};
@@ -197,7 +197,7 @@ Case scales(Variation& vary, int exponent, int kind) {
   return scaled(vary, kind % 4, {e, e, e});
 }
 
-// One axis is stretched, another shrunk.
+// Stretches one axis and shrinks another.
 Case mixed_scales(Variation& vary, int exponent, int kind) {
   std::array<int, 3> exponents = {exponent, 0, -exponent};
   std::rotate(exponents.begin(), exponents.begin() + vary.between(0, 2), exponents.end());
