@@ -170,7 +170,7 @@ void choose_bodies(Random& random, const Case& c, CountedPairs& pairs) {
   }
 }
 
-// A sum of magnitudes, so that it has the same bits on every machine.
+// Returns the length of some edge as a sum of magnitudes, which has the same bits on every machine.
 double length_of_some_edge(Random& random, const Case& c) {
   const auto t = random.below(static_cast<int>(c.triangles.rows()));
   const auto& x = c.frames.front();

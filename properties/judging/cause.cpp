@@ -78,8 +78,8 @@ const char* word_of(oracle::ContactShape shape) {
 // The two triangles of a pair during a step.
 class PairOfStep {
  public:
-  // `query`: the pair holds the two features of a query. Of its vertices these alone count, and of
-  // its triangles the face alone.
+  // `query`: the pair holds the two features of a query. Then only their vertices count, and of the
+  // triangles only the face.
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
              const std::optional<Feature>& query)
       : triangles_(triangles), motion_(motion), pair_(pair), query_(query) {

@@ -50,8 +50,8 @@ struct Exam {
   bool needs_an_answer = false;
 };
 
-// A case is examined in three parts: it is run, it is run again, and both runs are judged. All of
-// them REQUIRE a contracted case. The oracle is not asked again for judgements that are there.
+// Examine a case in three parts: run it, run it again, and judge both runs. All parts REQUIRE a
+// contracted case. The oracle is not asked again for judgements that are there.
 void run_first(const Exam& exam, CaseResults& results);
 void run_again(const Exam& exam, CaseResults& results);
 void judge(const Exam& exam, CaseResults& results);

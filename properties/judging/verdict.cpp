@@ -135,7 +135,8 @@ std::string asked_text(const Contract& contract, double slack = 0) {
                      slack > 0 ? fmt::format(" + {}", slack) : "");
 }
 
-// If t* lies between two adjacent doubles, an interval may miss it by less than an ulp.
+// Returns the share in words. If t* lies between two adjacent doubles, an interval may miss it by
+// less than an ulp.
 std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
 }

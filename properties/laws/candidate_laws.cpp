@@ -175,8 +175,9 @@ Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// This asks more than the claim of all pairs, because a pair that the search leaves out may still
-// be found by a feature that another pair of triangles shares.
+// Observes that every contact is a candidate. This asks more than the claim of all pairs, because a
+// pair that the search leaves out may still be found by a feature that another pair of triangles
+// shares.
 Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
   const auto candidates = facts.traditional_scheme()->candidates({facts.x_t0(s), facts.x_t1(s)});

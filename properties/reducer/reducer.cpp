@@ -210,7 +210,7 @@ std::string size_text(const Case& before, const Case& after) {
 
 namespace {
 
-// place(frame, axis) gives the address of a coordinate.
+// Appends groups. place(frame, axis) gives the address of a coordinate.
 template <class Place>
 void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place place) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

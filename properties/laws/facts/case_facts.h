@@ -201,7 +201,7 @@ class CaseFacts {
   // triangles.
   bool is_trusted(std::size_t s);
 
-  // The functions below ask the oracle, and take the primitives and apexes from the detector's
+  // The functions below ask the oracle; they take the primitives and apexes from the detector's
   // result. S is a component with its ghosts, K the set of candidates. REQUIRES has_views(s).
   const std::vector<ViewSign>& signs(std::size_t s);        // mesh, then ghosts
   const std::vector<std::uint8_t>& touched(std::size_t s);  // by the component's ghosts (L11)

@@ -100,7 +100,7 @@ void simplify_together(ReductionSearch& search) {
 
 namespace {
 
-// Numbers the vertices in the order in which the triangles name them.
+// Returns the case with its vertices numbered in the order in which the triangles name them.
 Case with_vertices_by_use(const Case& c) {
   Numbers number(vertex_count(c), -1), was;
   const auto use = [&](std::int32_t v) {
