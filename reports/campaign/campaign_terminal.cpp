@@ -124,9 +124,10 @@ class CampaignTerminal : public properties::CampaignObserver {
   const Expected<void>& status() const { return status_; }
 
  private:
-  // If much of a campaign is undecided, most of its time is the wait for those cases.
+  // Returns advice if much of a campaign is undecided: most of its time is the wait for those
+  // cases.
   std::string advice(const properties::TrialProgress& state) const {
-    constexpr std::uint64_t share = 50;  // one in so many
+    constexpr std::uint64_t share = 50;  // one trial in this many
     constexpr double short_limit = 1;
     const bool waits = state.undecided > 1 && state.undecided * share > state.done_trials &&
                        request_.plan.case_seconds > short_limit;

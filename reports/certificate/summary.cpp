@@ -65,7 +65,7 @@ std::string strata_text(const Json& p) {
   return out;
 }
 
-// "met 3 times", or that no trial showed it.
+// Returns "met 3 times", or that no trial showed it.
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
   if (trials > 0) return "met " + properties::times_text(trials);
@@ -136,7 +136,7 @@ std::string claims_text(const Json& p) {
                      others.empty() ? "" : "; not judged: " + join(others, ", "));
 }
 
-// "seed 3, share 1/8", "seeds 1, 2, 3".
+// Returns "seed 3, share 1/8", "seeds 1, 2, 3".
 std::string seeds_text(const Json& parts) {
   std::vector<std::string> seeds;
   for (const auto& part : parts) seeds.push_back(cell(part["seed"].dump()));

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 using corpus::json_text;
 using Lines = std::vector<std::string>;
 
-// An empty object or list is a leaf, as a number is.
+// Returns whether the value is a leaf: a number, for example, or an empty object or list.
 bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
 // Reports each leaf that only one side has, or that differs. A side without a value at this place

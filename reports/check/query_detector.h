@@ -34,7 +34,7 @@ class QueryDetector {
   // Fails if the library cannot serve, or holds no query.
   static Expected<QueryDetector> open(const DetectorWords& words);
 
-  // The plug-in's name, claims, contract and isolation, one line each.
+  // Returns the plug-in's name, claims, contract and isolation, one line each.
   std::string title() const;
   const std::string& name() const { return subject_.detector.name; }
   // Returns the separation of its contract: 0 if it is asked for contact.

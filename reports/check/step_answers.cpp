@@ -122,7 +122,7 @@ class Plugin : public StepAnswers {
  private:
   properties::WorkerProcess worker_, second_;
   const std::shared_ptr<const corpus::Case> case_;
-  const bool drops_relation_;  // which the input has
+  const bool drops_relation_;  // the input has one that is dropped
 };
 
 }  // namespace
@@ -232,7 +232,7 @@ class Table : public GivenAnswers {
 
   std::string title() const override { return "answers of " + detector_text(subject_.detector); }
 
-  // Called for each step in turn.
+  // Is called for each step in turn.
   std::optional<std::string> left_out() override {
     if (rows_.contains(next_++)) return std::nullopt;
     ++steps_left_out_;

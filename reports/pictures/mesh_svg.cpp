@@ -55,7 +55,7 @@ class Picture {
     choose_side();
   }
 
-  // The picture of that time, without its place on the sheet.
+  // Returns the picture of that time, without its place on the sheet.
   std::string body(std::size_t time) {
     now_ = time;
     std::vector<std::size_t> order(faces_.size());
@@ -220,7 +220,8 @@ class Picture {
     }
     return out;
   }
-  // A circle if the two places are one in the picture, else two smaller ones and the segment.
+  // Returns a circle if the two places are one in the picture, else two smaller ones and the
+  // segment.
   std::string mark(const detector::PairContact& contact, const char* colour, const char* look,
                    int radius) const {
     const auto places = scene_.nearest_points(step_, contact);
@@ -254,7 +255,7 @@ class Picture {
   Eigen::Vector2d flat_low_, shift_;
 };
 
-// What stands below the picture: each text in a row, or in several where it is too long for one.
+// The texts below the picture: each in one row, or in several rows if it is too long.
 class Caption {
  public:
   void add(std::string_view text) {

@@ -88,7 +88,7 @@ class RowsArgument {
   using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
-  // `name` is that of the argument, for errors. Raises TypeError and ValueError.
+  // Takes the argument of this name; errors state the name. Raises TypeError and ValueError.
   RowsArgument(const pybind11::object& object, const char* name);
 
   // Returns a view that is valid as long as this object, which holds the array.

@@ -24,8 +24,8 @@ std::string rate_text(const properties::Rate& rate) {
                      100 * rate.interval.lo, 100 * rate.interval.hi);
 }
 
-// "3 by 0.002 (99 %: 0.01) to 0.5": the number of steps that are off, then of these steps the
-// median, the value that 99 of 100 do not exceed, and the worst.
+// Returns "3 by 0.002 (99 %: 0.01) to 0.5": the number of steps that are off, then of these steps
+// the median, the value that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
   return fmt::format("{} by {:.2g} (99 %: {:.2g}) to {:.2g}", off.steps, off.quantile(0.5),
@@ -51,7 +51,7 @@ std::vector<std::string> pairs_left_out(const properties::Contract& contract) {
   return properties::phrases_of(of_pairs);
 }
 
-// Tells on what the claim `deterministic` was tried besides the trials.
+// Tells on which meshes the claim `deterministic` was tried besides the trials.
 std::string repeated_text(const properties::EvidenceFacts& evidence) {
   const auto repeated = evidence.rows_of(properties::Source::repeated);
   const auto sum = evidence.sum_of(properties::Source::repeated);
@@ -70,7 +70,7 @@ std::string repeated_text(const properties::EvidenceFacts& evidence) {
       lines);
 }
 
-// How a limiter used what was possible; empty for none.
+// Returns how much of the possible way a limiter used; empty if there is none.
 std::string limits_text(const properties::LimitUse& use) {
   if (use.free + use.contact == 0) return "";
   std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);

@@ -12,7 +12,7 @@ namespace assay::reports {
 
 namespace {
 
-// The words of a list such as "all, first".
+// Returns the words of a list such as "all, first".
 std::vector<std::string> words_of(const std::string& list) {
   std::vector<std::string> words;
   constexpr std::string_view between = ", ";
@@ -122,7 +122,7 @@ Check share() {
   return number([](double x) { return x > 0 && x <= 1; }, "a number above 0, at most 1");
 }
 
-// This check is needed because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
+// Checks for a whole number, because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
 // unsigned number.
 Check whole_number() {
   return [](const std::string& word) {

@@ -30,7 +30,7 @@ struct VerbManual {
   const char* verb;
   const char* group;  // the title of the verb's group in the list of verbs
   const char* codes;  // the verb's possible exit codes, a digit each
-  // The meaning of exit code 0 if no claim is judged; empty: all claims hold.
+  // The meaning of exit code 0, if it is not that all claims hold.
   const char* success;
   std::vector<Example> examples;
 

@@ -130,8 +130,8 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
   return outcome::success();
 }
 
-// The kind of the input as a whole. Inputs of two kinds are refused, and so are two inputs if only
-// one can be judged.
+// Returns the kind of the input as a whole. Inputs of two kinds are refused, and so are two inputs
+// if only one can be judged.
 Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& words_of_bodies) {
   using corpus::InputKind;
   auto files = inputs;
@@ -179,7 +179,7 @@ bool counts_all(const CheckRequest& request) {
   return request.rings == 0 && request.rest_distance == 0 && !request.weld;
 }
 
-// The input in words as they were typed.
+// Returns the input in words as they were typed.
 std::string words_of(const CheckRequest& request) {
   std::string words = join(request.inputs, " ");
   for (const auto& files : request.question.bodies)
@@ -192,7 +192,7 @@ std::string words_of(const CheckRequest& request) {
   return answers.empty() ? words : words + " --answers " + answers;
 }
 
-// The mesh and its steps. Fails as their readers do.
+// Returns the mesh and its steps. Fails as their readers do.
 Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
                                 const CheckQuestion& question) {
   if (kind == a_log) return read_log(log_name(request.inputs.front()), request.selection);
@@ -327,7 +327,7 @@ Expected<int> run_check(const CheckRequest& request) {
   return code;
 }
 
-// Which steps of a log are judged.
+// Adds the options that choose steps of a log.
 void add_selection(CLI::App& verb, LogSelection& selection) {
   add(verb, "--share SHARE", selection.share, "Judge this share of a log's steps")->check(share());
   add(verb, "--from N", selection.from, "Go on with this step of a log, counted from 1")

@@ -65,13 +65,13 @@ properties::QueryTask task_of(const corpus::LabelledQuery& query) {
   return task;
 }
 
-// " within 0.1"; empty for a query of contact.
+// Returns " within 0.1"; empty for a query of contact.
 std::string within_text(const std::optional<double>& separation) {
   return separation ? fmt::format(" within {}", *separation) : "";
 }
 
-// Whether the label of a query that is coplanar throughout is in doubt, because another exact
-// method gives the same answer as this one (such labels were never checked by their makers).
+// Returns whether the label of a query that is coplanar throughout is in doubt, because another
+// exact method gives the same answer as this one (such labels were never checked by their makers).
 bool is_label_disputed(const properties::QueryMethod& method, const properties::QueryTask& task,
                        Decision answer) {
   const auto* oracle = properties::method_of("oracle");
@@ -81,7 +81,8 @@ bool is_label_disputed(const properties::QueryMethod& method, const properties::
 
 class QueryScore {
  public:
-  // Without a method it is the score of a plug-in, whose answers are added by add_answer.
+  // Begins a score. Without a method it is that of a plug-in, whose answers are added by
+  // add_answer.
   QueryScore(std::string name, std::vector<std::string> files,
              const properties::QueryMethod* method)
       : method_(method) {
@@ -113,7 +114,7 @@ class QueryScore {
 
   struct Answered {
     bool contact = false;       // or within the separation
-    std::optional<bool> truth;  // the label, if it is that of the query that was asked
+    std::optional<bool> truth;  // the label, if it is about the asked question
     std::optional<double> separation;
     bool label_disputed = false;
     double microseconds = 0;
@@ -209,10 +210,10 @@ class QueryScore {
     fmt::print("\n");
   }
 
-  // The referee contradicts the oracle.
+  // Returns whether the referee contradicts the oracle.
   bool is_unsound() const { return !contradictions_.empty(); }
-  // An answer differs from its truth in a way that the method claims to avoid. A plug-in is judged
-  // by its claims instead (check/query_detector.h).
+  // Returns whether an answer differs from its truth in a way that the method claims to avoid. A
+  // plug-in is judged by its claims instead (check/query_detector.h).
   bool is_wrong() const {
     using properties::Claim;
     return method_ && ((report_.false_positives > 0 && method_->claims.has(Claim::no_spurious)) ||
@@ -288,7 +289,7 @@ Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet
   return detector.exit_code();
 }
 
-// The problem of a method that knows no distance, if some query has a separation.
+// Refuses a method that knows no distance, if some query has a separation.
 Expected<void> check_method(const QueryQuestion& task, const std::vector<QuerySet>& sets) {
   if (task.method->knows_distance) return outcome::success();
   for (std::size_t i = 0; i < sets.size(); ++i) {

@@ -61,8 +61,7 @@ std::optional<TrialName> trial_of(std::string_view id) {
   return TrialName{family, *index};
 }
 
-// A case that states options runs in their configuration. Any other case runs in every
-// configuration.
+// Chooses configurations: that of the case's options if it states some, else every one.
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
@@ -180,7 +179,7 @@ std::string misspelt(const std::string& id) {
   return hint.empty() ? "" : fmt::format("no built-in campaign is called {}{}\n", campaign, hint);
 }
 
-// A step of a log, judged again.
+// Judges a step of a log again.
 Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
   if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
   BOOST_OUTCOME_TRY(input, read_log(log, {}));

@@ -72,7 +72,7 @@ void announce(const Families& families, const SelfTestRequest& request) {
   std::fflush(stdout);
 }
 
-// One case again, put to all methods.
+// Puts one case to all methods again.
 Expected<int> replay(const Families& families, const std::string& name) {
   const auto self_test = properties::self_test_case(families, name);
   if (!self_test)

@@ -27,7 +27,7 @@ struct VerifyRequest {
   int jobs = 1;
 };
 
-// A line about the files that were not looked at; empty if there are none.
+// Returns a line about the files that were not looked at; empty if there are none.
 std::string others_text(const std::vector<std::string>& files) {
   if (files.empty()) return "";
   constexpr std::size_t most_named = 3;
@@ -44,8 +44,8 @@ std::uint64_t fresh_seed() {
   return (std::uint64_t{device()} << bits) | device();
 }
 
-// The seed is chosen now, because whoever forges a certificate must not know which trials are
-// asked for.
+// Runs trials again. The seed is chosen now, because a forger of the certificate must not know
+// which trials are asked for.
 Expected<int> run_trials_again(const std::string& certificate, const VerifyRequest& request) {
   const std::filesystem::path file = certificate;
   AgainRequest request_again{*request.again, request.seed ? *request.seed : fresh_seed(),
@@ -141,8 +141,8 @@ struct ReportRequest {
 
 using Json = nlohmann::ordered_json;
 
-// Everything that the page says of the run in a folder. A certificate that stands there is
-// believed only if it verifies.
+// Returns everything that the page says about the run in a folder. A certificate that stands there
+// is believed only if it verifies.
 properties::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings.tally.trials(),
