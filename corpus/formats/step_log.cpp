@@ -340,15 +340,15 @@ Expected<void> StepLog::begin() {
     const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
     if (start.starts_with("\x1f\x8b"))
       return problem_in(path_, "it is packed, and a log is read where it lies: gunzip it first");
-    return problem_in(path_, is_log ? "its first record is damaged, so it is not known of which "
-                                      "mesh and detector it is"
-                                    : "it is no log of steps");
+    return problem_in(path_,
+                      is_log ? "its first record is damaged, so its mesh and detector are unknown"
+                             : "it is no log of steps");
   }
   const auto wrong = [&](std::string_view what) {
     return problem_in(path_, fmt::format("its first record: {}", what));
   };
   const Json& body = record->body;
-  if (text(value_of(body, "type")) != "begin") return wrong("it is none that begins a log");
+  if (text(value_of(body, "type")) != "begin") return wrong("it does not begin a log");
   if (const auto version = integer(value_of(body, "log")); version != 1)
     return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
                          : "log is missing or no number");
@@ -374,7 +374,7 @@ Expected<void> StepLog::begin() {
   if (const Json& counted = value_of(body, "counted"); body.contains("counted")) {
     if (!counted.is_object()) return wrong("counted is none");
     if (const auto field = read_counted(counted, head_.counted.emplace()); !field.empty())
-      return wrong(fmt::format("counted.{} is none", field));
+      return wrong(fmt::format("counted.{} is invalid", field));
     if (const auto bad = detector::check_counted_pairs(*head_.counted, head_.triangles, *vertices))
       return wrong(bad->message);
   }
@@ -412,7 +412,7 @@ std::optional<LogDamage> StepLog::damage() const {
 std::string StepLog::take(const Json& body) {
   const auto type = text(value_of(body, "type"));
   const auto number = integer(value_of(body, "record"));
-  if (type.empty() || !number) return "a record that nothing is known of";
+  if (type.empty() || !number) return "a record of an unknown kind";
   if (type == "begin") return "another log begins; read it by itself";
   if (*number != next_record_)
     return fmt::format("record {} in place of record {}", *number, next_record_);

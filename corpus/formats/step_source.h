@@ -55,7 +55,7 @@ class StepSource {
   // for.
   virtual const detector::Positions& first_frame() const = 0;
 
-  // Returns step s < count(). The frames of the step may be gone when the next step is asked for.
+  // Returns step s < count(). The frames of the step may be freed when the next step is asked for.
   // Problems: those of a file whose frame is read now. REQUIRES that steps are asked for in order,
   // and none after a problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;

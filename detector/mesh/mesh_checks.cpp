@@ -209,8 +209,8 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "a list of triangles, but features are what counts"
-                                      : "a list of features, but triangles are what counts");
+    return wrong_relation(of_features ? "a list of pairs of triangles, in a relation of features"
+                                      : "a list of pairs of features, in a relation of triangles");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {

@@ -202,8 +202,7 @@ typedef struct assay_description {
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if it is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
-  /* How much the detector holds; 0: any amount. Beyond one of these it may answer
-   * ASSAY_BEYOND_CAPACITY. */
+  /* How much the detector holds; 0: no limit. Beyond it, it may answer ASSAY_BEYOND_CAPACITY. */
   uint64_t capacity_triangles;  /* of the mesh */
   uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
                                    does not leave out */
