@@ -43,7 +43,7 @@ std::vector<CampaignPlan> make_named_plans() {
   constexpr double minute = 60, hour = 60 * minute;
   CampaignPlan smoke;
   smoke.name = "smoke";
-  smoke.about = "a short form of all of it, 2 minutes on 2 cores; states its bounds and wants none";
+  smoke.about = "a short form of the whole, 2 minutes on 2 cores; states its bounds and wants none";
   smoke.strata = strata(600, 200, 0, 0);
   smoke.law_premises = 20;
   smoke.fault_cases = 300;
@@ -388,7 +388,7 @@ corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
   for (const auto& other : named_plans()) {
     if (plan.name == other.name && !is_made_of(plan, other))
-      return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
+      return corpus::problem_in(file, "differs from the built-in campaign of its name");
   }
   return plan;
 }

@@ -267,7 +267,7 @@ std::vector<Fault> view_line_faults() {
       {wrong<Signs<sampled<Sample::start>>>, "view-line/at-start-only", "L2", "M_Lstartall", 4,
        "the sign at t=0 is taken for the step's", with_lines},
       {wrong<Signs<sampled<Sample::start, Sample::end>>>, "view-line/at-ends-only", "L2",
-       "M_Lendsall", 5, "equal signs at t=0 and t=1 are the step's", with_lines},
+       "M_Lendsall", 5, "equal signs at t=0 and t=1 are taken for the step's", with_lines},
       {wrong<Signs<from_midpoint>>, "view-line/midpoint-with-winding-of-an-end", "L5",
        "F_line_midpoint_winding", 6,
        "seen from the line's midpoint, while the winding number is that of q0", with_lines},

@@ -218,10 +218,10 @@ RandomCase make_any(Random& random, std::string id) {
 }
 
 constexpr Family question_table[] = {
-    {"limits", "of any family; the built-in detector is asked how far each step may be gone", false,
-     true, make_any},
-    {"within", "of any family; it is asked what comes within 2^-6, and how far to keep that", false,
-     true, make_any}};
+    {"limits", "of any family; the built-in is asked how far each step may be taken", false, true,
+     make_any},
+    {"within", "of any family; the built-in is asked what comes within 2^-6, and limited by it",
+     false, true, make_any}};
 
 constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,

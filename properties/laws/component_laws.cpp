@@ -147,8 +147,8 @@ constexpr Law component_law_table[] = {
      "clean and of one strict sign.",
      "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
     {"L10_ComponentsAreCleanByThemselves", "L10",
-     "At a new start with components in each other's boxes (nested, or interpenetrating) dirty is "
-     "what would be if each were alone: layers count the own component.",
+     "At a new start with components in each other's boxes (nested, or interpenetrating) the same "
+     "triangles are dirty as if each were alone: layers count the own component.",
      "layers of each component alone", each_step<components_are_clean_by_themselves>},
     {"L10_EachComponentAsIfAlone", "L10",
      "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "

@@ -26,7 +26,7 @@ constexpr int attempts = 3;
 std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
 
 std::string breach(const std::string& rule) {
-  return fmt::format("sent a reply that is none: {}", rule);
+  return fmt::format("sent an invalid reply: {}", rule);
 }
 
 }  // namespace
@@ -246,7 +246,7 @@ struct WorkerProcess::Parts {
     }
     const std::string rule = transfer == Transfer::too_long ? "longer than any reply to this case"
                              : decode(message, reply)       ? rule_of()
-                                                            : "bytes that are none";
+                                                            : "malformed bytes";
     if (rule.empty()) return true;
     // The plug-in sent something that is no reply, so it counts as one that crashed.
     CaseRun run;

@@ -220,10 +220,9 @@ GateFindings check_complete(const RunFindings& f, const VerbRequest& request) {
     std::vector<std::string> shares;
     for (const auto& part : f.parts)
       shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
-    gate.add_lasting(fmt::format(
-        "a whole campaign is more than the shares that are there: {}; shares 1/N need N "
-        "seeds that follow one another",
-        fmt::join(shares, ", ")));
+    gate.add_lasting(
+        fmt::format("the shares make no whole campaign: {}; shares 1/N need N consecutive seeds",
+                    fmt::join(shares, ", ")));
   }
   check_trials(f, request, gate);
   if (f.evidence.canaries.empty()) gate.add_to_do("no canary was met");

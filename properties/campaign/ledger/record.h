@@ -153,8 +153,8 @@ struct FailureRecord {
 
 // A text behind the explanation of a failure that its own case does not show.
 inline constexpr const char* needs_what_came_before =
-    "; asked again by itself, it comes to something else: what fails may need what the process did "
-    "before, and a replay may hold";
+    "; its case alone gives another result: the failure may need earlier work of the process, and "
+    "a replay may hold";
 
 // Returns the description in a failure's case file: "all-pairs: missing pair, edge-edge; triangles
 // 0 and 1 meet at t = 0.5".

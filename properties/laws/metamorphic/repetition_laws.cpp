@@ -284,8 +284,8 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
 constexpr Law repetition_law_table[] = {
     {"Change_StepHalved", "change",
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
-     "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
-     "first time.",
+     "the middle is exact), has the pairs of the whole, each at its time; with first contacts "
+     "alone it has the first time.",
      "nothing", check_halves, one_case_in_16, PremiseScope::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
@@ -320,7 +320,7 @@ constexpr Law repetition_law_table[] = {
      &changes::played_back},
     {"Change_StepsBeforeDoNotShow", "change",
      "Played after its own steps in another order, a sequence has the answers, pairs and times "
-     "that it has at first.",
+     "that it has by itself.",
      "nothing", check_form<changes::other_steps_first>, one_case_in_16, PremiseScope::any_culling,
      &changes::other_steps_first},
 };

@@ -250,7 +250,7 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
                                    const Positions& x_t1, const Positions& way) {
   const bool has_share = raw.share != -1;
   if (has_share && !(raw.share >= 0 && raw.share <= 1))
-    return Problem{"its share " + number_text(raw.share) + " is none from 0 to 1"};
+    return Problem{"its share " + number_text(raw.share) + " is not from 0 to 1"};
   if (!has_share && claims.has_any({Claim::path_free, Claim::progress}))
     return Problem{"it states no share, and claims path-free or progress"};
   LimitAnswer limit{raw.share, x_t1};

@@ -211,8 +211,8 @@ void half_alone(RunFindings& f) {
 
 TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
   expect_incomplete({half_alone},
-                    "a whole campaign is more than the shares that are there: 1/2 under seed 3; "
-                    "shares 1/N need N seeds that follow one another");
+                    "the shares make no whole campaign: 1/2 under seed 3; "
+                    "shares 1/N need N consecutive seeds");
   const Change second = [](auto& f) {
     f.parts.push_back({4, 2, "r"});
     for (auto& [family, tally] : f.tally.strata) tally = good_tally(2 * tally.trials);
