@@ -262,8 +262,7 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) 
   if (!*entry.reproduced) {
     entry.reply =
         "not reproduced: asked about this step alone, in a new process, the detector does not "
-        "fail; "
-        "what fails may need what the process did before";
+        "fail; the failure may need earlier work of the process";
     return outcome::success();
   }
   constexpr std::uint64_t most_calls = 100'000;

@@ -76,11 +76,12 @@ std::string limits_text(const properties::LimitUse& use) {
   std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);
   if (use.contact == 0) return text + "\n";
   text += fmt::format(
-      "; of the time until the contact in {} others used {:.3g} in the median, {:.3g} in 99 of "
-      "100, {:.3g} at worst; {} stalls{}\n",
+      "; {} others used {:.3g} in the median, {:.3g} in 99 of 100, {:.3g} at worst, of the time "
+      "until the contact; {} stalls{}\n",
       use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
-      use.excused > 0 ? fmt::format("; {} less than claimed, as rounding may be why", use.excused)
-                      : "");
+      use.excused > 0
+          ? fmt::format("; {} less than claimed, perhaps because of rounding", use.excused)
+          : "");
   for (const auto& [cause, count] : use.stalls)
     text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
   return text;
@@ -187,7 +188,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (e.late.steps > 0) parts.push_back(off_sentence("late", e.late));
   if (e.early.steps > 0) parts.push_back(off_sentence("early", e.early));
   if (m.starts_near > 0)
-    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, counted for no n",
+    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, counted in no n",
                                 m.starts_near, m.starts_near == 1 ? "" : "s"));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
@@ -207,8 +208,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   std::string out = fmt::format(
       "whatever is claimed (intervals of 95 %, in per cent; late, early: how many first times are "
       "after or before the oracle's, and by which share of the step: in the median, in 99 of 100 "
-      "of "
-      "them at most, and at worst; left out: cases + steps)\n{:24} {}\n",
+      "at most, and at worst; left out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -219,8 +219,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(
-        "in {} steps it does not report a contact, and need not by its contract ({}): without "
-        "that, "
+        "in {} steps it does not report a contact, as its contract allows ({}): without that, "
         "these were misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);

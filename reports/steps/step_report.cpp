@@ -110,7 +110,7 @@ std::string limit_text(const properties::LimitDiff& limit) {
                      : ", which has no contact";
   if (limit.hit)
     out += fmt::format("; contact on the way at t = {} of it", time_text(limit.hit->time));
-  if (limit.is_excused) out += "; less than claimed, as rounding may be why";
+  if (limit.is_excused) out += "; less than claimed, perhaps because of rounding";
   if (!limit.stall.empty()) out += "; stalls, " + limit.stall;
   return out + "\n";
 }

@@ -181,7 +181,7 @@ std::string misspelt(const std::string& id) {
 
 // Judges a step of a log again.
 Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
-  if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
+  if (request.why) return Problem{"--why explains the built-in detector, and this is a log"};
   BOOST_OUTCOME_TRY(input, read_log(log, {}));
   CheckQuestion question;
   question.files = {log.file};
@@ -230,7 +230,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
     subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
   }
   if (request.why && !subject.detector.built_in) {
-    return Problem{"--why is of the built-in detector: a plug-in does not show its stages"};
+    return Problem{"--why explains the built-in detector: a plug-in does not show its stages"};
   }
   if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
     return Problem{fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
@@ -303,9 +303,8 @@ void add_options(CLI::App& verb, ReplayRequest& request) {
       "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
       ->required();
   add(verb, "--export DIR", request.export_folder,
-      "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
-      "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
-      "it")
+      "Write frames as OBJ, a picture of the first contact and a test in C++ into this folder: "
+      "plain arrays with a GoogleTest, or for a plug-in with a program that loads it")
       ->group(OptionGroup::output);
   add_choice(verb, "--why A,B", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
