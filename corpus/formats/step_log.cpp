@@ -53,8 +53,8 @@ std::optional<std::int64_t> integer(const Json& value) {
 
 std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
-// Returns a typed array of RFC 8746. `big` is its tag if numbers begin with their highest byte; the
-// tag is 4 more if they begin with the lowest. Nothing if the value is no such array.
+// Returns a typed array of RFC 8746. Its tag is `big` if its numbers begin with their highest byte,
+// and big + 4 if with their lowest. Returns nothing if the value is no such array.
 template <class Number>
 std::optional<std::vector<Number>> typed_array(const Json& value, std::uint64_t big) {
   if (!value.is_binary()) return std::nullopt;

@@ -28,7 +28,7 @@ class IpcMesh {
     static std::unique_ptr<tbb::global_control> limit;
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
-    ipc::logger().set_level(spdlog::level::err);  // nobody would read a warning a pair
+    ipc::logger().set_level(spdlog::level::err);  // else it warns for each pair
   }
 
   static plugin::Description description() {

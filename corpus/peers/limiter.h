@@ -20,7 +20,7 @@ class LimiterOf {
     plugin::Description d = Peer::describe();
     d.claims = Peer::limit_claims | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
     d.limit_gives = ASSAY_LIMIT_START_PLUS;
-    d.margin = 0;  // it is a slack of reports
+    d.margin = 0;  // a margin is for reports
     return d;
   }
 

@@ -159,8 +159,8 @@ struct BoundingVolumeTree::Builder {
     return true;
   }
 
-  // Returns half of the triangles. For more than two wide nodes (WideTree) it is rounded to whole
-  // ones.
+  // Returns half of the triangles. A half of more than one wide node (WideTree) is rounded to whole
+  // nodes.
   static std::uint32_t half_of(std::uint32_t count) {
     constexpr std::uint32_t wide = box_lanes::width;
     return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;

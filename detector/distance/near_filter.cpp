@@ -120,8 +120,8 @@ class NearFilter {
     Vector n;
     double size, level;
   };
-  // The pair of corners whose gap falls to a level first: the share of the piece after which it
-  // gets there, and the fall of its gap over the piece.
+  // The pair of corners whose gap is the first to reach a level: the share of the piece until then,
+  // and the fall of the gap over the piece.
   struct Descent {
     double share = 1, rate = 0;
   };

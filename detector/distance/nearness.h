@@ -44,8 +44,8 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 //   with the Bernstein coefficients n0.w0, (n0.w1 + n1.w0) / 2, n1.w1 for w = p - q. |n| is convex,
 //   so d |n| is below the linear function with the end values d |n0| and d |n1|.
 // The next instant is where the distance would come to d if it fell as it did between the last two
-// (the secant rule), or the end of the step. If a piece up to there cannot be proved, the next
-// instant is the time until which the n of this instant keeps the features apart.
+// (the secant rule), or the end of the step. If the piece up to that instant cannot be proved, the
+// next instant is nearer: the one up to which the fixed n of this instant keeps the features apart.
 //
 // On the other hand, two places of the features that are nearer than d prove that the features are
 // within d at that instant.

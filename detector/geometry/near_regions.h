@@ -39,8 +39,8 @@ template <class Number>
 struct NearRegion {
   Number f;
   std::array<Number, 4> not_negative;
-  std::size_t conditions = 0;  // how many of these there are
-  Number positive;             // the strict condition; there is one if there are others
+  std::size_t conditions = 0;  // number of these
+  Number positive;             // the strict condition; stated if conditions > 0
 };
 
 template <class Number>

@@ -78,8 +78,8 @@ SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
   if (!step.tree.join_boxes(&pace)) return true;
-  // The workers add up the pairs of their ghosts. Each stops when the sum is too large. The sum at
-  // which they stop depends on their order, but not whether they stop.
+  // The workers add up the pairs of their ghosts. Each stops when the sum is too large. Whether
+  // they stop does not depend on their order; the sum at which they stop does.
   std::atomic<double> pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
   constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
@@ -161,9 +161,10 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
 // others, and, for an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// share_of_hope: the part of the saving estimated at a glance that is counted on. The others say
-// how many times the least work has to be affordable with holes, and without such a saving: work on
-// views that turn out too dear is lost.
+// share_of_hope: the policy counts on this part of the saving that it estimates at a glance.
+// with_holes, without_hope: views are tried only if this many times the least work can be paid, for
+// a mesh with holes and without such a saving, because work on views that turn out too dear is
+// lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {

@@ -169,8 +169,8 @@ class CostModel : public CullingPolicy {
   bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
   // Leaves out layers, which cost about a step of culling bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
-  // Returns whether the signs save enough among the triangles that are clean. If nothing was known
-  // of the start, the answer false begins no pause.
+  // Returns whether the signs save enough among the triangles that are clean. The answer false
+  // begins a pause, unless nothing was known of the start.
   bool worth_using(const GivenStep& step, const StepMarks& marks,
                    const StepCounts& counts) override;
 

@@ -65,7 +65,7 @@ class Rungs {
   }
 
   const ViewCounts& counts() const { return counts_; }
-  // Sets the pace that later runs ask.
+  // Makes later runs ask this pace.
   void ask(PacedStop* pace) { pace_ = pace; }
 
  private:

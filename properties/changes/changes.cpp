@@ -264,8 +264,8 @@ MaybeForm number_backwards(const Case& c, Random&) {
 MaybeForm draw_scale(const Case& c, Random& random) {
   constexpr int most = 60, end_of_doubles = 1024;
   const int some = random.between(1, most);
-  // Up to the largest doubles, where sums and differences overflow, or to the least. No filter
-  // decides there, so large meshes would take long.
+  // Scales up to the largest doubles, where sums and differences overflow, down to the least, or by
+  // some power between. No filter decides at the ends, so large meshes would take long.
   constexpr Eigen::Index largest_small = 40;
   const int kind = random.below(4) + (c.triangles.rows() > largest_small ? 2 : 0);
   return if_exact(scaled(c, kind == 0       ? end_of_doubles - exponent_above(c)

@@ -90,10 +90,10 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
 }
 
 // Splits some edges. Why contacts stay: a contact is closed faces without a common vertex that
-// meet. Let x be where two such faces of two triangles meet. x lies in a part of each, on faces of
-// these parts that have no other vertices than the split points besides; a split point is common to
-// two parts only if both triangles had the edge, and lie on either side of it, which faces without
-// a common vertex do not. Conversely, let parts meet in faces without a common vertex. Their
+// meet. Let two such faces of two triangles meet at x. In each triangle x lies in a part, on a face
+// of that part whose vertices are vertices of the whole face or split points. A split point is
+// common to two parts only if both triangles have the split edge, and two faces without a common
+// vertex do not both hold it. Conversely, let parts meet in faces without a common vertex. Their
 // triangles meet there too. If these have a vertex p in common, and the one part meets the other at
 // a split point m of an edge (p,q), follow the edge from m towards q: it leaves the other triangle,
 // which is convex, at q or through a face without p, and either is a contact of the two triangles

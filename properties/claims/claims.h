@@ -192,7 +192,8 @@ enum class Probe : std::uint8_t {
   by_second_run,     // of the same case
 };
 
-// The misdeed that breaks a claim. One change of the detector may mend all failures of one deed.
+// What a detector does wrong when it breaks a claim. One mistake may cause all failures of one
+// deed.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;

@@ -30,7 +30,7 @@ struct ClearedForOthersToo : Marking {
 };
 
 // Stops marking at a parent that has any flag, as if all nodes above it were then marked with this
-// flag. They may be marked with another one.
+// flag. In truth they may have another flag only.
 struct MarkedUntilAnyFlag : Marking {
   void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
             MarkingCounts& counts) const override {

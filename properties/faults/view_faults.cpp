@@ -208,8 +208,8 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
   return right_sign(triangle, midpoint(primitive));
 }
 
-// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
-// say nothing.
+// Asks for the winding number at the midpoint, from which the view is taken. The number at an end
+// would say nothing.
 struct FreeFromMidpoint : ReleaseRule {
   bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
                std::size_t c) const override {

@@ -34,11 +34,10 @@ struct Times {
   }
 };
 
-// Moves from `missing` to `excuses` the pairs that need not be found to have the first contact
-// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
-// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
-// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
-// time. O(n log n).
+// Moves from `missing` to `excuses` the pairs that a right first contact does not need: pairs later
+// than `first`, and pairs whose connected part of the contact graph holds a pair that was found.
+// The graph has the triangles as nodes. Its edges are those of `pairs` (all pairs of the oracle
+// that count) whose time is `first`. Times that share an enclosure count as one time. O(n log n).
 void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEnclosure& first,
                              std::vector<PairContact>& missing, std::vector<PairContact>& excuses) {
   std::set<TrianglePair> losses, of_lost_parts;

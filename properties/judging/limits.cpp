@@ -56,7 +56,7 @@ struct LimitComparison {
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    // A share counts only as far as the positions beside it go, each rounded by an ulp at most.
+    // A share counts at most up to the given positions, with an ulp added to each.
     limit.way =
         answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;
@@ -91,9 +91,9 @@ struct LimitComparison {
     return truth_of(judgement, of_way, step_.triangles).first;
   }
 
-  // Returns whether rounding cannot explain a way shorter than this share: there is room, and the
-  // way is free to each of some equally spaced places from there to the contact, rounded as by the
-  // caller.
+  // Returns whether rounding is no excuse for a way shorter than this share: there is room, and the
+  // way is free to each of some places from this share on to the contact, equally spaced and
+  // rounded as by the caller.
   bool is_owed(double share, double possible) {
     if (!has_room(share)) return false;
     for (int i = 0; i < owed_places && truth_.first; ++i) {

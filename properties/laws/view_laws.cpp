@@ -92,7 +92,7 @@ Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
       });
 }
 
-// L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
+// L2: the signs over a step. And: the view sets are disjoint, and together are all triangles.
 
 // Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
 // components whose primitive is a point, or only at those whose primitive is not.

@@ -78,9 +78,9 @@ Row row_at(const MovingPoint& p, double t) {
   return row_of(p.t0) + t * (row_of(p.t1) - row_of(p.t0));
 }
 
-// How far a triangle is positive, and how far negative, each from 0 to 1: the mean of two shares.
-// The one, of weight a quarter, counts the times and corners with this sign. The other counts the
-// times at which one corner has it: the corner that has it most often.
+// How far a triangle is positive, and how far it is negative, from 0 to 1. Each number is a
+// weighted mean of two shares: a quarter is the share of times and corners with this sign, and the
+// rest the share of times at which one corner has it, the corner that has it most often.
 struct Shares {
   double positive = 0, negative = 0;
 };

@@ -122,10 +122,10 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
   return Row(middle - (least + one_of(random, farther) * size) * way);
 }
 
-// Sets a view primitive from which the pair in focus, all pairs that meet first, or the whole mesh
-// faces away, or which these face, at both ends of the step and at some places between. If the
-// primitive moves, this holds in each frame. Pairs then meet only because a triangle turns on the
-// way, or because a ghost is touched (L4, L11).
+// Sets a view primitive that the pair in focus, all pairs that meet first, or the whole mesh faces
+// or faces away from, at both ends of the step and at some places between. If the primitive moves,
+// this holds in each frame. Pairs then meet only because a triangle turns on the way, or because a
+// ghost is touched (L4, L11).
 void face_away(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || c.triangles.rows() == 0) return;

@@ -36,9 +36,9 @@ class Descriptor {
 // The descriptor of the child's end of the channel.
 inline constexpr int child_descriptor = 3;
 
-// An open file of this process, and its number in the child. REQUIRES that `here` is not the number
-// of another file in the child: numbers from least_passed_descriptor on never are, and the first of
-// a list may have any number.
+// An open file of this process, and its number in the child. REQUIRES that no earlier file of a
+// list has the number `here` in the child; no file has it if `here` is least_passed_descriptor or
+// more.
 struct PassedDescriptor {
   int here, there;
 };

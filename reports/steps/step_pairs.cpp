@@ -149,8 +149,8 @@ class Inside {
   Inside(const detector::PositionsView& x, const detector::Topology& mesh, const Body& body)
       : instant_(own_places(x, body)), field_(instant_, own_triangles(mesh, body)) {}
 
-  // Returns whether the body holds the other one. The components of that are connected and meet
-  // nothing of this body, so one vertex of each decides.
+  // Returns whether this body holds the other one. Each component of the other body is connected
+  // and meets nothing of this one, so one of its vertices decides.
   bool holds(const detector::PositionsView& x, const Body& other) const {
     return std::all_of(
         other.components.begin(), other.components.end(), [&](const Component* component) {

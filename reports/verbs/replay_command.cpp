@@ -171,8 +171,8 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
 }
 
 // Returns a remark on an id whose campaign has nearly the name of a built-in one. A case is made
-// from the text of its id, so a misspelt name makes another case; but a campaign from a file may
-// have that name.
+// from the text of its id, so a misspelt name makes another case. It is no error, because a
+// campaign from a file may have that name.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
   const auto hint = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);

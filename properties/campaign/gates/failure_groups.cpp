@@ -155,7 +155,7 @@ std::string deed_of(const FailureRecord& failure) {
   return name_of(is_early ? Deed::reports : row_of(*claim).deed);
 }
 
-// Returns the two triangles that the explanation names; nothing if they are none of the mesh.
+// Returns the two triangles that the explanation names; nothing if the mesh lacks one.
 std::optional<TrianglePair> pair_told(const std::string& explanation, const Case& c) {
   constexpr const char* word = "triangles ";
   TrianglePair pair{0, 0};

@@ -98,9 +98,9 @@ struct NotJudged {
 ASSAY_FIELDS(NotJudged, claim, reason)
 
 // Returns the claims of a plug-in that were not judged, in their order. The contract makes some
-// void, by a margin or because it reports no pairs. Others were never put to the test: no step had
-// a contact, or the intervals of the first time were wider than 1e-3 in more than one of a hundred
-// collisions, and so state no time. If a detector is judged by steps and queries, the steps decide.
+// void, by a margin or because it reports no pairs. Others were never tested: no step had a
+// contact, or more than one collision in a hundred had an interval of the first time that is wider
+// than 1e-3 and so states no time. If a detector is judged by steps and queries, the steps decide.
 // Empty for the built-in detector, whose contract is the default and whose times are enclosures.
 std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries = false);

@@ -23,7 +23,7 @@ Case failing_case(const Case& c, const Configuration& configuration,
                   const DetectorUnderTest& detector, const Failure& failure) {
   Case out = c;
   out.about = about_text(failure.signature(), failure.explanation);
-  // A plug-in's one configuration has its name.
+  // The only configuration of a plug-in has the plug-in's name.
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
                (detector.built_in ? ", " + configuration.name : "");
   std::ranges::replace(out.id, ':', '-');
@@ -175,9 +175,9 @@ struct Trials {
   }
 
  private:
-  // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
-  // process (CampaignRequest::second_worker_limits), and in another order: some of these trials
-  // wait for each other, and the last comes first.
+  // Every 16th trial is run a second time, in another process
+  // (CampaignRequest::second_worker_limits), to judge the claim `deterministic`. A few of these
+  // trials wait for each other, and then run in the opposite order.
   static constexpr std::uint64_t repeat_every = 16;
   static constexpr std::size_t repeated_together = 4;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored

@@ -53,8 +53,8 @@ namespace goal {
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For the times of whole sequences with culling auto, over the one culling that takes the least
-// time for each whole sequence: the ratios of the sums, of the median steps, and of any step of a
+// For whole sequences with culling auto. The first two are ratios to the single culling that takes
+// the least time for the sequence: of the sums and of the median steps; and of the worst step of a
 // millisecond or more. Then the ratio of the first step to that of bvh, because both look at the
 // same pairs; and the ratio of one thread to two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
