@@ -305,11 +305,11 @@ std::vector<Fault> cone_faults() {
        "F_cone_joined_at_vertex", 4, "patches that share a vertex only are merged", with_cones},
       {wrong<PatchesOneByOne>, "cone/patches-one-by-one", "all-pairs (L13)",
        "F_cone_patches_one_by_one", 5,
-       "two patches that are each free and face one way are free together", with_cones},
+       "two patches, each free and facing one way, are taken as free together", with_cones},
       {wrong<PatchesOneByOne>, "auto/patches-one-by-one", "L14", "F_auto_patches_one_by_one", 71,
-       "what culling auto leaves out are patches that are each free", auto_with_cones},
+       "culling auto leaves out two patches that are each free", auto_with_cones},
       {wrong<NormalsAtEnd>, "auto/normals-at-end", "L14", "F_auto_normals_at_end", 49,
-       "what culling auto leaves out faces one direction at t=1 alone", auto_with_cones},
+       "culling auto leaves out patches that face one direction at t=1 alone", auto_with_cones},
   };
 }
 

@@ -145,9 +145,9 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<from_frozen_primitive<Sample::start>>>, "view/primitive-stays", "L3", "", 0,
        "a moving primitive is taken where it is at t=0, for the whole step", with_points,
        FaultStatus::equivalent,
-       "any fixed place is one continuous field (L10), and the winding number is taken there; "
-       "where the place at t=1 is trusted in the next step, it has winding number 1 or 0 in an "
-       "embedded surface, and from winding number 0 not everything is positive"},
+       "a fixed place is one continuous field (L10), with its own winding number; the next step "
+       "trusts the place at t=1, which has winding number 1 or 0 in an embedded surface, and from "
+       "0 not all is positive"},
   };
 }
 
@@ -254,10 +254,10 @@ std::vector<Fault> view_line_faults() {
        "corner 0 alone, with its own nearest point", with_lines},
       {wrong<Signs<region_of_first_corner>>, "view-line/region-of-first-corner", "L1",
        "B2_region_of_vertex0_at_start", 7,
-       "the region that corner 0 is in at t=0, for all and for the step", with_lines},
+       "the region of corner 0 at t=0 is used for all corners and the whole step", with_lines},
       {wrong<Signs<frozen_nearest_point>>, "view-line/frozen-nearest-point", "L10",
        "B3_nearest_point_frozen", 7,
-       "the point nearest to corner 0 at t=0, for all and for the step", with_lines},
+       "corner 0's nearest point at t=0 is used for all corners and the whole step", with_lines},
       {wrong<Signs<of_centroid>>, "view-line/centroid", "L1", "M_Lcentroid", 6,
        "the centroid alone, with its own nearest point", with_lines},
       {wrong<Signs<positive_from_either_end>>, "view-line/positive-from-either-end", "L10",

@@ -207,9 +207,9 @@ constexpr Law doubtful_input_law_table[] = {
      "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",
      each_step<zero_area_stays_in_v0>},
     {"L12_BadInputIsNamedAndChangesNothing", "L12",
-     "An index out of range or repeated, three vertices used twice, a frame of another size, a "
-     "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
-     "refused by name, and the next valid step is answered as if they had not been.",
+     "Bad input is refused by name (an index out of range or repeated, three vertices used twice, "
+     "a frame of another size, a coordinate that is not finite, a wrong number of primitives, a "
+     "commit of no step), and the next valid step is answered as if it had not been given.",
      "nothing", check_bad_input, one_case_in_16},
 };
 

@@ -123,8 +123,8 @@ constexpr Law question_law_table[] = {
      "each at its time.",
      "what comes within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
-     "A step may be taken as a limit says: that way is free, and nine tenths of what is possible "
-     "or more where rounding lets it; a free step is taken whole; the state stays as it is.",
+     "The way that a limit allows is free, and nine tenths or more of the possible one where "
+     "rounding lets it; a free step is taken whole; the state stays as it is.",
      "contacts, and those of the way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
      "A step that is stopped is undecided and cannot be committed; evaluated whole it then gives "

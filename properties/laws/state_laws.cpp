@@ -153,10 +153,9 @@ constexpr Law state_law_table[] = {
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
      PremiseScope::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
-     "After a step without views, the dirty triangles are those that it left in doubt, less those "
-     "that are now untouched and of the common layer: after a first step of closed components "
-     "those that are dirty by L9 at a verified start; of components with ghosts, all were in "
-     "doubt.",
+     "After a step without views, the dirty triangles are those that it left in doubt and that are "
+     "not now untouched and of the common layer. Of components with ghosts all were in doubt; of "
+     "closed ones, after a first step, those that are dirty by L9 at a verified start.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };

@@ -298,7 +298,7 @@ constexpr Law one_sign_law_table[] = {
      "(1,0).",
      "pair set, view signs, winding number, layers", each_step<all_positive_is_free<true>>},
     {"L5_AllPositiveAndWindingOneIsFree_Unclosed", "L5",
-     "A component with holes is free likewise if its ghosts are positive; no ghost touches it.",
+     "Likewise a component with holes, if its ghosts are positive too; no ghost touches it.",
      "pair set, view signs, winding number, layers, triangles touched by ghosts",
      each_step<all_positive_is_free<false>>},
     {"L5_TheFreePathIsTaken", "L5",

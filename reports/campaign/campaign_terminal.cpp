@@ -151,7 +151,8 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
       ->capture_default_str();
   add_seed(verb, words.seed, "Seed of all random cases; use a fresh one each night");
   add(verb, "--time SECONDS", words.time_limit,
-      "Seconds by the clock, in place of the campaign's own limit; trials left then are missing")
+      "Seconds by the clock, in place of the campaign's own limit; trials not run by then are "
+      "missing")
       ->check(positive())
       ->group(OptionGroup::limits);
   add(verb, "--case-seconds SECONDS", words.case_seconds,
@@ -162,10 +163,10 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
   add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, alone or with K, M or G",
              memory_size,
              "Address space of the process that runs a case, such as 6GB or 512MB, in place of the "
-             "campaign's own (4GB); beyond it memory fails")
+             "campaign's own (4GB); beyond it allocations fail")
       ->group(OptionGroup::limits);
   add(verb, "--power DIR", words.power,
-      "Folder of a run or certificate of this build that found the planted faults already");
+      "Folder of a run or certificate of this build that has found the planted faults");
   add(verb, "--corpus DIR", words.own_cases,
       "Folder of case files of your own (assay-case/1), judged beside the shipped ones");
   add(verb, "--data DIR", words.data,

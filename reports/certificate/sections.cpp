@@ -174,8 +174,8 @@ Json confidence_json(const RunFindings& findings) {
            "exact one-sided bound of Clopper and Pearson; Bonferroni over strata, claims and "
            "configurations"},
           {"speaks_of",
-           "the cases that the named generator makes, not the user's meshes: the share of them "
-           "on which a claim does not hold"}};
+           "the share of the named generator's cases, not of the user's meshes, on which a claim "
+           "does not hold"}};
 }
 
 // Returns one object for each stratum: planned, trials, discards, distinct cases, steps, and one

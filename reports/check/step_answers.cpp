@@ -93,7 +93,7 @@ class Plugin : public StepAnswers {
 
   std::string title() const override {
     return plugin_text(subject_) +
-           (drops_relation_ ? "; it cannot be told which pairs count, so that all do" : "");
+           (drops_relation_ ? "; it cannot be told which pairs count, so all do" : "");
   }
 
   nlohmann::ordered_json to_json() const override {
@@ -170,7 +170,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
         library)};
   auto contracted_case = properties::contract_case(*input.steps->whole(), detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
+    return Problem{fmt::format("{}: no step of it is within the contract of {}: {}", input.file,
                                plugin.description.name,
                                properties::why_left_out(*input.steps->whole(), detector.contract))};
   }

@@ -377,7 +377,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
              from_name<detector::Pairs>, "Which pairs are asked for (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
-             from_name<detector::Arithmetic>, "What the detector computes in (default exact)");
+             from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
   verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
   add(verb, "--second-opinion SHARE", question.second_opinion,
       "Check the oracle itself by other methods, on this share of its questions")

@@ -238,7 +238,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   const auto contracted_case = properties::contract_case(c, subject.detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
+    return Problem{fmt::format("{}: no step of it is within the detector's contract: {}",
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,

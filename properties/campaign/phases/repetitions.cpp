@@ -255,7 +255,7 @@ struct Repetitions {
     if (!contracted_case) {
       row.what = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
-      row.what = fmt::format("not run: it hung on {} of them before", hung_);
+      row.what = fmt::format("not run: the detector hung on {} large meshes before", hung_);
     } else {
       row.steps = steps_of(*contracted_case).size();
       run_all(*contracted_case, steps, row);

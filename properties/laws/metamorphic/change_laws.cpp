@@ -180,7 +180,7 @@ constexpr Law law_of(std::string_view name, std::string_view statement,
 constexpr Law change_law_table[] = {
     {"L18_RefinedMeshHasTheSameContacts", "L18",
      "If edges are split at exact places, in all triangles that have them, and no split triangle "
-     "loses its area, a mesh has the same times and pairs, up to which part of a triangle meets.",
+     "loses its area, a mesh has the same times and pairs, if parts count as their triangle.",
      "nothing", check_form<changes::split_edges>, one_case_in_16, PremiseScope::any_culling,
      &changes::split_edges},
     law_of<changes::vertex_numbers>(

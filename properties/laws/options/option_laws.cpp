@@ -294,9 +294,8 @@ constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
      "In a configuration that is drawn so that every two values of culling, arithmetic, start, "
      "pairs, threads, separation, relation, question, state before the case, mesh and size meet, "
-     "the claims hold. Limits are asked for too, and steps and limits are stopped. Where the "
-     "caller "
-     "vouches for a clean start, that is true.",
+     "the claims hold. Limits are asked for too, and steps and limits are stopped. A caller "
+     "vouches only for a start that is clean.",
      "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
 };
 
