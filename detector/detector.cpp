@@ -177,7 +177,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
-  // If times are not unique, the pairs found would depend on what is kept.
+  // If times are not unique, the pairs found would depend on the kept pairs.
   const bool keeps_near = options.keeps_near && options.arithmetic == Arithmetic::exact;
   // Kept feature pairs need a margin (L20).
   tree.grow_boxes(

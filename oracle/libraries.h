@@ -1,5 +1,5 @@
-// The libraries that the oracle's verdicts rest on: their versions, and what happens when their
-// exact numbers find no memory.
+// The libraries that the oracle's verdicts rest on: their versions, and the end of the program when
+// their exact numbers find no memory.
 #pragma once
 
 #include <string>

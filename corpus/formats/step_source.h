@@ -27,7 +27,7 @@ struct SourceStep {
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
   std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
-  std::vector<std::string> remarks = {};  // one line each on what was changed or is ignored
+  std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
 class StepSource {

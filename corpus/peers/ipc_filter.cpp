@@ -11,9 +11,9 @@
 //   tutorial      update_if_needed, given dhat as the tutorial "Offset Geometric Contact" writes it
 //                 in the place of min_distance, then filter_step; only with distance 0
 //
-// Settings: the defaults; dhat 1e-3; the radius of the query is what warm_start_time_step makes it,
-// 2 dhat or the longest way of a vertex, for the tutorial calls that one first. Claims:
-// commit-free, by their documentation. The tutorial says that the method is "designed to guarantee
+// Settings: the defaults; dhat 1e-3; the radius of the query is that of warm_start_time_step, 2
+// dhat or the longest way of a vertex, for the tutorial calls that one first. Claims: commit-free,
+// by their documentation. The tutorial says that the method is "designed to guarantee
 // penetration-free simulation", and of the filtered step "Now dx is safe to apply: x += dx". The
 // header of the planar filter says "while retaining the penetration-free guarantee", and the header
 // of all filters "Minimum distance between elements". Deterministic and total, because the filters

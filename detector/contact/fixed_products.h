@@ -188,8 +188,7 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
   }
 }
 
-// A piece of the step in exact Bernstein coefficients, and what the signs of the coefficients
-// tell.
+// A piece of the step in exact Bernstein coefficients, and the facts that their signs tell.
 //
 // Leave out the zeros among the coefficients of a polynomial over a piece. Then:
 // - If the rest have one sign, the polynomial has that sign throughout the open piece.

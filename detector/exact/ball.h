@@ -113,7 +113,7 @@ class Ball {
   }
 
  private:
-  // Makes it the ball around the integer of these limbs, the last of which is not 0.
+  // Makes it the ball around the integer of these limbs. REQUIRES that the last limb is not 0.
   template <class Limb>
   void take_limbs(const Limb* limbs, std::size_t size) {
     const Limb top = limbs[size - 1];

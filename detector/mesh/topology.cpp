@@ -264,7 +264,7 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
     const auto t = static_cast<Eigen::Index>(i);
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
   };
-  // Each function needs what those before it have made.
+  // Each function needs the results of those before it.
   if (for_all_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
       find_triangles_of_vertices(mesh, vertices, pace) && make_edges(mesh, vertices, pace) &&
       make_components(mesh, vertices, pace)) {

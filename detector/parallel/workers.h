@@ -2,8 +2,8 @@
 // the pieces of a loop at the same time; everything else is done by the calling thread.
 //
 // A piece writes only to places of its own or of its lane, and the results of lanes are put
-// together in a way that does not depend on their order. So a result does not depend on how many
-// threads there are, nor on which of them did what. A loop returns when all of its pieces are done.
+// together in a way that does not depend on their order. So a result depends neither on the number
+// of threads nor on how the work was shared. A loop returns when all of its pieces are done.
 #pragma once
 
 #include <atomic>

@@ -9,8 +9,8 @@
 namespace assay::detector {
 namespace {
 
-// The estimate of what a step with views may save and cost. The cost model decides by these numbers
-// (culling_policy.h).
+// An estimate of the saving and the cost of a step with views. The cost model decides by these
+// numbers (culling_policy.h).
 
 // Returns the share of pairs that are left out because both triangles lie in V+ or both in V-. Near
 // pairs have equal signs more often than far ones, so of a component with p positive and n negative
@@ -124,7 +124,7 @@ constexpr double cost_of_open = 15;
 
 // Costs in candidates a triangle: cones, and the binary descent in place of the wide one, take 0.3
 // us a triangle. If patches of a hundred triangles are not free, a proof is asked for at each of
-// the many smaller ones. Worths: proofs leave out pairs of neighbours, of which about half lie
+// the many smaller ones. Worths: proofs leave out pairs of neighbours. About half of these lie
 // within small patches that are free, three quarters within medium ones, and nearly all within
 // large ones. Each candidate that is left costs more in the binary descent, too. Measured on steps
 // of 20,000 to 25,000 triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a
@@ -134,7 +134,8 @@ constexpr double cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3, cost_
                  least_provable = 0.5;
 
 // With views K asks for pairs along the borders between V+ and V- alone. Patches there are cut up
-// into small ones before they are free, and proofs leave out 0.3 to 0.4 of what they do elsewhere.
+// into small ones before they are free, and proofs leave out 0.3 to 0.4 of the pairs that they
+// leave out elsewhere.
 constexpr double worth_beside_views = 0.4;
 
 constexpr std::uint64_t longest_pause = 32;

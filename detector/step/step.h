@@ -44,7 +44,7 @@ class FirstViews {
   std::optional<Positions> x_;  // nothing once they are made
   std::vector<ViewAnchor> anchors_;
   std::vector<ApexRule> apex_rules_;
-  double work_ = 0;  // until they are made, a lower bound of what they take
+  double work_ = 0;  // until they are made, a lower bound of their work
 };
 
 // The data that a detector keeps for its mesh: the results of preprocessing, and the working memory

@@ -76,7 +76,7 @@ TimeEnclosure least_time(std::span<const PairContact> pairs) {
 //
 // Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
 // leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
-// of this step tell the next one what is clean (L15).
+// of this step tell the next one which triangles are clean (L15).
 bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
                          const ReleaseRule& release, Start start, StartBy by) {
   if (marks.all_free()) {
@@ -208,7 +208,7 @@ bool StepRun::pays_to_use() {
 void StepRun::drop_views() {
   // Uses only what is known already. Without a committed state or the caller's word (Start::clean)
   // all triangles are dirty. Nothing is lost by that: the step tests every pair anyway, and from
-  // its pairs the next step releases what is clean (L15).
+  // its pairs the next step releases the clean triangles (L15).
   const Start start = context_.options.start;
   if (step_.last_state) {
     marks_.clean = step_.last_state->clean;

@@ -30,7 +30,7 @@ struct JudgeOptions {
   // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
   const detector::CountedPairs* counted = nullptr;
   // Which of the counted pairs the detector tests; null: all. Together with `features` it decides
-  // what asked_pairs holds. REQUIRES the same as `counted`.
+  // which pairs asked_pairs holds. REQUIRES the same as `counted`.
   const detector::CountedPairs* tested = nullptr;
 };
 
@@ -80,7 +80,7 @@ class StepFeatures {
   void for_each_pierced_at_start(const Workers& workers, const VisitPierced& visit) const;
 
   // Says whether a counted pair of triangles holds the two features. Relations take time, so this
-  // is asked about what is near, and not about every pair that is visited.
+  // is asked about near features only, and not about every pair that is visited.
   bool some_pair_counts(const FeaturePair& pair) const;
 
   // Judges the step by the answer to each pair of features whose boxes meet.

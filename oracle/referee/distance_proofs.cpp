@@ -50,11 +50,11 @@ Vector<double> unit_vector(Vector<double> v) {
 //
 // Bound, u = 2^-53. The products n_s.c(s) and n_e.c(e), and the middle sum of two products, are
 // wrong by at most 7.1 u S, S = sum over k of (|n_s[k]| + |n_e[k]|) size[k], and S itself is
-// computed with less than 8 roundings (existence.cpp, at `judge`); 8 u S is enough, and what is
-// spare, 0.9 u S, covers underflow, because the directions are unit vectors and so S > 2^-901. A
-// length |n| as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a root.
-// The product with d, the sum of two of these and the sum with the bound add 4 u, so a length that
-// is taken 16 u longer makes the comparison sure.
+// computed with less than 8 roundings (existence.cpp, at `judge`); 8 u S is enough, and the spare
+// 0.9 u S covers underflow, because the directions are unit vectors and so S > 2^-901. A length |n|
+// as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a root. The
+// product with d, the sum of two of these and the sum with the bound add 4 u, so a length that is
+// taken 16 u longer makes the comparison sure.
 SeparationProof judged(const DoubleReach& reach, const Hull<double>& at_s, const Hull<double>& at_e,
                        const Vector<double>& n_s, const Vector<double>& n_e) {
   constexpr double u = 0x1p-53;

@@ -121,8 +121,8 @@ bool contains_origin(const Hull<mpz_class>& hull) {
 
 Fraction simplest_fraction(std::int64_t k, int depth) {
   // By continued fractions: the result is the first integer between the ends or, if there is none,
-  // the integer part and the reciprocal of the simplest fraction between the reciprocals of what
-  // is left.
+  // the integer part and the reciprocal of the simplest fraction between the reciprocals of the
+  // remainders.
   auto simplest = [](auto&& self, std::int64_t a, std::int64_t b, std::int64_t c,
                      std::int64_t d) -> Fraction {  // in [a/b, c/d]
     const std::int64_t whole = a / b;

@@ -33,7 +33,8 @@ std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, dou
   return list;
 }
 
-// Adds strata of sizes, from 1,000 triangles on. A multiple of ten shows each shape equally often.
+// Adds strata of sizes, from 1,000 triangles on. Counts that are multiples of ten show each shape
+// equally often.
 void add_sizes(CampaignPlan& plan, std::initializer_list<std::uint64_t> cases) {
   auto family = size_families().begin();
   for (const auto count : cases) plan.strata.push_back({std::string((family++)->name), count, 0});

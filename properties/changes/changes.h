@@ -19,7 +19,7 @@ class Random;
 // A case in another form.
 struct Form {
   Case c;
-  // By triangle of the form: the same triangle in the case, or the one of which it is a part.
+  // By triangle of the form: the same triangle in the case, or the one that it is a part of.
   Numbers parent;
   // By step of the case: the same step in the form. Empty if the answers cannot be compared,
   // because coordinates were rounded or steps divided.

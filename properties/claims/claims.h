@@ -62,7 +62,7 @@ struct CandidateCount {
   std::uint64_t given_pairs = 0, least = 0;
 };
 
-// What a limiter allowed in a step that starts without a contact (judge_limit).
+// The way that a limiter allowed in a step that starts without a contact (judge_limit).
 struct LimitDiff {
   double share = -1;  // of the step; -1: not stated
   double way = 0;     // the share, or, if none, the part of the way that the positions go

@@ -148,7 +148,8 @@ struct StillBoxes : TreeSearch {
   }
 };
 
-// Searches K and one round of the closure. What that round finds starts no further one.
+// Searches K and one round of the closure. The triangles found in that round start no further
+// round.
 class SinglePassClosure : public TreeSearch {
  public:
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,

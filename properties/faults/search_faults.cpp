@@ -197,8 +197,8 @@ std::vector<Fault> search_faults() {
   };
 }
 
-// Wrong normal cones and contours (L13): what the classical form of the traditional scheme gets
-// wrong. See detector/traditional/traditional.cpp.
+// Wrong normal cones and contours (L13): the mistakes of the classical form of the traditional
+// scheme. See detector/traditional/traditional.cpp.
 
 namespace {
 

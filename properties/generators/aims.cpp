@@ -169,7 +169,7 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start) {
   aimer.send(aimed->vertex, place, t);
   if (kind == 5) {
     const auto other = aimer.choose();
-    // The second aim must not move what the first aim rests on.
+    // The second aim must not move a vertex of the first one.
     if (other && other->vertex != aimed->vertex && !has(aimed->target, other->vertex) &&
         !has(other->target, aimed->vertex)) {
       aimer.send(other->vertex, aimer.place_on(other->target, t), t);

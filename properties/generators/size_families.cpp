@@ -336,7 +336,7 @@ RandomCase make_large(Random& random, std::string id) {
   Draft draft;
   draft.frames.resize(2);
   shape.make(random, triangles, draft, draft.frames[1]);
-  // A second step, which goes on in the same direction, shows what state is carried.
+  // A second step, which goes on in the same direction, shows the state that is carried.
   if (triangles <= largest_with_two_steps) {
     Points beyond;
     for (std::size_t v = 0; v < draft.rest().size(); ++v)

@@ -103,8 +103,8 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
                             const PositionsView& x_t1, TrianglePair pair, Options options = {});
 
-// A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's
-// way is judged by them. REQUIRES a judgement by judge_under.
+// A step that is judged, with all that its judgement needs. `options` say which pairs count and are
+// tested; a limiter's way is judged by them. REQUIRES a judgement by judge_under.
 struct JudgedStep {
   SteppedMesh motion;
   TrianglesView triangles;

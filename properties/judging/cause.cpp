@@ -150,7 +150,7 @@ class PairOfStep {
     return false;
   }
 
-  // Tells what is special about the contact of these two features.
+  // Tells the special properties of the contact of these two features.
   const char* shape(const PairContact& contact, bool of_distance) const {
     if (is_without_area(contact.time)) return without_area;
     return of_distance ? shape_of_distance(contact)
@@ -235,8 +235,7 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, 
 }
 
 int oddity_of(std::string_view signature) {
-  // The order goes by the numbers first, then by a near start, then by what is shared, then by what
-  // is at rest, then by the shape, then by the time.
+  // The order is by numbers first, then near start, shared vertices, rest, shape, and time.
   const auto place_of = [&](const auto& words) {
     int place = 0;
     for (std::size_t i = 0; i < std::size(words); ++i) {

@@ -14,8 +14,8 @@ namespace assay::properties {
 
 namespace {
 
-// Returns a pair of triangles because of which the contract does not take a step that starts with
-// the mesh at x. Only pairs that count, and that the detector tests, are looked at.
+// Returns a pair of triangles that is too near for the contract when a step starts with the mesh at
+// x. Only pairs that count, and that the detector tests, are looked at.
 std::optional<TrianglePair> pair_too_near(const PositionsView& x, const Case& c,
                                           const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
@@ -64,8 +64,8 @@ std::optional<Positions> exact_end(const Positions& x, const Positions& to) {
 
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
 // displacement that leads nearest to the end in `original`. Steps whose sum is no double are
-// left out. Returns false if all are. A mesh at rest stays the first frame where the contract goes
-// by it.
+// left out. Returns false if all are. A mesh at rest stays the first frame, if the contract depends
+// on it.
 bool hold_displacements(Case& c, Case original, const Contract& contract) {
   std::vector<std::size_t> exact;
   auto steps = steps_of(c);

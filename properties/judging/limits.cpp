@@ -9,7 +9,7 @@
 namespace assay::properties {
 namespace {
 
-// What a limiter that promises no progress is compared with.
+// The progress that is asked of a limiter that promises none.
 constexpr double usual_progress = 0.9;
 // A limiter stalls if the mesh stays although a vertex could move by so many units in its last
 // place (L17).

@@ -42,8 +42,8 @@ void find_stage(Failure& failure, const Case& c, const CaseStep& step, const Ste
         stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair, options);
 }
 
-// Does the same for a plug-in. The stages of a plug-in are unknown, so this adds what is special
-// about the contact.
+// Does the same for a plug-in. The stages of a plug-in are unknown, so this adds the special
+// properties of the contact.
 void find_cause(Failure& failure, const Case& c, const CaseStep& step, const StepJudgement& truth,
                 const Contract& contract) {
   if (!failure.pair) return;

@@ -189,8 +189,8 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The search of a detector, made to ask for proofs wherever they are not hopeless. The law is
-// about what the proofs leave out, and not about when they pay.
+// The search of a detector, made to ask for proofs wherever they are not hopeless. The law is about
+// the pairs that proofs leave out, and not about when proofs pay.
 class EagerMeshSearch : public detector::MeshSearch {
  public:
   EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)

@@ -120,8 +120,8 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
 }
 
 // Checks that a component by itself behaves as it does among others. One component is checked,
-// chosen by the case's id, if there are two or more and all pairs are asked for (a collision of
-// which only the first contacts are known makes all components dirty, L8).
+// chosen by the case's id, if there are two or more and all pairs are asked for (after a collision
+// whose later contacts are unknown all components are dirty, L8).
 void check_component_alone(CaseFacts& facts, LawTally& tally) {
   const auto components = facts.surface().mesh.components.size();
   if (components < 2 || facts.options().pairs != detector::Pairs::all) return;

@@ -169,7 +169,7 @@ bool is_at_start(const oracle::DistanceVerdict& proof) {
 }
 
 // Returns whether the enclosed time, lo itself or one strictly between lo and hi, surely lies
-// outside of what is proved.
+// outside of the proved times.
 bool is_outside(const TimeEnclosure& time, const oracle::DistanceVerdict& proof) {
   const int end = oracle::compare(proof.by, time.lo);
   const bool is_after =

@@ -68,8 +68,8 @@ struct DegeneracyAt {
 };
 
 // Returns the moved query; nothing if the steps do not come near the goals, or if a number
-// overflows on the way. The bits of `moving` say what moves: bit i is point i at t = 0, bit 4 + i
-// is point i at t = 1. About 20 us.
+// overflows on the way. The bits of `moving` name the ends that move: bit i is point i at t = 0,
+// bit 4 + i is point i at t = 1. About 20 us.
 inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);

@@ -91,7 +91,7 @@ struct Move {
 // Returns all moves. The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// Return the lists of which moves() is made.
+// Return the lists that moves() joins.
 std::span<const Move> feature_moves();
 std::span<const Move> step_moves();
 std::span<const Move> mesh_moves();

@@ -48,8 +48,8 @@ void choose_moves(Random& random, const SearchSpace& space, Swarm& swarm) {
 void choose_sizes(Random& random, const SearchSpace& space, Swarm& swarm) {
   constexpr std::size_t any_frames = 9;
   if (swarm.theme == Theme::fresh) {
-    // Larger cases take three quarters of the time of trials, and find least in it. Without views
-    // a pair of triangles shows most of what a mesh shows.
+    // Larger cases take three quarters of the time of trials, and find least in it. Without views a
+    // pair of triangles shows most faults that a mesh shows.
     constexpr Eigen::Index sizes[] = {12, 24, 24, 40}, of_features[] = {4, 4, 8, 12, 24, 40};
     swarm.most_triangles = space.gives_views ? one_of(random, sizes) : one_of(random, of_features);
     swarm.most_frames = any_frames;
@@ -136,7 +136,7 @@ struct Entry {
   std::string cause, cell;
   double score = 0;
   bool is_within_a_component = false;
-  double alike = 0;  // what meets first (seen_alike)
+  double alike = 0;  // the pairs that meet first (seen_alike)
 };
 
 std::string word_of_hardest(const Gap& gap) {

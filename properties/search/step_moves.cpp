@@ -56,7 +56,7 @@ void split_step(Case& c, std::size_t place, double share, bool has_first_part) {
 }
 
 // Changes the past of the step in focus: the same step comes after other steps, from another place,
-// or in two parts. What a detector carries from step to step is then different.
+// or in two parts. The state that a detector carries from step to step is then different.
 constexpr std::size_t most_frames = 6, most_steps = 8;
 void past(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;

@@ -79,7 +79,7 @@ void look_aside(Random& random, Candidate& child, const MoveContext& context) {
   std::vector<DegeneracyAt> goals = {
       {random.one_in(2) ? Degeneracy::double_root : Degeneracy::coplanar, time, 0}};
   if (random.one_in(3)) goals.push_back({Degeneracy::coplanar, one_of(random, times), 0});
-  // The primitive, a corner, or both; what is at rest stays there in half of the cases.
+  // The primitive, a corner, or both; points at rest stay so in half of the cases.
   const unsigned masks[] = {0x01, 0x10, 0x11, 0xe0, 0xf0, 0x20, 0xff, 0xee};
   const auto points_moved = moved_onto(points, goals, one_of(random, masks));
   if (!points_moved) return;

@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
                                   *asks_twice != 0};
         if (const auto word = python_word_of(plugin.name))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
-        ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // what the host left open
+        ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // left open by the host
         if (*host == 0) ::setsid();                                  // bwrap's cannot be seen here
         if (!limit_plugin(*bytes)) return exit_usage;
         // An exception that nobody catches ends the process as it would end any other.

@@ -71,7 +71,8 @@ struct WorkerProcess::Parts {
 
   // Makes sure that there is a live worker, and starts a new one if need be.
   Expected<void> ensure() {
-    // Behind bwrap, the worker outlives it by a moment.
+    // The child may be bwrap, which the worker outlives by a moment, so the channel is looked at
+    // too.
     if (live && (live->channel.is_closed() || live->child.has_ended())) bury();
     for (int killed = 0; !live; ++killed) {
       end_of_loading = RunEnd::not_run;
@@ -126,7 +127,7 @@ struct WorkerProcess::Parts {
                       "--isolation limits",
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
-    // A new one, so that no process finds what another one has left.
+    // A new one, so that no process finds the files of another one.
     BOOST_OUTCOME_TRY(folder, ScratchFolder::make());
     scratch.emplace(std::move(folder));
     if (names_python(who())) {
@@ -202,7 +203,7 @@ struct WorkerProcess::Parts {
 
   Problem broken_hello() const { return {fmt::format("{}: {}", who(), breach("no description"))}; }
 
-  // Sends what is left to do and appends the answers, until a run ends the worker.
+  // Sends the remaining cases and appends the answers, until a run ends the worker.
   void run_rest(std::span<const Case> cases, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // These are the fields of a RunRequest, without a copy of the cases.

@@ -150,7 +150,7 @@ std::string worlds_text(const RunFindings& findings) {
   return out;
 }
 
-// Returns what was judged of the detector and what was not, besides its measures.
+// Returns on which sizes claims were tried, and which parts and families were not judged.
 std::string judged_lines(const Json& p) {
   std::string out;
   const auto sizes = sizes_text(p["judged_up_to"]);

@@ -402,7 +402,7 @@ Json replay_json(const RunFindings& findings) {
 }
 
 // Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
-// a folder. The result is what will be read back from the file.
+// a folder. The result equals the JSON that is read back from the file.
 Json for_any_reader(const RunFindings& findings, Json predicate) {
   RunPaths(findings).tell_in(predicate);
   return Json::parse(corpus::json_text(predicate));

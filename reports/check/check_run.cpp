@@ -159,7 +159,7 @@ class CheckRun {
     outcome_.defect = verdict.outcome == Outcome::defect;
     outcome_.is_judged &= verdict.outcome != Outcome::refused;
     outcome_.undecided = !outcome_.defect && verdict.outcome != Outcome::refused;
-    // If the only broken claim is that two runs agree, there are steps to show.
+    // If only the claim `deterministic` is broken, there are steps to show.
     return verdict.breaches == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 

@@ -112,7 +112,7 @@ Json bodies_json(const corpus::Case& c) {
   return list;
 }
 
-// Returns the scene of a case in `assay-report/3`: what the viewer draws (`scene` of its schema).
+// Returns the scene of a case in `assay-report/3`, which the viewer draws (`scene` of its schema).
 Json scene_json(const CaseScene& scene, const corpus::Case& c) {
   Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
   for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {

@@ -150,7 +150,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
                                           std::move(text))};
 }
 
-// Returns the report as JSON, what is printed, and the exit code.
+// Returns the report as JSON, the printed text, and the exit code.
 py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py::dict& args,
                       const std::string& worker, const py::object& listener) {
   std::optional<double> separation;
@@ -225,7 +225,7 @@ py::tuple read_case(const std::string& file) {
   return mesh_and_frames(c.value().triangles, c.value().frames);
 }
 
-// Returns, as JSON, what a certificate would say about the run in a folder.
+// Returns, as JSON, the predicate that a certificate of the run in a folder would have.
 std::string findings(const std::string& folder) {
   const auto result = properties::read_findings(folder);
   if (!result) throw py::value_error(result.error().message);

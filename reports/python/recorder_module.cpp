@@ -32,7 +32,7 @@ assay_record_array array_of(const py::object& object) {
 class Recorder {
  public:
   // Begins a log. `mesh`, `counted` and `near` are (triangles, positions), (bodies or None, apart)
-  // and (rings, distance at rest, places at rest); `described` is what hosting.described() gives.
+  // and (rings, distance at rest, places at rest); `described` comes from hosting.described().
   Recorder(const std::string& path, const std::pair<Integers, py::array>& mesh,
            const std::pair<std::string, std::string>& name,
            const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every, bool overwrite,
@@ -63,7 +63,7 @@ class Recorder {
   // Writes no end of the log, because this process may be a fork of the one that records.
   ~Recorder() { assay_record_free_(&recorder_); }
 
-  // Records a step. `answer` is what hosting.parts_of() gives, or None.
+  // Records a step. `answer` comes from hosting.parts_of(), or is None.
   void step(const py::object& x0, const py::object& x1, const py::object& dx,
             const py::object& committed, const py::object& answer, const Text& message,
             double share, const std::optional<Reals>& positions) {

@@ -49,7 +49,7 @@ constexpr const char* beside_the_verbs = "Beside it";
 std::string exit_codes_text();
 
 // Returns the text broken into lines of 80 columns. Each line but the first begins with `indent`
-// blanks; the first continues a line of which `indent` columns are written already.
+// blanks; the first continues a line that has `indent` columns already.
 std::string wrapped(const std::string& text, std::size_t indent);
 
 // Returns one line that says which words are allowed, and which may have been meant.

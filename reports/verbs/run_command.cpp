@@ -200,7 +200,7 @@ Expected<int> run_campaign(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, {properties::store_file(out)}));
   BOOST_OUTCOME_TRY(
       store, properties::Store::open(properties::store_file(out), properties::binding_of(request)));
-  // Runs what is left, and reads the whole of it.
+  // Runs the rest of the campaign, and reads the findings of all of it.
   const auto findings = [&]() -> Expected<properties::RunFindings> {
     if (request.own_cases) {
       BOOST_OUTCOME_TRY(own, judge_corpus(request, ""));

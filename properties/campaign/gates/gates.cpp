@@ -33,7 +33,7 @@ struct GateFindings {
   }
 };
 
-// Returns what can be done about the reasons of gate `complete`.
+// Returns the remedy for the reasons of gate `complete`.
 std::string remedy_of(const GateFindings& gate) {
   const auto all = gate.against.size(), lasting = gate.lasting.size();
   if (lasting == 0) return "the same command, run again, goes on with what is missing";

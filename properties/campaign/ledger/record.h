@@ -92,7 +92,7 @@ enum class Source : std::uint8_t { trial, corpus, own, repeated, search, self_te
 struct SourceRow {
   Source value;
   const char* name;
-  Source counts_as;    // itself, or the source of which it is a part
+  Source counts_as;    // itself, or the source that it is a part of
   bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
   const char* prefix;  // of the ids of its failures; no trial's id begins so
   // Texts: where a kind of failure that no trial shows was met; the same for a summary; and the

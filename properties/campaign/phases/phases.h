@@ -253,7 +253,7 @@ double shrinking_seconds(const CampaignPlan& plan);
 // Takes the failures whose signature is not in the store yet, and stores the smallest mesh of each
 // such signature. Then it shrinks these meshes. Each takes at most a minute, and all together at
 // most the share of the plan's time that is reserved for shrinking. REQUIRES failures in the order
-// of the corpus. What an earlier call stored stays. `progress` is called with the signature that is
+// of the corpus. The rows of an earlier call stay. `progress` is called with the signature that is
 // being shrunk.
 // Returns the stored failures of the corpus.
 Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,

@@ -401,7 +401,7 @@ struct Repetitions {
     if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, verdict, row.what);
   }
 
-  // Stores what the end of a run shows, or its difference from another one.
+  // Stores a finding: how a run ended, or how it differs from another one.
   void keep_end(const Case& c, const CaseRun& run, const Verdict& verdict,
                 const std::string& what) {
     auto failure = failure_of(verdict, c, {}, run, configuration(), request_.detector);

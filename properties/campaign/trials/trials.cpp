@@ -241,7 +241,7 @@ struct Trials {
     return {*trial.detector, trial.configurations, trial.first, trial.second};
   }
 
-  // Runs the case, and notes what disturbed the runs and how long they took.
+  // Runs the case, and notes the disturbances and the times of the runs.
   static void run(Trial& trial, void (*part)(const Exam&, CaseResults&)) {
     part(exam_of(trial), trial.results);
     throw_if_not_run(trial.results);
@@ -266,7 +266,7 @@ struct Trials {
     }
   }
 
-  // Notes what the verdicts on a trial say.
+  // Notes the verdicts on a trial.
   void conclude(Trial& trial) const {
     auto& record = trial.record;
     const auto& results = trial.results;
@@ -305,7 +305,7 @@ struct Trials {
     }
   }
 
-  // Counts what the trials met, keeps them, and empties the list.
+  // Counts the traits of the trials, keeps the trials, and empties the list.
   void finish(std::vector<Trial>& ended_trials) {
     if (request_.detector.built_in) count_cases(ended_trials);
     for (auto& trial : ended_trials) keep(trial);

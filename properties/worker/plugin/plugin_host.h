@@ -44,7 +44,7 @@ class PluginHost {
   bool asks_twice_ = false;
 };
 
-// Reads what a plug-in gives without trusting it: its table of functions, in any version that this
+// Reads the output of a plug-in without trust: its table of functions, in any version that this
 // host takes; its description; and its results.
 
 // Returns the text as one printable line, no longer than a reply may hold; empty for null.

@@ -45,7 +45,7 @@ std::string nothing_described(const assay_detector_api& table) {
   return text.empty() ? "describe() returns nothing" : "describe(): " + text;
 }
 
-// Says what in the description makes no sense; empty if all of it does.
+// Names the part of the description that makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
   std::string unknown;
   visit_members(raw, contract, [&]<class T>(const char* name, const auto& value, T& member) {

@@ -261,8 +261,9 @@ struct Match {
   const corpus::Case& c;  // as fitted to the contract of the subjects
   std::vector<SweptSubject> subjects = {};
   std::vector<SweptRuns> runs = {};
-  // If cases are judged: the oracle's judgement of each step; and by subject the errors of its
-  // first run, `outcome` by the claims by which errors are counted, and `own` by its own claims.
+  // If cases are judged: the oracle's judgement of each step, and a verdict on the first run of
+  // each subject. `outcome` is by the claims by which errors are counted, `own` by the subject's
+  // own claims.
   std::vector<oracle::StepJudgement> truth = {};
   struct Verdict {
     properties::StepErrors errors = {};
