@@ -111,7 +111,7 @@ struct GridMap {
   GridPoint operator()(GridPoint p) const;
 };
 
-// The facts that the construction of a case tells; first_time and view_signs only if it tells them.
+// The facts that the construction of a case tells. It need not tell first_time and view_signs.
 using KnownFacts = ExpectedStep;
 
 // Returns one step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is

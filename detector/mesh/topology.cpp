@@ -48,8 +48,8 @@ class EdgesOfVertices {
     for (auto v = begin; v < end; ++v) collect(v, around.row(v));
   }
 
-  // Takes the first numbers of these edges and their uses, and sets both to the numbers that
-  // follow.
+  // Numbers these edges and their uses from `edge` and `use` on, and sets both to the next free
+  // numbers.
   void begin_at(std::size_t& edge, std::size_t& use) {
     first_edge_ = static_cast<std::int32_t>(std::exchange(edge, edge + count_));
     first_use_ = static_cast<std::int32_t>(std::exchange(use, use + uses_.size()));

@@ -120,8 +120,8 @@ void StepFeatures::for_each(const BoxOfVertices& boxes, const Workers& workers,
     for_each_of(kind, boxes, workers, visit);
 }
 
-// Visits the pairs of one kind that counted pairs of triangles may hold. Each kind has an index of
-// its own, so that no more than one tree is in memory at a time.
+// Visits the feature pairs of one kind that counted pairs of triangles may hold. Each kind has an
+// index of its own, so that no more than one tree is in memory at a time.
 void StepFeatures::for_each_of(FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
                                const VisitPair& visit) const {
   if (workers.gate->stopped()) return;

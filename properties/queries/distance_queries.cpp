@@ -105,8 +105,7 @@ class Touch {
 
  private:
   Point tangent() { return cross(across_.w, integer_point(random_, 2)); }
-  // Returns a random offset, not to the inner side of its plane; side 1 is that of the second
-  // feature.
+  // Returns a random offset that does not lead into the slab; side 1 is the second feature's.
   Point outward(double side) {
     const Point p = integer_point(random_, 6);
     return Point{} + (dot(p, across_.w) * side < 0 ? -1 : 1) * p;

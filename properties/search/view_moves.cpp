@@ -224,8 +224,8 @@ std::optional<Ray> any_ray(Random& random, const Case& c, const Positions& x,
   return is_positive || is_negative ? std::optional(ray) : std::nullopt;
 }
 
-// Moves the view primitive into the plane of one of the triangles that meet first, at a time, as
-// doubles see it: the sign of the triangle is then one of rounding errors.
+// Moves the view primitive, at one time, into the plane of one of the triangles that meet first, as
+// computed in doubles: then only rounding errors decide the sign of the triangle.
 void put_into_a_plane(Random& random, Candidate& child) {
   auto& c = child.c;
   const auto step = steps_of(c)[child.focus->step];

@@ -178,8 +178,8 @@ bool gate_fails(const Json& p, std::string_view name) {
   });
 }
 
-// Returns a test for each stratum. It fails for the reason for which a gate fails: by its defects
-// if the claims do not hold, and by its bound if the bounds are not met.
+// Returns a test for each stratum. It fails as a gate fails: by its defects if gate `claims` fails,
+// and by its bound if gate `bounds` fails.
 Tests strata_tests(const Json& p) {
   Tests tests;
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");

@@ -95,8 +95,8 @@ struct SourceRow {
   Source counts_as;    // itself, or the source that it is a part of
   bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
   const char* prefix;  // of the ids of its failures; no trial's id begins so
-  // Texts: where a kind of failure that no trial shows was met; the same for a summary; and the
-  // name of the count behind the verdict.
+  // Texts: the first two say, on the terminal and in a summary, where a kind of failure was met
+  // that no trial shows; the last names the count behind the verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
   // The section of a certificate that lists the source's inputs, if any; and the members of
   // JudgedSource shown there. "queries=cases" shows `cases` under the name `queries`.

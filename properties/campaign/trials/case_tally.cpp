@@ -96,7 +96,7 @@ class ConfigurationLaws {
   CaseFacts facts_;
 };
 
-// A law, and the places in lists of the case and the configuration in which it is checked.
+// A law to be checked, and in which case and configuration, by their places in the lists.
 struct LawCheck {
   const Law* law;
   std::size_t of_case, configuration;

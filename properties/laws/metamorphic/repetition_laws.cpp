@@ -136,7 +136,7 @@ std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
 }
 
 // Restores the same state with one primitive too few among those that view-auto has chosen since.
-// This has to be refused.
+// The detector has to refuse this state.
 bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Detector& detector) {
   detector::StateFields fields = state.fields();
   if (!fields.committed || fields.anchors.empty()) return false;
