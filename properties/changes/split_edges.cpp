@@ -95,9 +95,9 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
 // common to two parts only if both triangles have the split edge, and two faces without a common
 // vertex do not both hold it. Conversely, let parts meet in faces without a common vertex. Their
 // triangles meet there too. If these have a vertex p in common, and the one part meets the other at
-// a split point m of an edge (p,q), follow the edge from m towards q: it leaves the other triangle,
-// which is convex, at q or through a face without p, and either is a contact of the two triangles
-// at the same time. So contacts and their times stay; only the parts that are named may differ. A
+// a split point m of an edge (p,q), follow the edge from m towards q. It leaves the other triangle,
+// which is convex, at q or through a face without p. Either is a contact of the two triangles at
+// the same time. So contacts and their times stay; only the parts that are named may differ. A
 // triangle without area may meet itself in its parts, which is why none is split.
 std::optional<Form> split_some_edges(const Case& c, Random& random) {
   Form form = unchanged(c);

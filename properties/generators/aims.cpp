@@ -204,8 +204,8 @@ Point on_face(Random& random, Draft& draft, const Points& x) {
   }
 }
 
-// Returns the middle of the path on which a place of a face moves in a step, so that the surface
-// passes through it.
+// Returns a point through which the surface passes: the middle of the way of a place of a face in a
+// step.
 Point pierced(Random& random, Draft& draft) {
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1));
   const Face& f = one_of(random, draft.faces);

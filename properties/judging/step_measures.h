@@ -171,8 +171,8 @@ struct Rate {
 
 // Returns the share of the free steps that were answered collision. Steps of one trial depend on
 // each other. So the interval counts only (sum of n)^2 / (sum of n^2) steps, where n is the number
-// of free steps of a trial; if n is the same for all trials, this is the number of trials (Kish,
-// Survey Sampling, 1965, 11.7).
+// of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same for all trials,
+// this is the number of trials.
 Rate false_alarm_rate(const StepMeasures& measures);
 // Returns the share of steps answered free among the steps with a contact that counts. Its interval
 // is made in the same way.

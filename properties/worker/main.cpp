@@ -158,9 +158,8 @@ int serve(Channel channel, const LoadedPlugin* library) {
 
 // Serves the host. The arguments are the descriptor of the channel, the process of the host (0
 // behind bwrap) and a limit in bytes. For a plug-in these follow: the library, its scratch folder,
-// how many threads it may use, its name as the user calls it, which may be the word of a detector
-// in Python, the number by which this worker differs from others, and 1 where each step is
-// evaluated twice, else 0.
+// its number of threads, the user's name for it (perhaps the word of a detector in Python), the
+// number by which this worker differs from others, and 1 if each step is evaluated twice, else 0.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   constexpr std::size_t built_in = 4, with_plugin = 10;

@@ -1,6 +1,6 @@
 // Common parts of calls from Python: problems of the other rooms as exceptions, ctrl-C during work
-// that does not hold the interpreter, and arrays of NumPy, both as input of the detector, without a
-// copy if their layout allows a view, and as its results.
+// that does not hold the interpreter, and arrays of NumPy as input and results of the detector.
+// Input is not copied if its layout allows a view.
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only

@@ -47,7 +47,7 @@ struct QueryReport {
   std::uint64_t false_positives = 0, false_negatives = 0, disputed_labels = 0;
   std::vector<QueryDifference> differences;
   double mean_us = 0, median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
-  std::uint64_t open = 0;  // neither yes nor a difference
+  std::uint64_t open = 0;  // undecided; neither a yes nor a difference
   std::uint64_t contradictions = 0;
   std::optional<std::map<std::string, std::uint64_t>> rungs;  // of a method that has some
 };

@@ -133,11 +133,11 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
 Extremes largest_tried(const RunFindings& findings);
 
 // Returns why too little was judged for a verdict; empty if enough was. Asked only where a claim
-// speaks of contacts and the contract does not make it void: a tenth of the planned cases of each
-// family must have a contact that the contract does not leave out, and so must some cases of at
-// least three families. If the campaign names fewer families and no certificate is asked for, some
-// cases of each suffice. Families that the contract leaves out wholly do not count. Nothing is
-// known about a claim that no step put to the test.
+// speaks of contacts and the contract does not make it void. Contacts that the contract leaves out
+// do not count. A tenth of the planned cases of each family must have a contact, and so must some
+// cases of at least three families. If the campaign names fewer families and no certificate is
+// asked for, some cases of each suffice. Families that the contract leaves out wholly do not count.
+// Nothing is known about a claim that no step put to the test.
 std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate);
 
 // Groups the kinds of failure of a run by the change of the detector that would mend them: one

@@ -127,9 +127,9 @@ struct Versions {
 ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
 
 // The result of one input in one configuration. The input is a part of the shipped corpus, a scene,
-// or the owner's cases; a large mesh, put to a plug-in (several times if it claims to be
-// deterministic) to try its claims on more than the trials; a lane of the search; or a family of
-// queries of the self-test. Each fills the members that apply to it.
+// or the owner's cases; a large mesh, on which a plug-in's claims are tried (several times, if it
+// claims to be deterministic); a lane of the search; or a family of queries of the self-test. Each
+// fills the members that apply to it.
 struct JudgedSource {
   static constexpr const char* kind = "judged";
   struct Failed {

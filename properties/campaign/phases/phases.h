@@ -119,13 +119,13 @@ Case long_sequence(std::uint64_t seed);
 // a failure, whose mesh is the step that differs. A run that hangs is reported and breaks nothing;
 // after three such meshes no further mesh is run.
 //
-// The oracle judges two steps of each scene as the first run answered them, if the scene has such
-// steps: the step with the fewest contacts that the contract does not leave out, and the first step
-// without any. It also judges up to two steps whose answers break a claim if the built-in detector
-// is right. That detector only chooses the steps; it decides nothing. A step that breaks a claim is
-// a failure, whose mesh is the step alone, or, if the step fails only after the steps before it,
-// the scene up to this step. In the long sequence the oracle judges every step, and the first four
-// failing steps of each signature are kept.
+// The oracle judges two steps of each scene, as the first run answered them: the step with the
+// fewest contacts, and the first step without any. Contacts that the contract leaves out do not
+// count. A scene may lack such a step. It also judges up to two steps whose answers break a claim
+// if the built-in detector is right. That detector only chooses the steps; it decides nothing. A
+// step that breaks a claim is a failure, whose mesh is the step alone, or, if the step fails only
+// after the steps before it, the scene up to this step. In the long sequence the oracle judges
+// every step, and the first four failing steps of each signature are kept.
 //
 // A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //

@@ -306,13 +306,13 @@ bool has_account(CaseFacts& facts, std::size_t s);
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone. At a new start these are the triangles that are not clean by its layers; but layers do
-// not count with start unknown, nor with start verified under a culling that chooses views
-// (view-auto, auto): there every component is dirty that is not free by view. Otherwise a triangle
-// is dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or
-// in contact with its own component), and is not now untouched and in the common layer. That layer
-// is the one of the triangles that are not in doubt; in a component without such triangles, it is
-// the layer of most untouched triangles.
+// alone. At a new start these are the triangles that are not clean by its layers. Layers do not
+// count with start unknown, nor with start verified under a culling that chooses views (view-auto,
+// auto): then every component that is not free by view is dirty. Otherwise a triangle is dirty if
+// it was in doubt after the step before (dirty by this account, touched by a ghost, or in contact
+// with its own component), and is not now untouched and in the common layer. That layer is the one
+// of the triangles that are not in doubt; in a component without such triangles, it is the layer of
+// most untouched triangles.
 //
 // A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
 // caller vouched for the start; else those that were in doubt after the step before. REQUIRES

@@ -32,7 +32,7 @@ namespace assay::reports {
 // The goals of the suites of `assay bench`, as ratios. Suites hand these values to their rows; the
 // comments below name the rows.
 //
-// Only chosen bounds have a name here. The others stand in their rows: no wrong answer
+// Only chosen bounds have a name here. Other goals stand in their rows: no wrong answer
 // (at_most(0)), every answer the same (at_least(100) %).
 
 // The goal of a row.
@@ -53,10 +53,10 @@ namespace goal {
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto. The first two are ratios to the single culling that takes
-// the least time for the sequence: of the sums and of the median steps; and of the worst step of a
-// millisecond or more. Then the ratio of the first step to that of bvh, because both look at the
-// same pairs; and the ratio of one thread to two.
+// For whole sequences with culling auto. The first is for the sum and the median step, over those
+// of the single culling that takes the least time for the sequence; the second for the worst step
+// of a millisecond or more. The third is for the first step over that of bvh, because both look at
+// the same pairs, and the last for one thread over two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -328,9 +328,9 @@ class Comparison {
 // Returns whether another method shows that step s has a contact that was missed or reported too
 // late, or one of the missing pairs. If the contact may be at any time of the step, the method is
 // the referee (a proof without roots). Otherwise it is rational arithmetic at a witness: a time
-// before the detector's at which the two features (or, if the contract asks for all features, their
-// two triangles) meet, or two times between which the features are proved to meet
-// (oracle/referee/referee.h). REQUIRES an unsafe diff of that step.
+// before the detector's at which the two features meet, or two times between which they are proved
+// to meet (oracle/referee/referee.h). If the contract asks for all features, their two triangles
+// may meet instead. REQUIRES an unsafe diff of that step.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 
