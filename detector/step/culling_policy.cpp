@@ -162,10 +162,9 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
 // others, and, for an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// share_of_hope: the policy counts on this part of the saving that it estimates at a glance.
-// with_holes, without_hope: views are tried only if this many times the least work can be paid, for
-// a mesh with holes and without such a saving, because work on views that turn out too dear is
-// lost.
+// share_of_hope: the part of an estimated saving that the policy counts on. with_holes,
+// without_hope: how many times the least work has to be payable before views are tried, for a mesh
+// with holes, and without an estimated saving. Work on views that turn out too dear is lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {
