@@ -148,8 +148,8 @@ class GoesOnAfterStop : public TreeSearch {
   mutable std::uint64_t looked_at_ = 0;
 };
 
-// All detectors of the process count their box tests in one place, and each takes the sum that
-// accumulated while it searched for its own.
+// All detectors of the process count their box tests in one place, and each takes all that came
+// together during its search for its own count.
 struct CountedTogether : TreeSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     static std::atomic<std::uint64_t> box_tests = 0;

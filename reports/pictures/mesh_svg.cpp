@@ -108,9 +108,10 @@ class Picture {
   }
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
-  // Chooses one of four isometric sides: the one from which the triangle of the pair that covers
-  // the smaller area covers most. A triangle that is not shown does not count. If the nearest
-  // points are apart, a side also counts by how long the segment between them appears.
+  // Chooses one of four isometric sides. From each side the triangle of the pair that covers less
+  // area counts; the side where it covers most is chosen. A triangle that is not shown does not
+  // count. If the nearest points are apart, a side also counts by how long the segment between them
+  // appears.
   void choose_side() {
     double most = -1;
     const auto* contact = exact_ ? exact_ : answer_;

@@ -286,8 +286,8 @@ PairBlock block_of(ViewSign a, ViewSign b, bool either_violated);
 
 using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
 
-// Returns how the oracle contradicts that the triangles marked in `is_held` are untouched and that
-// those of one component share a layer. Empty if it does not.
+// Returns the oracle's objection to the claim that the triangles marked in `is_held` are untouched
+// and that those of one component share a layer. Empty if it has none.
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
                               const TriangleFlags& is_held);
 

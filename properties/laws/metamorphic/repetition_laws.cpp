@@ -17,7 +17,7 @@ namespace assay::properties {
 namespace {
 
 // Returns whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t -
-// 1 are exact. A time that no double equals has a closer enclosure in the second half, which lies
+// 1 are exact. If no double equals the time, its enclosure in the second half is closer, and lies
 // inside of the one that is computed here.
 bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
   const TimeEnclosure doubled = {2 * t.lo - half, 2 * t.hi - half};

@@ -23,14 +23,14 @@ namespace {
 
 using detector::StepLimit;
 
-// The case that the oracle is asked about, and the case that the detector is given instead: behind
-// the step that the state asks for, and with its far body.
+// The case that the oracle is asked about, and the case that the detector is given: with the step
+// that the state asks for in front, and with its far body.
 struct PosedCase {
   Case judged_case, played_case;
   DrawnOptions draw;
 };
 
-// Returns the case behind the step that the state asks for.
+// Returns the case with the step that the state asks for in front.
 Case with_step_before(Case c, StateBefore state) {
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
   auto script = steps_of(c);

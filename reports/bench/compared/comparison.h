@@ -53,10 +53,10 @@ namespace goal {
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto. The first is for the sum and the median step, over those
-// of the single culling that takes the least time for the sequence; the second for the worst step
-// of a millisecond or more. The third is for the first step over that of bvh, because both look at
-// the same pairs, and the last for one thread over two.
+// For whole sequences with culling auto. The first two are over the single culling that takes the
+// least time for the sequence: the first for the sum and the median step, the second for the worst
+// step of a millisecond or more. The third is for the first step over that of bvh, because both
+// look at the same pairs, and the last for one thread over two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
