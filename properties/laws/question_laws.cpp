@@ -119,8 +119,8 @@ constexpr int one_case_in_64 = 64;
 
 constexpr Law question_law_table[] = {
     {"L16_WithinADistanceIsWhatTheOracleFinds", "L16",
-     "Asked what comes within a distance, without views, a detector finds the pairs of the oracle, "
-     "each at its time.",
+     "A detector without views that is asked what comes within a distance finds the oracle's "
+     "pairs, each at its time.",
      "what comes within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
      "The way that a limit allows is free, and nine tenths or more of the possible one where "
