@@ -151,8 +151,7 @@ double there_and_back(double s) { return sin_turn(s / 2); }
 Point turn_inside_out(const Point& x, double s, const Extent&) {
   constexpr double roll = 0.3;  // radius of the rolled rim
   constexpr double rim = pi * roll, length = 2 * tube_half_length;
-  // The rim is at this height of the rest shape, which goes from the upper end to beyond the lower
-  // one.
+  // The height of the rim in the rest shape. It moves from the upper end to beyond the lower one.
   const double fold = tube_half_length - (length + rim) * there_and_back(s);
   const double beyond = x[2] - fold;
   if (beyond <= 0) return x;

@@ -86,9 +86,9 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
 
-// Returns whether two triangles at rest cross: no plane has one on each of its closed sides.
-// Triangles that meet without crossing touch, even if they lie on each other in one plane. Exact,
-// 10 to 30 us.
+// Returns whether two triangles at rest cross. They do if no plane separates them: one triangle on
+// each of its closed sides. Triangles that meet without crossing touch, even if they lie on each
+// other in one plane. Exact, 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);
 

@@ -56,7 +56,7 @@ struct LimitComparison {
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    // A share counts at most up to the given positions, with an ulp added to each.
+    // The way ends at the given positions, or an ulp farther, even if the share is larger.
     limit.way =
         answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;

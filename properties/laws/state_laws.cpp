@@ -138,9 +138,9 @@ constexpr Law state_law_table[] = {
      "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>, 1,
      PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
-     "Dirty at the start of a step that continues from a committed one are exactly the triangles "
-     "that were dirty, touched by a ghost or in contact with their own component until then, and "
-     "are not untouched and of the common layer of their component now.",
+     "The dirty triangles at the start of a step that continues from a committed one are exactly "
+     "those that were dirty, touched by a ghost or in contact with their own component until then, "
+     "and are not untouched and of the common layer of their component now.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",

@@ -123,8 +123,8 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
-    gate.add_lasting(
-        fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
+    gate.add_lasting(fmt::format("{} of {} trials were disturbed from outside; at most 1 % may be",
+                                 disturbed, trials));
 }
 
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
@@ -151,7 +151,8 @@ void check_search(const RunFindings& f, GateFindings& gate) {
   const auto cases = f.shares_of(f.run.plan.search);
   const auto lanes = f.evidence.sum_of(Source::search);
   if (lanes.planned < cases)
-    gate.add_to_do(fmt::format("the search came to lanes of {} of {} cases", lanes.planned, cases));
+    gate.add_to_do(
+        fmt::format("the search has finished lanes of {} of {} cases", lanes.planned, cases));
   if (cases > 0 && lanes.planned == cases && lanes.cases == 0)
     gate.add_lasting("the contract takes no case of the search");
   if (lanes.undecided > 0)
