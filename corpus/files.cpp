@@ -71,13 +71,13 @@ Problem corrupt(const std::filesystem::path& path, const char* how, std::size_t 
 
 Problem empty(const std::filesystem::path& path) { return problem_in(path, "the file is empty"); }
 
-// The problem of a file that is named like a gzip stream but is none.
+// Returns the problem of a file that is named like a gzip stream but is none.
 Problem no_gzip(const std::filesystem::path& path) {
   return corrupt(path, "has no gzip signature", 0);
 }
 
-// A gzip file is one or more members one after another; all are decompressed, or as many as it
-// takes to have `enough` bytes.
+// Decompresses the members of a gzip file, one after another: all, or as many as it takes to have
+// `enough` bytes.
 Expected<std::string> inflate_all(const std::filesystem::path& path, std::string& packed,
                                   std::size_t limit, std::size_t enough = std::string::npos) {
   z_stream stream{};
@@ -184,7 +184,7 @@ class PartFile {
     ::close(file_);
   }
 
-  // Each of these gives 0, or the error number of the first call that failed.
+  // Return 0, or the error number of the first call that failed.
   int error() const { return file_ < 0 ? error_ : 0; }
   int write(std::string_view bytes) const {
     while (!bytes.empty()) {

@@ -66,7 +66,7 @@ class Watch {
  public:
   using Event = typename Value::parse_event_t;
 
-  // Returns whether to go on.
+  // Looks at an event. Returns whether to go on.
   bool see(int depth, Event event, const Value& value) {
     // Parsing needs no stack, but printing and copying descend level by level.
     if (depth > deepest) problem_ = "JSON nested too deeply";
@@ -93,7 +93,7 @@ class Watch {
     std::size_t items = 0;  // that are read
   };
 
-  // "expected.steps[0].pairs".
+  // Returns the place in the text: "expected.steps[0].pairs".
   std::string place() const {
     std::string text;
     for (const auto& level : levels_) {

@@ -1,6 +1,6 @@
-// Turns JSON text into values, with the parser's exceptions turned into problems, and values into
-// text. Gives typed access to the fields of a value; each error names the file and the field. Reads
-// types that list their fields.
+// Turns JSON text into values, and values into text. The parser's exceptions become problems. Gives
+// typed access to the fields of a value; each error names the file and the field. Reads types that
+// list their fields.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 // nested more than 64 levels deep is refused too, because code that prints or copies it descends
 // level by level, and the stack is finite. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
-// The same, for values that sort their keys by name.
+// Does the same, for values that sort their keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,
                                            const std::filesystem::path& file);
 
@@ -52,7 +52,7 @@ class JsonField {
   Expected<JsonField> at(std::string_view key) const;
   // Returns the number of items. Fails when this is no array.
   Expected<std::size_t> size() const;
-  // REQUIRES: an array with more than `i` items.
+  // Returns item i. REQUIRES an array with more than `i` items.
   JsonField item(std::size_t i) const;
 
   Expected<std::string> text() const;

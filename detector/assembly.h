@@ -20,7 +20,7 @@ namespace assay::detector {
 // Does what Detector::create does, with these stages. Errors are the same.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop = {});
-// The same with these workers, whatever options.threads says.
+// Does the same with these workers, whatever options.threads says.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop,
                             Workers workers);

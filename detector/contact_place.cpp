@@ -48,7 +48,8 @@ Nearest of_edges_from(double s, const Vector3& a0, const Vector3& u, const Vecto
   return {{1 - s, s, 0}, {1 - t, t, 0}, (a0 + s * u - b0 - t * v).squaredNorm()};
 }
 
-// If the edges are nearly parallel, a start at an end of one is better than the quotient.
+// Finds the nearest places. If the edges are nearly parallel, a start at an end of one is better
+// than the quotient.
 Nearest nearest_of_edges(const Vector3& a0, const Vector3& a1, const Vector3& b0,
                          const Vector3& b1) {
   const Vector3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
@@ -120,7 +121,7 @@ class Places {
   }
 
  private:
-  // Exact, except for results below the normal numbers.
+  // Returns the scaled point. Exact, except for results below the normal numbers.
   Vector3 scaled(const Point& x) const { return {scale_ * x[0], scale_ * x[1], scale_ * x[2]}; }
 
   static constexpr int least_exponent = -1000;  // 2^1000 is a double, and 2^1074 is none

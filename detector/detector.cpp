@@ -24,7 +24,8 @@ std::uint64_t digest_of(const StepContext& context) {
          context.relation.digest_of_left_out();
 }
 
-// Views and cones prove that there is no contact, but say nothing about distances.
+// Checks the separation. Views and cones prove that there is no contact, but say nothing about
+// distances.
 std::optional<Problem> check_separation(const Options& options) {
   const double d = options.separation;
   const auto wrong = [](std::string message) {
@@ -75,7 +76,7 @@ class PartsToTry {
     ++tried_;
     return part_;
   }
-  // Whether the place that was tried last is free.
+  // Notes whether the place that was tried last is free.
   void note(bool is_free) {
     if (is_free) {
       free_ = part_;
@@ -176,7 +177,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   }
   BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
-  // If times are not unique, the pairs found would depend on what is kept.
+  // If times are not unique, the pairs found would depend on the kept pairs.
   const bool keeps_near = options.keeps_near && options.arithmetic == Arithmetic::exact;
   // Kept feature pairs need a margin (L20).
   tree.grow_boxes(

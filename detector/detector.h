@@ -40,8 +40,8 @@ class SavedState {
  public:
   explicit SavedState(StateFields fields);
 
-  // The bytes are the same on every machine: 24 for each vertex, 1 for each triangle, 16 for each
-  // pair in contact, and some for the components and holes. O(M).
+  // Returns the state as bytes. They are the same on every machine: 24 for each vertex, 1 for each
+  // triangle, 16 for each pair in contact, and some for the components and holes. O(M).
   std::vector<std::uint8_t> bytes() const;
   // Errors: damaged_state, other_state_version. restore() checks whether the state is of the right
   // mesh. Reading takes no more memory than a few times the size of `bytes`, whatever lengths the
@@ -62,7 +62,7 @@ class Detector {
   // the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same, but `stop` can end it with the error `stopped`. `stop` is asked every few
+  // Does the same, but `stop` can end it with the error `stopped`. `stop` is asked every few
   // milliseconds of work, except in the few plain passes that check indices and coordinates.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);

@@ -1,13 +1,13 @@
-// The libraries that the oracle's verdicts rest on: their versions, and what happens when their
-// exact numbers find no memory.
+// The libraries that the oracle's verdicts rest on: their versions, and the end of the program when
+// their exact numbers find no memory.
 #pragma once
 
 #include <string>
 
 namespace assay::oracle {
 
-// For example "CGAL 5.5.1, GMP 6.2.1, MPFR 4.2.0, MPFI 1.5.3". CGAL's version is that of its
-// headers, the others are those of the libraries as loaded.
+// Returns, for example, "CGAL 5.5.1, GMP 6.2.1, MPFR 4.2.0, MPFI 1.5.3". CGAL's version is that of
+// its headers, the others are those of the libraries as loaded.
 std::string library_versions();
 
 // Registers the function that ends the program: from now on `end` is called when GMP finds no

@@ -3,8 +3,9 @@
 namespace assay::properties {
 namespace {
 
-// The number of bytes of the character at the front, or 0 if there is none. By RFC 3629, section
-// 4, a character has no longer form than it needs, is no surrogate, and is not above U+10FFFF.
+// Returns the number of bytes of the character at the front, or 0 if there is none. By RFC 3629,
+// section 4, a character has no longer form than it needs, is no surrogate, and is not above
+// U+10FFFF.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const auto first = byte(0);
@@ -28,7 +29,7 @@ std::size_t character_length(std::string_view text) {
   return is_too_long || is_surrogate || is_too_large ? 0 : length;
 }
 
-// Whether the character is of C0, DEL, or C1, whose characters are U+0080 to U+009F.
+// Returns whether the character is of C0, DEL, or C1, whose characters are U+0080 to U+009F.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
   if (character.size() == 1) return first < 0x20 || first == 0x7f;

@@ -220,7 +220,7 @@ class CaseReader : public JsonReader<CaseReader> {
     read(field, steps, c);
     if (!steps.empty()) expect_size(field, steps_of(rule.of).size());
   }
-  // Two numbers of an array, from the item `from` on.
+  // Returns two numbers of an array, from the item `from` on.
   static detector::TimeEnclosure time_at(const JsonField& field, std::size_t from) {
     detector::TimeEnclosure time;
     read(field.item(from), time.lo);
@@ -315,7 +315,7 @@ class CaseWriter {
     fields(writer, const_cast<T&>(x), rules...);
     writer.end();
   }
-  // A file name or a message need not be valid UTF-8.
+  // Writes text, such as a file name or a message, which need not be valid UTF-8.
   void write(const std::string& text) { out_ += json_text(Json(text)); }
   void write(double x) { out_ += number(x); }
   template <class... Rules>
@@ -376,7 +376,7 @@ class CaseWriter {
   bool is_first_ = true;
 };
 
-// One key a line, the values as they came.
+// Returns one key a line, the values as they came.
 std::string pending_text(const std::string& pending) {
   const Json facts = Json::parse(pending, nullptr, false);
   if (!facts.is_object() || facts.empty()) return "{}";

@@ -101,7 +101,7 @@ std::string unevenness(const Names& names) {
                      odd == 1 ? "" : fmt::format(", and {} more places", odd - 1));
 }
 
-// Whether a shell may have listed the paths in this order: letter by letter, or, as in most
+// Returns whether a shell may have listed the paths in this order: letter by letter, or, as in most
 // languages but C, by letters and digits alone, where sim_10.obj comes before sim_1.obj. Two files
 // in that second order are taken for the user's own.
 bool is_order_of_a_shell(const std::vector<std::string>& paths) {

@@ -17,7 +17,7 @@ namespace assay::corpus {
 
 namespace {
 
-// The extension without .gz, in lower case: ".obj" for SHELL.OBJ.gz.
+// Returns the extension without .gz, in lower case: ".obj" for SHELL.OBJ.gz.
 std::string mesh_extension(std::filesystem::path path) {
   const auto lower = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -68,7 +68,7 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
     if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
     if (by_meshio.empty())
       return problem_in(path, fmt::format("{} file; {}export it as one of these", name, read));
-    // If a shell or Python would misread the name, the user has to put it in.
+    // A name that a shell or Python would misread is left for the user to fill in.
     const bool is_plain = std::ranges::all_of(path.string(), [](unsigned char c) {
       return c >= 0x80 || std::isalnum(c) ||
              std::string_view("._-+/ ").find(c) != std::string_view::npos;

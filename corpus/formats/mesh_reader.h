@@ -41,8 +41,8 @@ struct Mesh {
   FacePlaces places = {};
 };
 
-// The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the extension
-// does (.obj, .obj.gz).
+// Reads a mesh. The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the
+// extension does (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
 // Refuses a file for faults that show without reading all of it: the file is missing, may not be
@@ -55,24 +55,24 @@ std::string places_of_same_faces(const std::filesystem::path& file);
 
 // The readers of the formats. Each takes the bytes of a file; `file` stands for it in messages.
 
-// OBJ: `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
-// coordinates, normals, groups and materials are passed over; lines, points, curves and surfaces
-// too, with a remark. A line with any other keyword is refused, so that noise is not taken for a
-// mesh.
+// Reads OBJ. `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh;
+// texture coordinates, normals, groups and materials are passed over; lines, points, curves and
+// surfaces too, with a remark. A line with any other keyword is refused, so that noise is not taken
+// for a mesh.
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
 // Returns whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n,
 // capital or not. A file named *.off may lack the word.
 bool looks_like_off(std::string_view text);
-// OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#` starts
-// a comment. Normals, colours and texture coordinates are passed over, faces of one or two corners
-// too, with a remark; 4-dimensional and binary files are refused.
+// Reads OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#`
+// starts a comment. Normals, colours and texture coordinates are passed over, faces of one or two
+// corners too, with a remark; 4-dimensional and binary files are refused.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
 bool looks_like_ply(std::string_view bytes);
-// PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`, and
-// from element `face` a list vertex_indices or vertex_index of an integer type. All other elements
-// (with a remark) and properties are skipped.
+// Reads PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`,
+// and from element `face` a list vertex_indices or vertex_index of an integer type. All other
+// elements (with a remark) and properties are skipped.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
 // Collects the vertices and polygons of one mesh file and refuses content that no mesh may hold.

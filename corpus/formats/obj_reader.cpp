@@ -31,7 +31,7 @@ constexpr Skipped skipped_statements[] = {{"l", "line (l)"},        {"p", "point
                                           {"bsp", "surface (bsp)"}, {"bzp", "surface (bzp)"},
                                           {"call", "file (call)"},  {"csh", "command (csh)"}};
 
-// `weighted` counts the vertices whose fourth number is a weight other than 1.
+// Reads a vertex. `weighted` counts the vertices whose fourth number is a weight other than 1.
 Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder,
                            std::size_t& weighted) {
   std::array<double, 3> x{};
@@ -51,7 +51,7 @@ Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& 
   return builder.add_vertex(x[0], x[1], x[2], place);
 }
 
-// The vertex of a corner v, v/vt, v//vn or v/vt/vn; nothing when it is none of these.
+// Returns the vertex of a corner v, v/vt, v//vn or v/vt/vn; nothing when it is none of these.
 std::optional<std::int64_t> corner_vertex(std::string_view corner) {
   std::array<std::string_view, 3> parts;
   std::size_t count = 0;

@@ -10,7 +10,8 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// Whether this is a header word: OFF behind some of the letters ST, C, N, 4, n, capital or not.
+// Returns whether this is a header word: OFF behind some of the letters ST, C, N, 4, n, capital or
+// not.
 bool is_header(std::string_view word) {
   constexpr std::string_view letters = "STCN4nOFstcof";
   if (word.size() < 3 || word.find_first_not_of(letters) != std::string_view::npos) return false;
@@ -40,7 +41,7 @@ class OffReader {
     return builder_.problem({"line", lines_.number()}, detail);
   }
 
-  // The words of the next line; `expected` is named in the message if the line is missing.
+  // Splits the next line into words. If there is none, the message names `expected`.
   Expected<void> next_line(std::string_view expected) {
     const auto line = lines_.next();
     if (!line) {

@@ -21,7 +21,7 @@ enum class PlyEncoding { ascii, little_endian, big_endian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-// The size of a value in a binary file, in bytes.
+// Returns the size of a value in a binary file, in bytes.
 std::size_t size_of(PlyType type) {
   constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return sizes[static_cast<std::size_t>(type)];
@@ -162,7 +162,7 @@ class HeaderReader {
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// Two's complement of the low `size` bytes.
+// Returns the number whose two's complement is the low `size` bytes.
 std::int64_t sign_extended(std::uint64_t bits, std::size_t size) {
   const int unused = static_cast<int>(64 - 8 * size);
   return static_cast<std::int64_t>(bits << unused) >> unused;
@@ -185,8 +185,8 @@ class PlyBody {
         offset_(header.size),
         line_(header.lines + 1) {}
 
-  // The next value; `parse` reads it where it is a word. Fails at the end of the file, and when a
-  // word is no number of that kind. REQUIRES an integer type where the number is an integer.
+  // Returns the next value; `parse` reads it where it is a word. Fails at the end of the file, and
+  // when a word is no number of that kind. REQUIRES an integer type where the number is an integer.
   template <class Number>
   Expected<Number> read(PlyType type, std::optional<Number> (*parse)(std::string_view)) {
     if (is_ascii()) {
@@ -217,22 +217,22 @@ class PlyBody {
     return boost::outcome_v2::success();
   }
 
-  // Whether `count` more items may follow, each of `least_size` bytes in a binary body, or of a
-  // word in an ascii one. Asked before anything is sized by a number that the file claims.
+  // Returns whether `count` more items may follow, each of `least_size` bytes in a binary body, or
+  // of a word in an ascii one. Asked before anything is sized by a number that the file claims.
   bool has_room(std::uint64_t count, std::uint64_t least_size) const {
     // A word takes one character at least.
     const std::uint64_t size = is_ascii() ? 1 : least_size;
     return size == 0 || count <= (bytes_.size() - offset_) / size;
   }
 
-  // True when nothing is left, in an ascii body nothing but blanks.
+  // Returns true when nothing is left, in an ascii body nothing but blanks.
   bool at_end() {
     if (is_ascii()) skip_blanks();
     return offset_ == bytes_.size();
   }
 
   Place place() const { return is_ascii() ? Place{"line", line_} : Place{"byte", offset_}; }
-  // Where the next value begins.
+  // Returns where the next value begins.
   Place next_place() {
     if (is_ascii()) skip_blanks();
     return place();
@@ -252,7 +252,7 @@ class PlyBody {
     while (offset_ < bytes_.size() && !is_blank(bytes_[offset_])) ++offset_;
     return bytes_.substr(begin, offset_ - begin);
   }
-  // The next value as the low bytes of an integer. REQUIRES: it is there.
+  // Returns the next value as the low bytes of an integer. REQUIRES: it is there.
   std::uint64_t bits(std::size_t size) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < size; ++i) {

@@ -1,6 +1,6 @@
-// Reads the frames of one mesh that deforms, one file a frame, and those of several bodies in step
-// as one mesh; puts their files in order; finds vertices that stand at one place in every frame;
-// and writes meshes and sequences.
+// Reads the frames of one mesh that deforms, one file a frame, or the frames of several bodies as
+// one mesh. Puts the files in order, finds vertices that stand at one place in every frame, and
+// writes meshes and sequences.
 #pragma once
 
 #include <cstddef>
@@ -85,7 +85,7 @@ class SequenceReader {
 // Reads all frames, in the order of their numbers. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
-// Reads the frames of several bodies in step, and makes one mesh of them.
+// Reads frame after frame of several bodies, and makes one mesh of them.
 //
 // Vertices and triangles of the bodies follow each other in the order of the bodies. A body of one
 // frame stands still.
@@ -104,8 +104,7 @@ class BodiesReader {
   Expected<detector::Positions> next();
   Expected<void> look_ahead() const;
 
-  // triangles() and bodies() REQUIRE that a frame was read. bodies() gives the number of each
-  // vertex's body.
+  // Return the triangles, and the number of each vertex's body. Both REQUIRE that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
   std::vector<std::int32_t> bodies() const;
   // Returns the remarks on the first file of each body, with its name if there are several.

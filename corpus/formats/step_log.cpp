@@ -37,7 +37,7 @@ Number big_endian(const char* bytes) {
   return out;
 }
 
-// The value of a key. Null if it is not there.
+// Returns the value of a key. Null if it is not there.
 const Json& value_of(const Json& map, const char* key) {
   static const Json none;
   const auto found = map.find(key);
@@ -53,8 +53,8 @@ std::optional<std::int64_t> integer(const Json& value) {
 
 std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
-// Returns a typed array of RFC 8746. `big` is its tag if numbers begin with their highest byte; the
-// tag is 4 more if they begin with the lowest. Nothing if the value is no such array.
+// Returns a typed array of RFC 8746. Its tag is `big` if its numbers begin with their highest byte,
+// and big + 4 if with their lowest. Returns nothing if the value is no such array.
 template <class Number>
 std::optional<std::vector<Number>> typed_array(const Json& value, std::uint64_t big) {
   if (!value.is_binary()) return std::nullopt;
@@ -108,7 +108,7 @@ class Members {
     }
     return *this;
   }
-  // Each item is made of `row` consecutive numbers.
+  // Reads a list. Each item is made of `row` consecutive numbers.
   template <std::size_t row, class Item, class Make>
   Members& list(const char* key, std::vector<Item>& items, const Make& make) {
     if (!map_.contains(key)) return *this;
@@ -117,7 +117,7 @@ class Members {
     for (std::size_t i = 0; i < read->size(); i += row) items.push_back(make(read->data() + i));
     return *this;
   }
-  // The member that is wrong; empty if none is.
+  // Returns the member that is wrong; empty if none is.
   const std::string& wrong() const { return wrong_; }
 
  private:
@@ -169,7 +169,7 @@ std::string read_counted(const Json& map, detector::CountedPairs& counted) {
   return members.wrong();
 }
 
-// The exact sums; nothing if one of them is no double.
+// Returns the exact sums; nothing if one of them is no double.
 std::optional<Positions> exact_sum(const Positions& x, const Positions& way) {
   const Positions end = x + way;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -278,7 +278,7 @@ std::optional<StepLog::Record> StepLog::record_at(std::uint64_t offset) {
   return Record{parse(*body), offset + head_bytes + length + tail_bytes};
 }
 
-// The body of this length, if its checksum stands behind it.
+// Returns the body of this length, if its checksum stands behind it.
 std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t length) {
   const auto left = size_ - offset;
   if (left < tail_bytes || length > left - tail_bytes) return std::nullopt;
@@ -296,8 +296,8 @@ std::optional<std::string> StepLog::body_at(std::uint64_t offset, std::uint64_t 
   return piece;
 }
 
-// Whether all that is left is the beginning of one record. If a whole body and its checksum are
-// there, or further records, the length alone is wrong.
+// Returns whether all that is left is the beginning of one record. If a whole body with its
+// checksum is there, or further records are, the length alone is wrong.
 bool StepLog::begins_record(std::uint64_t offset) {
   const auto left = size_ - offset;
   std::string piece;
@@ -340,15 +340,15 @@ Expected<void> StepLog::begin() {
     const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
     if (start.starts_with("\x1f\x8b"))
       return problem_in(path_, "it is packed, and a log is read where it lies: gunzip it first");
-    return problem_in(path_, is_log ? "its first record is damaged, so it is not known of which "
-                                      "mesh and detector it is"
-                                    : "it is no log of steps");
+    return problem_in(path_,
+                      is_log ? "its first record is damaged, so its mesh and detector are unknown"
+                             : "it is no log of steps");
   }
   const auto wrong = [&](std::string_view what) {
     return problem_in(path_, fmt::format("its first record: {}", what));
   };
   const Json& body = record->body;
-  if (text(value_of(body, "type")) != "begin") return wrong("it is none that begins a log");
+  if (text(value_of(body, "type")) != "begin") return wrong("it does not begin a log");
   if (const auto version = integer(value_of(body, "log")); version != 1)
     return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
                          : "log is missing or no number");
@@ -374,7 +374,7 @@ Expected<void> StepLog::begin() {
   if (const Json& counted = value_of(body, "counted"); body.contains("counted")) {
     if (!counted.is_object()) return wrong("counted is none");
     if (const auto field = read_counted(counted, head_.counted.emplace()); !field.empty())
-      return wrong(fmt::format("counted.{} is none", field));
+      return wrong(fmt::format("counted.{} is invalid", field));
     if (const auto bad = detector::check_counted_pairs(*head_.counted, head_.triangles, *vertices))
       return wrong(bad->message);
   }
@@ -412,7 +412,7 @@ std::optional<LogDamage> StepLog::damage() const {
 std::string StepLog::take(const Json& body) {
   const auto type = text(value_of(body, "type"));
   const auto number = integer(value_of(body, "record"));
-  if (type.empty() || !number) return "a record that nothing is known of";
+  if (type.empty() || !number) return "a record of an unknown kind";
   if (type == "begin") return "another log begins; read it by itself";
   if (*number != next_record_)
     return fmt::format("record {} in place of record {}", *number, next_record_);
@@ -502,7 +502,7 @@ Expected<LogStep> StepLog::step(std::size_t i) {
     LoggedLimit& limit = step.limit.emplace();
     limit.share = number("share", -1);
     limit.positions = places(value_of(body, "positions"), head_.positions.rows());
-    // Positions that cannot be read become positions that no limiter may give.
+    // If the positions cannot be read, the limit gets positions that no limiter may give.
     if (body.contains("positions") && !limit.positions)
       limit.positions = Positions::Constant(head_.positions.rows(), 3, none);
   }

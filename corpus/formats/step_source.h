@@ -27,7 +27,7 @@ struct SourceStep {
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
   std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
-  std::vector<std::string> remarks = {};  // one line each on what was changed or is ignored
+  std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
 class StepSource {
@@ -41,8 +41,8 @@ class StepSource {
   // Returns the number of step s in the whole that the input is a part of, from 0.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // Texts, one line each: the notes before the last step that was asked for; and, after all steps,
-  // the lost parts of the input, of which nothing is known, and other remarks.
+  // Return lines of text: the notes before the last step that was asked for; and, after all steps,
+  // the lost parts of the input and other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
@@ -55,9 +55,9 @@ class StepSource {
   // for.
   virtual const detector::Positions& first_frame() const = 0;
 
-  // Step s < count(). The frames of the step may be gone when the next step is asked for. Problems:
-  // those of a file whose frame is read now. REQUIRES that steps are asked for in order, and none
-  // after a problem.
+  // Returns step s < count(). The frames of the step may be freed when the next step is asked for.
+  // Problems: those of a file whose frame is read now. REQUIRES that steps are asked for in order,
+  // and none after a problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;
 
   // Returns which pairs count; null: all of them. The same for all steps.
@@ -78,7 +78,7 @@ class StepSource {
 Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
                              const detector::Problem& problem);
 
-// If `is_case_file`, the options and facts that the case states count.
+// Makes the steps of a case. If `is_case_file`, the options and facts that the case states count.
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
                                           InputText text = {});
 
@@ -100,8 +100,8 @@ struct BodyFiles {
   // twice. The vertices keep their numbers.
   bool weld = false;
 };
-// The same for bodies, with the files of each body in the order of their numbers. The relation of
-// the steps has the bodies. REQUIRES a body, and a file of each.
+// Does the same for bodies, with the files of each body in the order of their numbers. The relation
+// of the steps has the bodies. REQUIRES a body, and a file of each.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
 // The purpose of a file. Its first bytes decide, or its name if they do not decide or cannot be

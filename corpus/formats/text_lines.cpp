@@ -79,8 +79,8 @@ std::string_view without_plus(std::string_view word) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// from_chars does not say whether a number out of range is huge or tiny. Such a number is beyond
-// 1e308 or below 1e-323, so the place of its first digit that is not zero decides.
+// Says whether a number out of range is huge or tiny, which from_chars does not. Such a number is
+// beyond 1e308 or below 1e-323, so the place of its first digit that is not zero decides.
 bool is_huge(std::string_view word) {
   std::int64_t place = 0;
   bool nonzero = false, fraction = false;

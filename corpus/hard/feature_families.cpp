@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::int64_t drop = usual_size / 4;
 
-// A flat spike over a flat block. All eight vertices are within a few gaps of one plane, and the
-// tip is within two gaps of it all the time.
+// Returns a flat spike over a flat block. All eight vertices are within a few gaps of one plane,
+// and the tip is within two gaps of it all the time.
 Case near_coplanar(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
@@ -23,9 +23,9 @@ Case near_coplanar(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// The lower edge of one tetrahedron over the upper edge of another. They cross over the origin, at
-// an angle of about gap / usual_size. In kind 2 they would cross only beyond their ends, because y
-// is at most gap in the one and at least twice that in the other.
+// Returns two tetrahedra, the lower edge of one over the upper edge of the other. The edges cross
+// over the origin, at an angle of about gap / usual_size. In kind 2 they would cross only beyond
+// their ends, because y is at most gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   const auto half_or_more_of = [&](std::int64_t n) { return vary.between(n / 2, n); };
@@ -51,8 +51,8 @@ Case near_parallel(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// A face of this width and the usual length. By kind, a spike comes down through it, as far beside
-// its long edge as the face is wide, on that edge, or on its far corner.
+// Returns a face of this width and the usual length. By kind, a spike comes down through it, as far
+// beside its long edge as the face is wide, on that edge, or on its far corner.
 Case slivers(Variation& vary, int exponent, int kind) {
   const std::int64_t width = two_to(exponent);
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
@@ -68,7 +68,8 @@ Case slivers(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, misses ? known_free() : known_collision(0.5));
 }
 
-// A spike passes the straight edge (y = 0) of a block in y <= 0: outside it, inside it or on it.
+// Returns a spike that passes the straight edge (y = 0) of a block in y <= 0: outside it, inside it
+// or on it.
 Case vertex_passes(Variation& vary, std::int64_t y) {
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
@@ -81,7 +82,7 @@ Case vertex_passes(Variation& vary, std::int64_t y) {
   return sheared_case(mesh, vary, y > 0 ? known_free() : known_collision(0.5));
 }
 
-// An edge whose end passes the upper edge (x = 0) of a tetrahedron in x <= 0, at this x.
+// Returns an edge whose end passes the upper edge (x = 0) of a tetrahedron in x <= 0, at this x.
 Case edge_passes(Variation& vary, std::int64_t x) {
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
@@ -120,8 +121,8 @@ std::vector<HardFamily> feature_families() {
 // plane.
 namespace {
 
-// Spikes side by side over one face. By kind, all go through it at half time, all stop well above
-// it, or all touch it at the end.
+// Returns spikes side by side over one face. By kind, all go through it at half time, all stop well
+// above it, or all touch it at the end.
 Case simultaneous(Variation& vary, int exponent, int kind) {
   const int spikes = 1 << exponent;
   constexpr int columns = 8;
@@ -139,9 +140,9 @@ Case simultaneous(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
 }
 
-// A triangle that tilts, and a copy of it with vertices of its own, at a height above it that goes
-// from z_t0 to z_t1. While the height is not 0 the two do not meet, because neither ever stands
-// upright.
+// Returns a triangle that tilts, and a copy of it with vertices of its own, at a height above it
+// that goes from z_t0 to z_t1. While the height is not 0 the two do not meet, because neither ever
+// stands upright.
 Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts facts) {
   GridMesh mesh;
   std::array<GridVertex, 3> corners, copy;
@@ -175,10 +176,10 @@ Case duplicates(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, known_collision(0));
 }
 
-// A sheet in one plane, its vertices up to an eighth of a cell off a grid. In kind 0 it moves
-// within the plane, all in one direction. In kind 1 one vertex goes to where its second neighbour
-// is, over the first one, which it reaches at half time; here the vertices around are not moved
-// off the grid. Until then it is inside the hexagon of its neighbours, which stays convex, so
+// Returns a sheet in one plane, its vertices up to an eighth of a cell off a grid. In kind 0 it
+// moves within the plane, all in one direction. In kind 1 one vertex goes to where its second
+// neighbour is, over the first one, which it reaches at half time; here the vertices around are not
+// moved off the grid. Until then it is inside the hexagon of its neighbours, which stays convex, so
 // nothing overlaps.
 Case coplanar_sheet(Variation& vary, int exponent, int kind) {
   const int rows = 1 << ((exponent - 1) / 2), columns = 1 << (exponent - 1 - (exponent - 1) / 2);

@@ -52,16 +52,16 @@ KnownFacts with_signs(KnownFacts facts, std::vector<ViewSign> signs) {
   return facts;
 }
 
-// A tetrahedron on a wide face, its fourth corner on the axis; its last triangle is the floor.
+// Adds a tetrahedron on a wide face, its fourth corner on the axis. Its last triangle is the floor.
 void add_tent(GridMesh& mesh, Variation& vary, const GridVertex& top, const GridPoint& moved) {
   const auto face = wide_face(vary, usual_size);
   const auto floor = [&](std::size_t i) { return GridVertex{face[i], face[i] + moved}; };
   mesh.add_tetrahedron({floor(0), floor(1), floor(2), top});
 }
 
-// Even kinds: a tent moves up past the view-point at rest inside, until the view-point is above,
-// below or on its floor. Odd kinds: the top comes down to above, below or on the floor, and the
-// view-point is half as high all the time. If the top gets on or below the floor, all four
+// Returns a tent. Even kinds: it moves up past the view-point at rest inside, until the view-point
+// is above, below or on its floor. Odd kinds: the top comes down to above, below or on the floor,
+// and the view-point is half as high all the time. If the top gets on or below the floor, all four
 // triangles are in contact, and all their values are 0 at that time. That is t* = 1 if it stops on
 // the floor, else t* = 1 - 2 gap / 2^45, because the top starts at 2^45 - 2 gap.
 Case touches_zero(Variation& vary, int exponent, int kind) {
@@ -87,8 +87,8 @@ Case touches_zero(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, std::move(facts));
 }
 
-// A tent that moves along with its view-point, which stays above, below or on the floor, or is one
-// of its corners.
+// Returns a tent that moves along with its view-point, which stays above, below or on the floor, or
+// is one of its corners.
 Case on_the_surface(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
@@ -108,11 +108,12 @@ Case on_the_surface(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, with_signs(known_free(), {plus, zero, zero, zero}));
 }
 
-// The view-line lies on the x axis from 0 to 2^45. A triangle lies in the plane z = gap - x; its
-// first corner comes to x = c near 0, and the others stay at x < 0. At x < 0 the nearest point is
-// the line's end at 0 and the view value is gap (times twice the area seen along z); between the
-// planes through the ends it is gap - x. So the triangle is positive exactly when c < gap. Kinds 3
-// to 5 are the same at the other end, mirrored, with the vertices exchanged to keep its side.
+// Returns a triangle seen from a view-line on the x axis, from 0 to 2^45. It lies in the plane z =
+// gap - x; its first corner comes to x = c near 0, and the others stay at x < 0. At x < 0 the
+// nearest point is the line's end at 0 and the view value is gap (times twice the area seen along
+// z); between the planes through the ends it is gap - x. So the triangle is positive exactly when c
+// < gap. Kinds 3 to 5 are the same at the other end, mirrored, with the vertices exchanged to keep
+// its side.
 Case line_ends(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), ends[] = {gap - 1, gap, gap + 1};
   const std::int64_t c = ends[kind % 3];
@@ -159,7 +160,7 @@ namespace {
 // Coordinates are below 2^53, so a volume is below 2^165.
 using Wide = boost::multiprecision::int256_t;
 
-// Six times the volume at t=0 of abcd.
+// Returns six times the volume at t=0 of abcd.
 Wide volume(const std::array<GridVertex, 4>& corners) {
   Wide e[3][3];
   const auto& o = corners[0].t0;
@@ -174,7 +175,7 @@ Wide volume(const std::array<GridVertex, 4>& corners) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-// Ends the process if the product is not exact or not finite.
+// Returns units * 2^exponent. Ends the process if the product is not exact or not finite.
 double scaled(std::int64_t units, int exponent) {
   constexpr std::int64_t limit = std::int64_t{1} << 53;
   const auto whole = static_cast<double>(units);

@@ -111,7 +111,7 @@ struct GridMap {
   GridPoint operator()(GridPoint p) const;
 };
 
-// The facts that the construction of a case tells; first_time and view_signs only if it tells them.
+// The facts that the construction of a case tells. It need not tell first_time and view_signs.
 using KnownFacts = ExpectedStep;
 
 // Returns one step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is
@@ -122,7 +122,7 @@ Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3
 // These exponents bring coordinates of usual_size to about 1.
 inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
 
-// grid_case under some GridMap::any, with coordinates of about 1.
+// Returns grid_case under some GridMap::any, with coordinates of about 1.
 Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 
 // The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.
@@ -131,7 +131,7 @@ Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 // edge), so nothing meets before the tip or edge reaches z = 0. In a case where the spike misses
 // the block beside it, a plane of constant x or y lies between the two all the time.
 
-// 2^exponent units.
+// Returns 2^exponent units.
 inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
 
 // The usual size of a solid. With growth (37) and heights up to twice that size, coordinates are
@@ -161,8 +161,8 @@ GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
 
 KnownFacts known_free();
-// The facts of a collision at this first time, which is a double; without an argument, the first
-// time is not stated.
+// Returns the facts of a collision at this first time, which is a double; without an argument, the
+// first time is not stated.
 KnownFacts known_collision(double first);
 KnownFacts known_collision();
 

@@ -9,7 +9,7 @@ namespace assay::corpus {
 // and much shorter than the mesh.
 namespace {
 
-// A block, and a spike whose tip goes from one height to another.
+// Returns a block, and a spike whose tip goes from one height to another.
 Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts facts) {
   GridMesh mesh;
   add_block(mesh, vary, usual_size, vary.between(usual_size / 2, usual_size));
@@ -18,16 +18,16 @@ Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFac
   return sheared_case(mesh, vary, std::move(facts));
 }
 
-// The spike starts above, inside or on the block and leaves it. If it starts inside, it is pierced
-// at t=0.
+// Returns a spike that starts above, inside or on the block and leaves it. If it starts inside, it
+// is pierced at t=0.
 Case at_the_start(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), start[] = {gap, -gap, 0};
   return spike_falls(vary, start[kind], start[kind] + usual_size / 4,
                      kind == 0 ? known_free() : known_collision(0));
 }
 
-// The spike comes from 2^44 - gap and stops above, inside or on the block. If inside, t* = 1 - gap
-// / 2^44; if on it, t* = 1.
+// Returns a spike that comes from 2^44 - gap and stops above, inside or on the block. If inside, t*
+// = 1 - gap / 2^44; if on it, t* = 1.
 Case at_the_end(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), end[] = {gap, -gap, 0};
   const double first = kind == 2 ? 1 : 1 - std::ldexp(1, exponent - 44);
@@ -35,12 +35,12 @@ Case at_the_end(Variation& vary, int exponent, int kind) {
                      kind == 0 ? known_free() : known_collision(first));
 }
 
-// The face turns about the y axis, from z = x to z = -x, while the tip goes along x from -W to W
-// at height -dip. With tau = 2t - 1 the face is z = -tau x, and the tip is tau^2 W - dip above it.
-// That is zero twice, at tau = -+sqrt(dip / W), and only touches zero if dip is 0. With W = 2^44
-// and dip = 2^(2m), t* is (1 - 2^(m - 22)) / 2. The rest of the spike, within W / 2 of the tip
-// along x and W or more above it, is at least W / 2 above the face; the block's fourth corner is
-// below it on the axis.
+// Returns a face and a spike. The face turns about the y axis, from z = x to z = -x, while the tip
+// goes along x from -W to W at height -dip. With tau = 2t - 1 the face is z = -tau x, and the tip
+// is tau^2 W - dip above it. That is zero twice, at tau = -+sqrt(dip / W), and only touches zero if
+// dip is 0. With W = 2^44 and dip = 2^(2m), t* is (1 - 2^(m - 22)) / 2. The rest of the spike,
+// within W / 2 of the tip along x and W or more above it, is at least W / 2 above the face; the
+// block's fourth corner is below it on the axis.
 Case double_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t path = std::int64_t{1} << 44;
   const std::int64_t gap = two_to(exponent), dips[] = {gap, -gap, 0};
@@ -59,11 +59,12 @@ Case double_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
-// A vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the rows of
-// M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion
-// matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0)
-// (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with weights
-// 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes from.
+// Returns a vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the
+// rows of M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the
+// companion matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0)
+// (0,1,0) (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with
+// weights 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes
+// from.
 Case triple_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t one = std::int64_t{1} << 43;
   const std::int64_t d2 = two_to(43 + 2 * exponent);  // the square of the distance of roots
@@ -91,8 +92,8 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }
 
-// Solids far smaller than the way that the spike goes. By kind, it goes through the face, past it,
-// or onto it.
+// Returns solids far smaller than the way that the spike goes. By kind, the spike goes through the
+// face, past it, or onto it.
 Case long_step(Variation& vary, int exponent, int kind) {
   const std::int64_t reach = two_to(usual_exponent - exponent), way = usual_size;
   const bool misses = kind == 1;
@@ -143,8 +144,8 @@ std::vector<HardFamily> time_families() {
 // all axes or another for each; denormals.
 namespace {
 
-// A mesh that is not hard by itself. By kind, a spike goes through a face (at half time), stops in
-// it, stops well above it, or passes beside it.
+// Returns a mesh that is not hard by itself. By kind, a spike goes through a face (at half time),
+// stops in it, stops well above it, or passes beside it.
 GridMesh easy(Variation& vary, int kind, std::int64_t reach, std::int64_t way) {
   GridMesh mesh;
   const bool beside = kind == 3;
@@ -167,8 +168,8 @@ KnownFacts known_of(int kind) {
   return kind < 2 ? known_collision(first[kind]) : known_free();
 }
 
-// Solids of 2^(45 - exponent) units, 2^51 units and more away from the origin. On the grid the
-// spike moves by one, two or four units.
+// Returns solids of 2^(45 - exponent) units, 2^51 units and more away from the origin. On the grid
+// the spike moves by one, two or four units.
 Case far_offset(Variation& vary, int exponent, int kind) {
   const GridMesh mesh = easy(vary, kind, two_to(usual_exponent - exponent), 1);
   GridMap map = GridMap::any(vary);
@@ -196,7 +197,7 @@ Case scales(Variation& vary, int exponent, int kind) {
   return scaled(vary, kind % 4, {e, e, e});
 }
 
-// One axis is stretched, another shrunk.
+// Stretches one axis and shrinks another.
 Case mixed_scales(Variation& vary, int exponent, int kind) {
   std::array<int, 3> exponents = {exponent, 0, -exponent};
   std::rotate(exponents.begin(), exponents.begin() + vary.between(0, 2), exponents.end());

@@ -1,5 +1,5 @@
 // Additive continuous collision detection (Li et al. 2021) of two simulators, in doubles, on the
-// host; ASSAY_PEER_CODIM_IPC says whether it is the first.
+// host; ASSAY_PEER_CODIM_IPC chooses the first.
 //
 //   CodimIpc  Point_Triangle_CCD and Edge_Edge_CCD of Math/Distance/CCD, commit 9c6cbe3a
 //             (2022-11-01) of ipc-sim/Codim-IPC: eta 0.1, thickness 0, after its test of boxes, as
@@ -19,8 +19,8 @@
 // Expected before the first run: both stop before contacts, and announce features that come near.
 // Parallel edges: where the lines' distance is rounded to 0, both go by the corners ("this must be
 // some far away nearly parallel edges"), which may be farther apart than the edges are: a miss.
-// (Starts at less than that distance were not yet left out then. They gave what was expected;
-// besides, CodimIpc goes on for ever from a vertex at a face.)
+// (That run did not yet leave out starts nearer than the contract allows. They gave what was
+// expected; and CodimIpc never ends if a vertex starts at a face.)
 #include <cmath>
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>
@@ -88,12 +88,12 @@ struct Additive {
  private:
   using Point = Eigen::Matrix<double, 3, 1>;
 
-  // Both are handed the way of a point. One that is rounded short ends before what it meets at
-  // t = 1, so it is rounded up.
+  // Returns the way of a point, which both methods take. It is rounded up, because a way that is
+  // rounded short ends before a contact at t = 1.
   static Point way(const Point& from, const Point& to) {
     Point way = to - from;
     for (int k = 0; k < 3; ++k) {
-      // What rounding took from the difference, without an error (Knuth's two-sum).
+      // The rounding error of the difference, exactly (Knuth's two-sum).
       const double back = way[k] - to[k], lost = (to[k] - (way[k] - back)) - (from[k] + back);
       if (lost != 0 && (lost > 0) == (way[k] > 0)) way[k] = std::nextafter(way[k], 2 * way[k]);
     }

@@ -23,7 +23,7 @@ inline ostream& operator<<(ostream& out, fstream&) { return out; }
 }  // namespace std
 
 #include "collision.cpp"
-int uuid_src = 0;  // of its source mesh, of which nothing else is used
+int uuid_src = 0;  // from its source mesh, where nothing else is used
 
 #include "corpus/peers/feature_pairs.h"
 

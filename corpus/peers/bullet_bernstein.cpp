@@ -39,7 +39,7 @@ struct BulletTests {
     if (!bernsteinCCD(&face, &nodes[0], dt, margin, barycentric)) return std::nullopt;
     return plugin::Interval{{0, 1}};
   }
-  // Bullet has no such test.
+  // Returns nothing, because Bullet has no such test.
   static Time edge_edge(const FourPaths&) { return std::nullopt; }
 
  private:

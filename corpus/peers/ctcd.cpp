@@ -1,6 +1,6 @@
 // CTCD, Etienne Vouga's root finder in floating point (Harmon et al. 2011; FPRF of Wang et al.
-// 2021). It is built with ASSAY_PEER_SEPARATION 0 and 1e-3, which is its distance eta. No features
-// are "closer than a distance eta" of 0, so for contacts eta is 1e-8.
+// 2021). It is built with ASSAY_PEER_SEPARATION 0 and 1e-3, which is its distance eta. With eta 0,
+// no features are "closer than a distance eta", so for contacts eta is 1e-8.
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,
 // edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as its

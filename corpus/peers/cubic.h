@@ -1,6 +1,6 @@
-// The textbook method, as many simulators have it. The times at which four points lie in one plane
-// are the roots of a cubic (Provot 1997). At each root the point has to lie in the triangle, or
-// the edges have to cross, up to a tolerance. All is computed in numbers of one kind.
+// The textbook method of many simulators. The times at which four points lie in one plane are the
+// roots of a cubic (Provot 1997). At each root the point has to lie in the triangle, or the edges
+// have to cross, up to a tolerance. All is computed in numbers of one kind.
 #pragma once
 
 #include <cmath>

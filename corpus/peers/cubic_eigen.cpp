@@ -3,11 +3,11 @@
 // Version: that of the Eigen it is compiled with. Functions: Eigen::PolynomialSolver of the
 // unsupported module Polynomials, compute and realRoots. Settings: the defaults (a root is real if
 // its imaginary part is below the dummy precision of doubles, 1e-12), and the tolerance of
-// cubic_closed.cpp. The solver divides by the leading coefficient, so leading coefficients that
-// are 0 are left away, as its users do. Contract and claims: those of cubic_closed.cpp, from the
-// same place, because they are the method's. Eigen promises less: its solver is "guaranteed to
-// provide a correct result only when the complex roots have distinct moduli", so a contact that is
-// missed when two roots have the same modulus is no fault of Eigen's.
+// cubic_closed.cpp. The solver divides by the leading coefficient, so leading coefficients that are
+// 0 are left out, as its users do. Contract and claims: those of cubic_closed.cpp, from the same
+// place, because they are the method's. Eigen promises less: its solver is "guaranteed to provide a
+// correct result only when the complex roots have distinct moduli", so a contact that is missed
+// when two roots have the same modulus is no fault of Eigen's.
 #include <Eigen/Core>
 #include <unsupported/Eigen/Polynomials>
 

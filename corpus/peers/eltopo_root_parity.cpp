@@ -5,14 +5,14 @@
 // Settings: none; -O2, as its makefile has it. Contract: no contact at the start; coordinates of
 // usual sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number
 // of ray intersections (corresponding to an odd number of roots of F in the domain)", and an odd
-// number is not none. It also says that an even number is answered "no", so free-sound is not
+// number is at least one. It also says that an even number is answered "no", so free-sound is not
 // claimed; contacts that it misses stand in brackets, and are looked into where the number is odd.
 // Deterministic is not claimed either: culled rays are drawn by rand().
 //
 // Expected before the first run: features that pass twice are missed, as promised. Motion within a
 // plane maps the domain into a plane, where crossings of the ray are degenerate: there it gives up
 // or answers at random. It rounds differences of coordinates before it is exact, so near misses and
-// contacts of coordinates that are not small whole numbers may be wrong by that.
+// contacts may be judged wrongly unless coordinates are small whole numbers.
 #include <rootparitycollisiontest.h>
 
 #include "corpus/peers/feature_pairs.h"

@@ -1,12 +1,12 @@
-// Fast Approximate Root in Cubic CCD: what "Penetration-free Projective Dynamics on the GPU" (Lan
-// et al. 2022) does, as Zachary Ferguson has written it anew.
+// Fast Approximate Root in Cubic CCD: the method of "Penetration-free Projective Dynamics on the
+// GPU" (Lan et al. 2022) as Zachary Ferguson implemented it again.
 //
 // Version: commit 138321e2 (2024-04-01) of zfergus/fast-approximate-root-ccd. Functions:
 // ccd::point_triangle_ccd and ccd::edge_edge_ccd. Settings: none (Newton's method ends when a step
 // is below 1e-6), assertions off, as its own Release build. Contract: no contact at the start,
 // coordinates of usual sizes. Claims: deterministic and total alone, because its README says "this
 // method can produce false negatives (i.e., miss collisions)" and prints two. Contacts that it
-// misses are therefore told in brackets, and not held against it.
+// misses are therefore shown in brackets, and not held against it.
 //
 // Expected before the first run: the two of its README. A cubic without extrema (4 b b - 12 a c
 // below 0) is answered "no" though it has a root. Of several roots only one is looked at, so that

@@ -1,7 +1,8 @@
 // The common part of the peers that test features. Two triangles have six pairs of a vertex and a
 // face and nine of two edges. The peer's elementary tests are asked about all of these that share
 // no vertex, as FCL's own traversal of meshes does, and the first time of the two triangles is the
-// least of the tests. Features that several pairs of triangles have are tested again for each pair.
+// least of the tests. Two features that several pairs of triangles hold are tested again for each
+// pair.
 #pragma once
 
 #include <type_traits>
@@ -29,8 +30,8 @@ auto ask_points(const Test& test, const FourPaths& paths, More&&... more) {
               std::forward<More>(more)...);
 }
 
-// The times of a peer that knows the time, of one that knows a time before which there is no
-// contact, and of one that knows nothing about it.
+// Return the time of a contact, if one was found: for a peer that knows the time, for one that
+// knows a time before which there is no contact, and for one that knows no time.
 inline Time at_time(bool found, double time) {
   return found ? Time(plugin::Interval{{time, time}}) : std::nullopt;
 }
@@ -39,8 +40,8 @@ inline Time not_before(bool found, double time) {
 }
 inline Time some_time(bool found) { return not_before(found, 0); }
 
-// The description that most peers have in common: they want a free start and coordinates of usual
-// sizes, because their tolerances are lengths, and they are functions of their arguments that
+// Returns the description that most peers have in common. They want a free start, and coordinates
+// of usual sizes, because their tolerances are lengths. They are functions of their arguments that
 // return a bool.
 inline plugin::Description usual_description(const char* name, const char* version,
                                              std::uint32_t claims) {

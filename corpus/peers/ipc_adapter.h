@@ -75,7 +75,7 @@ class AssayNarrowPhase : public ipc::TightInclusionCCD {
     const ProcessorState state;
     ++exact;
     const double until = std::min(1., tmax / conservative_rescaling);
-    // An exact time costs more than to see that it is too late.
+    // To compute an exact time costs more than to see that it is too late.
     const auto is_later = [&] {
       return d > 0 ? filter_near(query, d).lo > until : surely_later(query, until) != Later::no;
     };
@@ -223,7 +223,8 @@ class AssayBroadPhase : public ipc::BroadPhase {
     WideSearch().search({topology_, *tree_, marks, everything}, counts, take_pair);
     return near_;
   }
-  // As the toolkit has it: some vertex of the one with some vertex of the other.
+  // Returns, as the toolkit does, whether some vertex of the one may collide with some vertex of
+  // the other.
   bool may_collide(std::span<const int> one, std::span<const int> other) const {
     return std::ranges::any_of(one, [&](int v) {
       return std::ranges::any_of(other, [&](int w) { return can_vertices_collide(v, w); });

@@ -11,15 +11,16 @@
 //   tutorial      update_if_needed, given dhat as the tutorial "Offset Geometric Contact" writes it
 //                 in the place of min_distance, then filter_step; only with distance 0
 //
-// Settings: the defaults; dhat 1e-3; the radius of the query is what warm_start_time_step makes it,
-// 2 dhat or the longest way of a vertex, for the tutorial calls that one first. Claims:
-// commit-free, because the tutorial says that it is "designed to guarantee penetration-free
-// simulation" and of the filtered step "Now dx is safe to apply: x += dx", the header of the planar
-// filter "while retaining the penetration-free guarantee", and the header of all "Minimum distance
-// between elements"; deterministic and total, because they are functions of their arguments. They
-// leave the path, so nothing is claimed of it, nor of how far they go. A start at which
-// features of neighbours are nearer than min_distance, which compute_per_vertex_safe_distances
-// refuses in an assertion, is not given to them: the mesh stays.
+// Settings: the defaults; dhat 1e-3; the radius of the query is that of warm_start_time_step, 2
+// dhat or the longest way of a vertex, for the tutorial calls that one first. Claims: commit-free,
+// by their documentation. The tutorial says that the method is "designed to guarantee
+// penetration-free simulation", and of the filtered step "Now dx is safe to apply: x += dx". The
+// header of the planar filter says "while retaining the penetration-free guarantee", and the header
+// of all filters "Minimum distance between elements". Deterministic and total, because the filters
+// are functions of their arguments. They leave the straight path, so nothing is claimed about the
+// path or about how far they go. If features of neighbours start nearer than min_distance, an
+// assertion of compute_per_vertex_safe_distances refuses the start. The filters are not asked then,
+// and the mesh stays.
 #include <ipc/ogc/trust_region.hpp>
 
 #include "corpus/peers/ipc_mesh.h"

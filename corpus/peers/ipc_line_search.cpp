@@ -13,8 +13,8 @@
 //
 // As solvers do, the first three list candidates once a way, at its first question, because a
 // shorter step needs no others. A Detector keeps what it found up to the first contact, so it
-// answers shorter steps in less time once they end before it. All work in one thread. A row is a
-// question: the shares that may be gone, and milliseconds.
+// answers shorter steps in less time once they end before it. All work in one thread. Each row is a
+// question: the shares of the way that may be taken, and milliseconds.
 #include <tbb/global_control.h>
 
 #include <chrono>
@@ -58,7 +58,7 @@ class Search {
         timer_(detector_of(mesh)),
         x_(mesh.positions) {}
 
-  // Asks all questions of the way to this frame, and goes it as far as it is free.
+  // Asks all questions of the way to this frame, and goes as far as the way is free.
   void go_toward(const Positions& frame) {
     const Positions x = x_;
     const Eigen::MatrixXd start = x;

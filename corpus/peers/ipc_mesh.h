@@ -23,12 +23,12 @@ class IpcMesh {
  public:
   static constexpr double separation = ASSAY_PEER_SEPARATION;
 
-  // The toolkit works in threads of TBB, so their number is limited there.
+  // Limits the number of TBB's threads, because the toolkit works in these.
   static void use_threads(std::uint32_t count) {
     static std::unique_ptr<tbb::global_control> limit;
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
-    ipc::logger().set_level(spdlog::level::err);  // nobody would read a warning a pair
+    ipc::logger().set_level(spdlog::level::err);  // else it warns for each pair
   }
 
   static plugin::Description description() {

@@ -5,10 +5,10 @@
 // tutorial "Getting started" calls them. Settings: the defaults of each, and min_distance
 // ASSAY_PEER_SEPARATION: 0, or 1e-3 ("The minimum distance allowable between any two elements";
 // "CCD with a minimum separation distance"). Contract of both narrow phases: that of ipc_mesh.h
-// ("Assumes vertices_t0 is intersection free"). It promises nothing about how near the features are
-// that it takes for a collision.
+// ("Assumes vertices_t0 is intersection free"). Neither promises how near two features are that it
+// takes for a collision.
 //
-// ASSAY_PEER_NARROW says by which one:
+// ASSAY_PEER_NARROW chooses the narrow phase:
 //
 // tight_inclusion, its default. Claims: free-sound and not-late, from its documentation ("provably
 // conservative (i.e., never misses collisions)", Getting started, section "Narrow phase"; "Computes

@@ -1,4 +1,4 @@
-// Makes a limiter, which says how far a step may be gone, of a peer that tells when the step first
+// Makes a limiter, which says how far a step may be taken, of a peer that tells when the step first
 // touches. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
 #pragma once
 
@@ -20,7 +20,7 @@ class LimiterOf {
     plugin::Description d = Peer::describe();
     d.claims = Peer::limit_claims | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
     d.limit_gives = ASSAY_LIMIT_START_PLUS;
-    d.margin = 0;  // it is a slack of reports
+    d.margin = 0;  // a margin is for reports
     return d;
   }
 
@@ -39,7 +39,7 @@ class LimiterOf {
   Peer peer_;
 };
 
-// The peer of `Tests` whose times are lower bounds, so that a caller may go all of that way.
+// The peer of `Tests` whose times are lower bounds, so that a caller may go up to the time itself.
 template <class Tests>
 struct LowerBoundOf : PeerOf<Tests> {
   static constexpr double part_of_time = 1;

@@ -25,7 +25,7 @@ constexpr std::size_t rows_a_query = 8;
 
 enum class Kind { vertex_face, edge_edge };
 
-// An underscore stands for a hyphen.
+// Returns the name with a hyphen for each underscore.
 std::string with_hyphens(std::string name) {
   std::ranges::replace(name, '_', '-');
   return name;
@@ -223,7 +223,7 @@ using boost::multiprecision::cpp_int;
 
 constexpr std::size_t most_digits = 20'000;
 
-// An optional sign and digits. cpp_int itself would take hexadecimal and octal too.
+// Parses an optional sign and digits. cpp_int itself would take hexadecimal and octal too.
 std::optional<cpp_int> parse_big(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
@@ -242,7 +242,7 @@ std::int64_t take_twos(cpp_int& value) {
   return static_cast<std::int64_t>(twos);
 }
 
-// m * 2^exponent with m odd, if that is a double.
+// Returns m * 2^exponent if that is a double. REQUIRES an odd m.
 std::optional<double> scaled(const cpp_int& m, std::int64_t exponent) {
   const auto bits = static_cast<std::int64_t>(boost::multiprecision::msb(m)) + 1;
   using Limits = std::numeric_limits<double>;

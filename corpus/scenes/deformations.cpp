@@ -9,7 +9,8 @@ namespace {
 
 using detector::Point;
 
-// Coordinates in which the centre is 0, the half-length 1, and the long axis the last one.
+// Returns the coordinates in which the centre is 0, the half-length 1, and the long axis the last
+// one.
 Point to_unit(const Point& x, const Extent& e) {
   Point u{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -28,7 +29,7 @@ Point from_unit(const Point& u, const Extent& e) {
   return x;
 }
 
-// 1 at x = 0, and 0 with zero slope from |x| = 1 on.
+// Returns 1 at x = 0, and 0 with zero slope from |x| = 1 on.
 double bump(double x_squared) {
   const double w = x_squared < 1 ? 1 - x_squared : 0;
   return w * w;
@@ -142,7 +143,7 @@ using detector::Point;
 
 constexpr double tube_radius = 0.5, tube_half_length = 3;
 
-// Exactly 0 at both ends of the period, and 1 in its middle.
+// Returns exactly 0 at both ends of the period, and 1 in its middle.
 double there_and_back(double s) { return sin_turn(s / 2); }
 
 }  // namespace
@@ -150,8 +151,7 @@ double there_and_back(double s) { return sin_turn(s / 2); }
 Point turn_inside_out(const Point& x, double s, const Extent&) {
   constexpr double roll = 0.3;  // radius of the rolled rim
   constexpr double rim = pi * roll, length = 2 * tube_half_length;
-  // The rim is at this height of the rest shape, which goes from the upper end to beyond the lower
-  // one.
+  // The height of the rim in the rest shape. It moves from the upper end to beyond the lower one.
   const double fold = tube_half_length - (length + rim) * there_and_back(s);
   const double beyond = x[2] - fold;
   if (beyond <= 0) return x;

@@ -14,8 +14,8 @@ namespace {
 
 using detector::Point;
 
-// Numbers in [0,1) that are spread evenly, another series for each `salt`: parts that are alike all
-// over would meet everywhere at one time.
+// Returns numbers in [0,1) that are spread evenly, another series for each `salt`. If all parts
+// were alike, they would meet everywhere at one time.
 double spread(int i, int salt) {
   constexpr double steps[] = {0.61803398874989485, 0.7548776662466927, 0.56984029099805327,
                               0.81917251339616438};
@@ -149,8 +149,8 @@ struct Station {
   double x, z, direction_x, direction_z, side_x, side_z;
 };
 
-// The station at a length s in [0, fixed_length] along the line: out of the wall at (-1, 0), up,
-// over the lid, down to the shoulder.
+// Returns the station at a length s in [0, fixed_length] along the line: out of the wall at (-1,
+// 0), up, over the lid, down to the shoulder.
 Station station_at(double s) {
   double x = -1, z = 0, turn = 0;  // turn: how far the direction has gone from -x over +z to +x
   const std::array<double, 3> straight = {out, up, over};
@@ -175,8 +175,8 @@ Station station_at(double s) {
 
 constexpr int edges_across_arm(int b) { return b < 3 ? 1 : b / 3; }
 
-// The perimeter of a square of k x k edges in 4 k steps, clockwise from its first corner, which is
-// right-handed about the arm's direction.
+// Returns the perimeter of a square of k x k edges in 4 k steps, clockwise from its first corner,
+// which is right-handed about the arm's direction.
 std::vector<std::array<int, 2>> perimeter(int k) {
   std::vector<std::array<int, 2>> points;
   for (int i = 0; i < k; ++i) points.push_back({0, i});
@@ -186,7 +186,7 @@ std::vector<std::array<int, 2>> perimeter(int k) {
   return points;
 }
 
-// The first edge of a block of k in the middle of the 3 b edges of a side.
+// Returns the first edge of a block of k in the middle of the 3 b edges of a side.
 constexpr int first_of_block(int b, int k) { return (3 * b - k) / 2; }
 
 // The vertices of the box by their lattice place, 0 ... 3 b on each axis.
@@ -259,7 +259,8 @@ constexpr int triangle_count(int b) {
   return 106 * b * b + 80 * b * k - 2 * k * k + 12 * k;
 }
 
-// The height of sliding ring i = 1 ... n. The tip is a point, half a width below the last ring.
+// Returns the height of sliding ring i = 1 ... n. The tip is a point, half a width below the last
+// ring.
 double ring_height(int i, int n, double tip) {
   return shoulder + (tip + half_width - shoulder) * i / n;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr int most_triangles = 20'000'000;
 constexpr int most_frames = 100'000;
 
-// The frames of a mesh that is at `place(s)` at the share s of its way.
+// Returns the frames of a mesh that is at `place(s)` at the share s of its way.
 template <class Place>
 Sequence frames_of(detector::Triangles triangles, int frames, const Place& place) {
   Sequence sequence{std::move(triangles), {}};
@@ -33,13 +33,13 @@ Sequence deform(const Mesh& mesh, const Extent& extent, Field field, int frames)
   });
 }
 
-// A shape of the scene's own.
+// Returns a shape of the scene's own.
 template <Mesh (*shape)(int size), Field field>
 Sequence deformed(const SceneOptions& options) {
   return deform(shape(options.size), Extent{}, field, options.frames);
 }
 
-// The user's mesh, or the scene's own shape.
+// Returns the user's mesh, or the scene's own shape.
 template <Mesh (*shape)(int size), Field field>
 Sequence deformed_any(const SceneOptions& options) {
   const Mesh mesh = options.mesh ? *options.mesh : shape(options.size);
@@ -50,7 +50,8 @@ Mesh open_tube(int size) { return tube_shape(size, false); }
 Mesh closed_tube(int size) { return tube_shape(size, true); }
 
 Sequence breathing_sphere(const SceneOptions& options) {
-  // Its own shape takes the sphere's centre itself, not that of the box around its vertices.
+  // The scene's own shape breathes about the sphere's centre itself, not about that of the box
+  // around its vertices.
   return options.mesh ? deformed_any<sphere_shape, breathe>(options)
                       : deformed<sphere_shape, breathe>(options);
 }
@@ -92,7 +93,7 @@ Sequence ball_in_tube(const SceneOptions& options) {
   });
 }
 
-// A scene that has a mesh for each time.
+// Returns a scene that has a mesh for each time.
 template <Mesh (*shape)(int size, double s)>
 Sequence play(const SceneOptions& options) {
   return frames_of(shape(options.size, 0).triangles, options.frames,

@@ -52,7 +52,8 @@ Point on_sphere(const Weights& weights) {
 // those that are zero.
 using Shared = std::vector<Weighted>;
 
-// The rectangle between two corners in the plane z = 0: columns x rows squares of two triangles.
+// Returns the rectangle between two corners in the plane z = 0: columns x rows squares of two
+// triangles.
 Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
   MeshMaker maker;
   add_sheet(maker, {.columns = rows, .rows = columns, .is_turned = true}, [&](int j, int i) {
@@ -155,7 +156,7 @@ Mesh side_by_side(const Mesh& a, const Mesh& b, double offset) {
 
 namespace {
 
-// sin(a) for |a| <= pi/4: the first term left out, a^17/17!, is below 5e-17.
+// Returns sin(a) for |a| <= pi/4. The first term left out, a^17/17!, is below 5e-17.
 double sin_small(double a) {
   const double s = a * a;
   double sum = 0;
@@ -163,7 +164,7 @@ double sin_small(double a) {
   return a + a * sum;
 }
 
-// cos(a) for |a| <= pi/4: the first term left out, a^18/18!, is below 3e-18.
+// Returns cos(a) for |a| <= pi/4. The first term left out, a^18/18!, is below 3e-18.
 double cos_small(double a) {
   const double s = a * a;
   double sum = 0;
@@ -171,7 +172,7 @@ double cos_small(double a) {
   return 1.0 + sum;
 }
 
-// The sine of x turns and `shift` quarters of a turn.
+// Returns the sine of x turns and `shift` quarters of a turn.
 double shifted_sine(double x, int shift) {
   // Both subtractions are exact: the rest is x less the nearest multiple of a quarter.
   const double quarters = std::floor(4 * x + 0.5);

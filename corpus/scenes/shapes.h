@@ -11,23 +11,25 @@
 
 namespace assay::corpus {
 
-// The unit sphere: an icosahedron with each face split into f^2 triangles, 20 f^2 in all.
+// Returns the unit sphere: an icosahedron with each face split into f^2 triangles, 20 f^2 in all.
 Mesh sphere_shape(int size);
 
-// A tube along z, radius 0.5, length 6, centre at the origin. With m vertices around it has 4 m^2
-// triangles and, with flat caps, 2 m more.
+// Returns a tube along z, radius 0.5, length 6, centre at the origin. With m vertices around it has
+// 4 m^2 triangles and, with flat caps, 2 m more.
 Mesh tube_shape(int size, bool capped);
 
-// A torus around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the thin way.
+// Returns a torus around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the
+// thin way.
 Mesh torus_shape(int size);
 
-// The square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
+// Returns the square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
 Mesh sheet_shape(int size);
 
-// The rectangle [0,1] x [0,0.5] in the plane z = 0, normal +z, 8 k by k squares: 16 k^2 triangles.
+// Returns the rectangle [0,1] x [0,0.5] in the plane z = 0, normal +z, 8 k by k squares: 16 k^2
+// triangles.
 Mesh ribbon_shape(int size);
 
-// Both meshes as one; b is moved by `offset` along x. Triangles of a come first.
+// Returns both meshes as one; b is moved by `offset` along x. Triangles of a come first.
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
 
 // Returns the n >= least whose count(n) is nearest to size. REQUIRES that count rises with n.
@@ -126,20 +128,21 @@ class MeshMaker {
 // a shape has a number of parts, a larger size has more of them. Fields for the scenes that move
 // the vertices of one mesh follow.
 
-// Square sheets one over the other, in the same folds, and nearer to each other than they move:
-// each slides and bulges in its own way. 50 of them from 1,600 triangles on, else fewer.
+// Returns square sheets one over the other, in the same folds. They are nearer to each other than
+// they move, and each slides and bulges in its own way. 50 of them from 1,600 triangles on, else
+// fewer.
 Mesh layered_cloth(int size, double s);
 
-// Spheres of 80 triangles and several radii on a cubic grid, which draws together while they turn.
-// 1,000 of them at 80,000 triangles.
+// Returns spheres of 80 triangles and several radii on a cubic grid, which draws together while
+// they turn. 1,000 of them at 80,000 triangles.
 Mesh pile_of_bodies(int size, double s);
 
-// A closed tube along a trefoil knot. The knot is drawn together while the tube stays as thick as
-// it is. The tube has twelve times as many pieces along its length as around it.
+// Returns a closed tube along a trefoil knot. The knot is drawn together while the tube stays as
+// thick as it is. The tube has twelve times as many pieces along its length as around it.
 Mesh tightening_knot(int size, double s);
 
-// Strips of 48 triangles that hang down side by side, all bent alike, and are combed: the columns
-// lean to one side and to the other in turn. 5,000 of them at 240,000 triangles.
+// Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed:
+// neighbouring columns lean to opposite sides. 5,000 of them at 240,000 triangles.
 Mesh combed_hair(int size, double s);
 
 // A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
@@ -176,7 +179,8 @@ struct Extent {
   std::size_t axis = 2;  // of that side
 };
 
-// Middle, half-length and axis of the box around a mesh; a mesh without extent gets radius 1.
+// Returns the middle, half-length and axis of the box around a mesh. A mesh without extent gets
+// radius 1.
 Extent extent_of(const detector::PositionsView& positions);
 
 using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
@@ -195,9 +199,8 @@ detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 // Shrinks and adds waves that fold the surface over itself.
 detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
 
-// The fields below are for shapes of this room, in their own coordinates; they do not use
-// `extent`.
-// Pushes the cap around +z down through the sphere and out at the other side.
+// Pushes the cap around +z down through the sphere and out at the other side. This field and those
+// below are for shapes of this room, in their own coordinates; they do not use `extent`.
 detector::Point dent(const detector::Point& x, double s, const Extent& extent);
 // Presses the torus's hole shut at x = 0.
 detector::Point pinch(const detector::Point& x, double s, const Extent& extent);
@@ -218,8 +221,8 @@ detector::Point narrow(const detector::Point& x, double s, const Extent& extent)
 detector::Point turn_inside_out(const detector::Point& x, double s, const Extent& extent);
 
 // Tapers the tube to the upper end, cuts it obliquely there, and bends it to an arc: of 0.85 turns
-// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While it
-// goes in, the fans over the two ends cross.
+// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While the
+// narrow end goes in, the fans over the two ends cross.
 detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
 
 // Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 at s = 1/2. Its own fan
@@ -235,7 +238,8 @@ double ball_height(double s);
 
 inline constexpr double pi = 3.14159265358979323846;
 
-// sin(2 pi x) and cos(2 pi x) for |x| < 2^40, within 4e-16; exact at multiples of a quarter turn.
+// Return sin(2 pi x) and cos(2 pi x) for |x| < 2^40, within 4e-16; exact at multiples of a quarter
+// turn.
 double sin_turn(double x);
 double cos_turn(double x);
 

@@ -195,7 +195,7 @@ def main(words):
     parser.add_argument("--out", required=True, metavar="DIR", help="the folder of the set")
     parser.add_argument("--distance", type=float, default=0, metavar="D",
                         help="ask of coming within D")
-    parser.add_argument("--limit", action="store_true", help="ask how far a step may be gone")
+    parser.add_argument("--limit", action="store_true", help="ask how far a step may be taken")
     parser.add_argument("--float", action="store_true", help="the coordinates are floats")
     parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
     parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",

@@ -71,7 +71,8 @@ class ApexChoice {
   ApexChoice(const Surface& surface, const BoundingVolumeTree& tree, const PositionsView& x,
              const ElementaryTest& elementary, const StopFunction& stop);
 
-  // O(1) for each triangle and ghost. If `stop` asked for an end, the result must not be used.
+  // Chooses the rules. O(1) for each triangle and ghost. If `stop` asked for an end, the result
+  // must not be used.
   Result run();
 
  private:

@@ -44,8 +44,8 @@ class GhostPlane {
     }
   }
 
-  // Whether the whole box lies strictly on one side of the plane. If grazing, it may also touch the
-  // plane.
+  // Returns whether the whole box lies strictly on one side of the plane. If grazing, it may also
+  // touch the plane.
   bool misses(const MovingBox& box, bool grazing) const {
     double middle = -offset_, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ class HoleSweep {
   }
 
  private:
-  // Both nodes are split at once, so that their boxes stay of like size.
+  // Descends. Both nodes are split at once, so that their boxes stay of like size.
   void descend(std::size_t of_hole, std::int32_t node) {
     if (stopped_) return;
     ++counts_.box_tests;

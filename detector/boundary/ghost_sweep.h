@@ -80,10 +80,10 @@ class HoleTree {
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
                                       const FloatGrid& grid, const SteppedMesh& motion);
 
-// For sweeps in which nothing moves: whether to leave out triangles on one side of a ghost's plane
-// too. These are then not `near` either. `strict` leaves out the triangles strictly on one side.
-// `grazing` also leaves out those that, within rounding errors, touch the plane from one side
-// without lying in it. So it may leave out triangles that a ghost touches.
+// For sweeps at rest: whether triangles on one side of a ghost's plane are left out too. These are
+// then not `near` either. `strict` leaves out the triangles strictly on one side. `grazing` also
+// leaves out those that, within rounding errors, touch the plane from one side without lying in it.
+// So it may leave out triangles that a ghost touches.
 enum class ByPlanes : std::uint8_t { no, strict, grazing };
 
 // The input of a sweep and its options.
@@ -92,7 +92,7 @@ struct GhostSweep {
   const BoundingVolumeTree& tree;  // of the mesh, refitted to the step
   SteppedMesh motion;              // rows: vertices of the mesh, then apexes
   const ElementaryTest& elementary;
-  // Whether edges that pierce at t=0 count too; needed if no state is known at t=0.
+  // Whether edges that pierce a triangle at t=0 count too. They must if no state is known at t=0.
   bool piercing_at_start = false;
   // If given, set to 1 for each triangle whose moving box is not apart from that of a ghost.
   std::vector<std::uint8_t>* near = nullptr;
@@ -116,7 +116,7 @@ struct GhostSweep {
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
 
-// The same for the triangles below one node of the mesh's tree, which must be of the hole's
+// Does the same for the triangles below one node of the mesh's tree, which must be of the hole's
 // component. Sweeps below several nodes may run at the same time if no node is above another one
 // and sweep.found is not given.
 bool sweep_hole_below(std::int32_t node, const GhostSweep& sweep, const HoleTree& hole,

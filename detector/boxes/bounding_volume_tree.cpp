@@ -162,14 +162,14 @@ struct BoundingVolumeTree::Builder {
     return true;
   }
 
-  // Returns half of the triangles. For more than two wide nodes (WideTree) it is rounded to whole
-  // ones.
+  // Returns half of the triangles. A half of more than one wide node (WideTree) is rounded to whole
+  // nodes.
   static std::uint32_t half_of(std::uint32_t count) {
     constexpr std::uint32_t wide = box_lanes::width;
     return count <= 2 * wide ? count / 2 : (count / 2 + wide / 2) / wide * wide;
   }
 
-  // The order along an axis.
+  // Returns the order along an axis.
   static std::uint64_t place_along(const Spot& spot, std::size_t axis) {
     return static_cast<std::uint64_t>(spot[axis]) << 32 | static_cast<std::uint32_t>(spot[3]);
   }
@@ -448,7 +448,7 @@ struct BoundingVolumeTree::Builder {
 
   static constexpr std::uint64_t work_to_split = 3;
 
-  // The workers split the large ranges, one size after the other.
+  // Splits the large ranges, one size after the other. The workers share the ranges of a size.
   bool split_large() {
     std::vector<Halves> halves;
     while (!large.empty()) {

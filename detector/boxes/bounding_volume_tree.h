@@ -64,7 +64,7 @@ class WideTree {
   };
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::int32_t n) const { return nodes_[at(n)]; }
-  // The binary node of a child, and the child itself: a node of this tree, or a triangle.
+  // Return the binary node of a child, and the child itself: a node of this tree, or a triangle.
   std::int32_t binary(std::size_t slot) const { return slots_[slot].binary; }
   std::int32_t child(std::size_t slot) const { return slots_[slot].child; }
   // Returns the binary node that holds the same triangles.
@@ -147,7 +147,7 @@ class BoundingVolumeTree {
                           [&](std::size_t i) { body(above_blocks_[last - i]); });
   }
 
-  // The same tree as a search reads it, with boxes of the last refit.
+  // Returns the same tree as a search reads it, with boxes of the last refit.
   const WideTree& wide() const { return wide_; }
 
   const FloatGrid& grid() const { return grid_; }
@@ -175,8 +175,8 @@ class BoundingVolumeTree {
   // Fits the boxes to the triangles as they move over the step. O(M): one pass over the nodes from
   // the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);
-  // The same. Returns false if `pace` was stopped; some boxes are then those of another step. The
-  // boxes are grown as if `slack` were added to the distance. With a slack, no later fit_once
+  // Does the same. Returns false if `pace` was stopped; some boxes are then those of another step.
+  // The boxes are grown as if `slack` were added to the distance. With a slack, no later fit_once
   // reuses them.
   bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace, double slack = 0);
   // Refits the boxes, unless they were last fitted to the same arrays of positions. So the stages

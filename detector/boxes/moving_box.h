@@ -136,15 +136,15 @@ class FloatGrid {
   }
   // The least distance that has a margin.
   static constexpr double least_distance = std::numeric_limits<double>::denorm_min();
-  // The same for sums of coordinates along the diagonals (feature_pairs.h). It includes the margin
-  // that sums need for d = 0. At a distance of d, the sums differ by sqrt(3) d at most.
+  // Returns the margin for sums of coordinates along the diagonals (feature_pairs.h). It includes
+  // the margin that sums need for d = 0. At a distance of d, the sums differ by sqrt(3) d at most.
   float diagonal_margin(double d) const {
     constexpr double root = 1.7320508075688774;
     return margin_of(root * (d * common_scale_));
   }
 
-  // Returns, by axis, how far positions may move while features that boxes with a margin told apart
-  // stay apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h). It is
+  // Returns, by axis, how far positions may move before features can meet that boxes with a margin
+  // told apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h). It is
   // negative if that error is larger, and NaN if the unit is no double; then no position is near
   // enough.
   std::array<double, 3> tolerance() const {

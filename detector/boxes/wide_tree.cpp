@@ -76,8 +76,8 @@ struct WideTree::Builder {
     return count;
   }
 
-  // In a node of a few triangles the first half is no larger than the second, so the order of its
-  // leaves is that of their numbers.
+  // Adds the triangles. In a node of a few triangles the first half is no larger than the second,
+  // so the order of its leaves is that of their numbers.
   void add_triangles(const Subtree& of, std::size_t slot) {
     if (binary.is_leaf(of.top)) wide.slots_[slot] = {of.top, binary.triangle(of.top)};
     for (auto node = of.first; node < of.last; ++node) {

@@ -144,7 +144,7 @@ double greatest(const Cubic& f) {
   return std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2]), std::abs(f[3])});
 }
 
-// The coefficients over [0,s].
+// Returns the coefficients over [0,s].
 Cubic left_of(Cubic f, double s) {
   Cubic left;
   for (std::size_t level = 0; level < 4; ++level) {
@@ -158,7 +158,7 @@ struct RootPiece {
   Cubic f;
   double bound, lo, hi;
 
-  // While this holds every middle is a multiple of 2^-53, and so it is exact.
+  // Returns whether the piece may be halved. If so, its middle is a multiple of 2^-53, and exact.
   bool may_halve() const { return hi - lo > 0x1p-52; }
 };
 
@@ -171,7 +171,7 @@ std::array<RootPiece, 2> halves(const RootPiece& piece) {
   return out;
 }
 
-// A time up to which the piece is surely free of roots, as late as it is found.
+// Returns a time up to which the piece is surely free of roots, as late as it is found.
 double free_until(RootPiece piece, int sign) {
   while (piece.may_halve() && sign_beyond(piece.f[0], piece.bound) == sign) {
     const auto [left, right] = halves(piece);
@@ -180,8 +180,8 @@ double free_until(RootPiece piece, int sign) {
   return piece.lo;
 }
 
-// A time at which the cubic surely has the sign that it has at the piece's end, as early as it is
-// found.
+// Returns a time at which the cubic surely has the sign that it has at the piece's end, as early as
+// it is found.
 double changed_at(RootPiece piece, int sign) {
   while (piece.may_halve()) {
     const auto [left, right] = halves(piece);
@@ -269,7 +269,7 @@ struct PlainSearch {
     return true;
   }
 
-  // For points on one line: whether the two groups overlap along every axis.
+  // Returns, for points on one line, whether the two groups overlap along every axis.
   bool overlap(Number time) const {
     for (std::size_t k = 0; k < 3; ++k) {
       bool before = true, behind = true;

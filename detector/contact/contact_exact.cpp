@@ -53,8 +53,8 @@ class ExactContact {
     return u_[i][p] * u_[j][q] - u_[i][q] * u_[j][p];
   }
 
-  // L_k,0..3 of the axis: the affine dependency with the signs of the second group turned. It is
-  // computed only when it is asked for, because most queries end at the first axis.
+  // Returns L_k,0..3 of the axis: the affine dependency with the signs of the second group turned.
+  // It is computed only when it is asked for, because most queries end at the first axis.
   const std::array<Polynomial, 4>& dependency(std::size_t axis) {
     auto& l = dependencies_[axis];
     if (!l) {
@@ -104,10 +104,10 @@ class ExactContact {
     return true;
   }
 
-  // For points that are coplanar throughout. A contact can begin only at t=0 or at a root of a
-  // dependency; it is enough to look at one axis with a dependency that is not identically zero.
-  // If the points are collinear throughout, a contact can begin only at t=0 or at a root of a
-  // difference along an axis.
+  // Returns the first contact time of points that are coplanar throughout. A contact can begin only
+  // at t=0 or at a root of a dependency; it is enough to look at one axis with a dependency that is
+  // not identically zero. If the points are collinear throughout, a contact can begin only at t=0
+  // or at a root of a difference along an axis.
   std::optional<TimeEnclosure> first_contact_of_coplanar() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<Polynomial> changing;

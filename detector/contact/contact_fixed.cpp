@@ -40,7 +40,7 @@ class FixedSearch {
         products_(query, first_group),
         b_(products_.coplanarity()) {}
 
-  // Is called once.
+  // Decides the query. Is called once.
   Decision run() {
     Piece whole;
     whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};
@@ -54,14 +54,14 @@ class FixedSearch {
     return visit(whole, 0);
   }
 
-  // The time of the contact. Meaningful only if run() said yes and a time was wanted.
+  // Returns the time of the contact. Meaningful only if run() said yes and a time was wanted.
   const TimeEnclosure& time() const { return time_; }
 
  private:
   using Piece = FixedPiece<W>;
   using Triple = typename Piece::Triple;
 
-  // Whether there is a contact at `time`, an end of the piece. REQUIRES that the points are
+  // Returns whether there is a contact at `time`, an end of the piece. REQUIRES that the points are
   // coplanar then.
   template <class SignThere>
   Decision look_at(Piece& piece, double time, SignThere sign_there) {
@@ -78,8 +78,8 @@ class FixedSearch {
     return meet ? Decision::yes : Decision::no;
   }
 
-  // Whether there is a contact where the points are collinear: along the first axis on which they
-  // differ, the groups have to overlap or touch.
+  // Returns whether there is a contact where the points are collinear: along the first axis on
+  // which they differ, the groups have to overlap or touch.
   template <class SignThere>
   bool meet_on_line(SignThere sign_there) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -139,9 +139,9 @@ class FixedSearch {
     return look_at_collinear(piece);
   }
 
-  // For points that are collinear throughout. If they are apart at t=0 they meet first where a
-  // difference along an axis vanishes, at p = d_0 / (d_0 - d_1) with its values at the two ends. A
-  // difference e has the sign of (d_0 e_1 - d_1 e_0) / (d_0 - d_1) there.
+  // Decides for points that are collinear throughout. If they are apart at t=0 they meet first
+  // where a difference along an axis vanishes, at p = d_0 / (d_0 - d_1) with its values at the two
+  // ends. A difference e has the sign of (d_0 e_1 - d_1 e_0) / (d_0 - d_1) there.
   Decision look_at_collinear(Piece& piece) {
     std::optional<Ends> first;
     for (std::size_t axis = 0; axis < 3 && !first; ++axis) {
@@ -168,14 +168,14 @@ class FixedSearch {
     return (d[0] * e[1] - d[1] * e[0]).sign() * d[0].sign();
   }
 
-  // A difference at an end of a piece, up to a positive factor.
+  // Returns a difference at an end of a piece, up to a positive factor.
   static auto value_at(double time, const Ends& d) {
     constexpr std::uint64_t parts = std::uint64_t{1} << max_fixed_depth;
     const auto behind = static_cast<std::uint64_t>(time * parts);
     return d[0].times(parts - behind) + d[1].times(behind);
   }
 
-  // The differences of points of the two groups along this axis, at t=0 and at t=1.
+  // Visits the differences of points of the two groups along this axis, at t=0 and at t=1.
   template <class Visit>
   void for_each_difference(std::size_t axis, Visit visit) const {
     for (std::size_t i = 0; i < first_group_; ++i) {
@@ -216,8 +216,8 @@ class FixedSearch {
 
   using Quadratic = FixedQuadratic<typename Piece::Minor>;
 
-  // Whether the root of a comes before that of b. REQUIRES that each has one root in the open
-  // piece and that sign before it.
+  // Returns whether the root of a comes before that of b. REQUIRES that each has one root in the
+  // open piece and that sign before it.
   static bool is_before(const Quadratic& a, int before_a, const Quadratic& b, int before_b) {
     return sign_at_root<W>(b, a, before_a) == before_b;
   }
@@ -289,8 +289,8 @@ class FixedSearch {
     return Decision::open;
   }
 
-  // The enclosure of the one root of a cubic in the open piece. `whole` holds the cubic over the
-  // step, in the form of coplanarity(); `cubic` holds it over the piece.
+  // Returns the enclosure of the one root of a cubic in the open piece. `whole` holds the cubic
+  // over the step, in the form of coplanarity(); `cubic` holds it over the piece.
   TimeEnclosure bracket(const Piece& piece, const FixedCubic<Triple>& whole,
                         const FixedCubic<Triple>& cubic, int before) const {
     Cubic f;

@@ -52,7 +52,7 @@ auto bounds_of(int first_group, const Value& value) {
   return bounds;
 }
 
-// 1 if the first group lies below the second along the axis at t=0, -1 if above, 0 if neither.
+// Returns 1 if the first group lies below the second along the axis at t=0, -1 if above, else 0.
 int order_at_start(const FourPoints& query, std::size_t axis) {
   const auto at_start =
       bounds_of(query.first_group, [&](std::size_t i) { return query.points[i].t0[axis]; });
@@ -67,7 +67,7 @@ int order_at_start(const FourPoints& query, std::size_t axis) {
 // MxMyMz: the difference is off by 2 u B, the product by 2 u B and the sum by u B, so a level adds
 // 5 u B, and three add 90 u MxMyMz; the errors of the operands are averaged.
 
-// Whether the groups are still in this order at `until`; `open` if doubles cannot tell.
+// Returns whether the groups are still in this order at `until`; `open` if doubles cannot tell.
 Decision stays_ordered(const FourPoints& query, std::size_t axis, int order, double until) {
   double largest = 0;
   const auto there = bounds_of(query.first_group, [&](std::size_t i) {
@@ -85,7 +85,7 @@ Decision stays_ordered(const FourPoints& query, std::size_t axis, int order, dou
 
 struct Weights {
   explicit Weights(double until) : until_(static_cast<std::uint64_t>(std::ceil(until * 0x1p62))) {}
-  // (1 - until) x + until y, times 2^62.
+  // Returns (1 - until) x + until y, times 2^62.
   template <class T>
   T mean(const T& x, const T& y) const {
     return x.times((std::uint64_t{1} << 62) - until_) + y.times(until_);

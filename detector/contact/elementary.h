@@ -22,13 +22,13 @@ struct ContactResult {
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 
-// In each arithmetic axis order comes first, on the inputs as they are given. In exact arithmetic
-// the test takes 0.1 to 1 us on average for candidates of a mesh; the time of a contact costs about
-// 1 us more.
+// Tests a query. In each arithmetic axis order comes first, on the inputs as they are given. In
+// exact arithmetic the test takes 0.1 to 1 us on average for candidates of a mesh; the time of a
+// contact costs about 1 us more.
 ContactResult test_contact(const FourPoints& query, Want want,
                            Arithmetic arithmetic = Arithmetic::exact);
 
-// The same in exact arithmetic. REQUIRES a query that separated_along_an_axis did not settle.
+// Does the same in exact arithmetic. REQUIRES a query that separated_along_an_axis did not settle.
 ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 
 // The elementary test as a stage of the detector. It is asked for every feature pair that axis
@@ -42,12 +42,12 @@ class ElementaryTest {
   // Returns kernels for many queries at once, or null. A query that they settle need not be asked
   // of this stage. A stage that does not override this is asked every query.
   virtual const QueryKernels* first_rungs() const { return nullptr; }
-  // The axis rung (rungs.h).
+  // Asks the axis rung (rungs.h).
   virtual bool is_apart_along_an_axis(const FourPoints& query) const;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
   }
-  // The same, but a contact later than `until` is of no interest: the answer to it may be no.
+  // Does the same, but a contact later than `until` is of no interest: the answer to it may be no.
   // REQUIRES until in [0,1], and a test whose times are unique enclosures.
   virtual ContactResult test_until(const FourPoints& query, Want want, double until) const;
   // Returns whether the open segment strictly pierces the open triangle at one instant. In this way

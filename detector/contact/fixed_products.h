@@ -52,7 +52,7 @@ class QueryIntegers {
     }
   }
 
-  // Every integer is below 2^bits() in size.
+  // Returns the bits of the longest integer: every integer is below 2^bits() in size.
   int bits() const { return bits_; }
 
   // Returns the coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits()
@@ -124,7 +124,7 @@ class FixedProducts {
     for (std::size_t k = 0; k < 3; ++k) lam1_[k] = minor(1, 2, k);
   }
 
-  // B0, B1, B2, B3, with which the cubic's Bernstein coefficients are B0, B1/3, B2/3, B3.
+  // Returns B0..B3. The cubic's Bernstein coefficients are B0, B1/3, B2/3, B3.
   FixedCubic<Triple> coplanarity() const {
     FixedCubic<Triple> b;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,7 +138,7 @@ class FixedProducts {
     return b;
   }
 
-  // L_k,0..3 of axis k, times 2.
+  // Returns L_k,0..3 of axis k, times 2.
   std::array<FixedQuadratic<Minor>, 4> dependency(std::size_t axis) const {
     std::array<FixedQuadratic<Minor>, 4> l = {
         {{}, lam1_[axis], minor(2, 0, axis), minor(0, 1, axis)}};
@@ -153,7 +153,7 @@ class FixedProducts {
     return l;
   }
 
-  // Coordinate `axis` of x_i - x_j at t=0 (end 0) or t=1 (end 1).
+  // Returns coordinate `axis` of x_i - x_j at t=0 (end 0) or t=1 (end 1).
   Coordinate difference(std::size_t i, std::size_t j, std::size_t end, std::size_t axis) const {
     const auto from_origin = [&](std::size_t p) {
       return p == 0 ? Coordinate() : u_[p - 1][end][axis];
@@ -162,7 +162,7 @@ class FixedProducts {
   }
 
  private:
-  // Component `axis` of u_i x u_j: n00, m, n11.
+  // Returns component `axis` of u_i x u_j: n00, m, n11.
   FixedQuadratic<Minor> minor(std::size_t i, std::size_t j, std::size_t axis) const {
     const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
     const auto n = [&](std::size_t s, std::size_t e) {
@@ -188,8 +188,7 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
   }
 }
 
-// A piece of the step in exact Bernstein coefficients, and what the signs of the coefficients
-// tell.
+// A piece of the step in exact Bernstein coefficients, and the facts that their signs tell.
 //
 // Leave out the zeros among the coefficients of a polynomial over a piece. Then:
 // - If the rest have one sign, the polynomial has that sign throughout the open piece.

@@ -14,8 +14,8 @@
 
 namespace assay::detector {
 
-// The axis rung. Whether the two groups are more than `by` apart along an axis, in the same sense
-// at t=0 and at t=1. Then they are more than `by` apart throughout, because every point moves
+// The axis rung. Returns whether the two groups are more than `by` apart along an axis, in the same
+// sense at t=0 and at t=1. Then they are more than `by` apart throughout, because every point moves
 // linearly; with `by` 0 this means that there is no contact. Exact, because a difference of doubles
 // is greater than a double if its rounded value is. REQUIRES by >= 0. About 10 ns.
 bool separated_along_an_axis(const FourPoints& query, double by = 0);
@@ -102,7 +102,7 @@ struct FixedResult {
   TimeEnclosure time;  // set only if the decision is yes and a time is wanted
 };
 
-// 0.2 to 1 us for coordinates of similar magnitude.
+// Decides a query if it can. 0.2 to 1 us for coordinates of similar magnitude.
 FixedResult fixed_contact(const FourPoints& query, Want want);
 
 // Returns the only root of the coplanarity cubic in (lo, hi), with the preconditions of

@@ -21,7 +21,7 @@ double share(double part, double whole) {
   return whole > 0 && part > 0 ? std::min(part / whole, 1.0) : 0;
 }
 
-// The place of the face that is nearest to the origin.
+// Returns the place of the face that is nearest to the origin.
 Vector of_face(const Vector& a, const Vector& b, const Vector& c) {
   const Vector ab = b - a, ac = c - a;
   const double d1 = -dot(ab, a), d2 = -dot(ac, a);
@@ -120,8 +120,8 @@ class NearFilter {
     Vector n;
     double size, level;
   };
-  // The gap of a pair of corners that is the first to fall to a level: the share of the piece at
-  // which it does, and its fall over the piece.
+  // The pair of corners whose gap is the first to reach a level: the share of the piece until then,
+  // and the fall of the gap over the piece.
   struct Descent {
     double share = 1, rate = 0;
   };
@@ -144,8 +144,9 @@ class NearFilter {
     return left < fall * (1 - now.time) ? now.time + left / fall : 1;
   }
 
-  // Whether a vector that goes linearly from the n of one instant to the n of another proves the
-  // features farther apart than d in between. REQUIRES that n proves it at the first instant.
+  // Returns whether a vector that goes linearly from the n of one instant to the n of another
+  // proves the features farther apart than d in between. REQUIRES that n proves it at the first
+  // instant.
   bool keeps_apart(const Instant& from, const Instant& to) const {
     if (!(to.time > from.time) || !(least_gap(heights(to.n, to.x)) > to.level)) return false;
     const Heights a = heights(from.n, to.x), b = heights(to.n, from.x);
@@ -184,8 +185,9 @@ class NearFilter {
     return first;
   }
 
-  // The features are farther apart than d up to `now`, and by little more than d there; their
-  // distance falls by about `fall`. Looks for a time soon after at which they are within d.
+  // Looks for a time soon after `now` at which the features are within d. REQUIRES that they are
+  // farther apart than d up to `now`, and by little more there. `fall` is about the rate at which
+  // their distance falls.
   NearResult near_after(const Instant& now, double fall) const {
     if (!(fall > 0)) return {};
     const double above = now.size - d_;

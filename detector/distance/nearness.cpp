@@ -64,9 +64,9 @@ bool holds_at(const RealRoot& time, const NearRegion<Polynomial>& region) {
   return true;
 }
 
-// Looks at a short piece [lo,hi] of the step in balls. Says for each region whether its conditions
-// hold in the piece; they need not if the region is surely not near there. Returns nothing if that
-// is not sure for some region.
+// Looks at a short piece [lo,hi] of the step in balls. Returns for each region whether its
+// conditions hold in the piece; false too for a region that is surely not near there. Returns
+// nothing if neither is sure for some region.
 std::optional<std::array<bool, 9>> regions_that_hold(const FourPoints& query, double d, double lo,
                                                      double hi) {
   constexpr double least_width = 0x1p-900;
@@ -97,7 +97,7 @@ std::optional<std::array<bool, 9>> regions_that_hold(const FourPoints& query, do
   return holds;
 }
 
-// Nothing if balls or counts of sign changes do not tell.
+// Returns nothing if balls or counts of sign changes do not tell.
 std::optional<TimeEnclosure> time_in_piece(const FourPoints& query, double d, double lo, double hi,
                                            double guess) {
   const auto holds = regions_that_hold(query, d, lo, hi);

@@ -15,7 +15,8 @@
 
 namespace assay::detector {
 
-// 0.1 us for a candidate that stays apart or begins near; a first time after t=0 costs 30 us more.
+// Tests a query. 0.1 us for a candidate that stays apart or begins near; a first time after t=0
+// takes 30 us more.
 ContactResult test_near(const FourPoints& query, double d, Want want);
 
 // Returns the stage of the detector.
@@ -26,8 +27,9 @@ std::shared_ptr<const ElementaryTest> make_near_test(double d);
 // else some 100 us; up to 0.1 s where the exponents of coordinates and d spread over all doubles.
 std::optional<TimeEnclosure> exact_near_time(const FourPoints& query, double d);
 
-// The same for features that are farther apart than d from t=0 to lo and nearer than d at hi. Only
-// [lo,hi] is looked at if that is enough; `guess` is about the first time. 15 us for a short piece.
+// Does the same for features that are farther apart than d from t=0 to lo and nearer than d at hi.
+// Only [lo,hi] is looked at if that is enough; `guess` is about the first time. 15 us for a short
+// piece.
 TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double lo, double hi,
                                       double guess);
 
@@ -42,8 +44,8 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 //   with the Bernstein coefficients n0.w0, (n0.w1 + n1.w0) / 2, n1.w1 for w = p - q. |n| is convex,
 //   so d |n| is below the linear function with the end values d |n0| and d |n1|.
 // The next instant is where the distance would come to d if it fell as it did between the last two
-// (the secant rule), or the end of the step. If a piece up to there cannot be proved, the next
-// instant is the time until which the n of this instant keeps the features apart.
+// (the secant rule), or the end of the step. If the piece up to that instant cannot be proved, the
+// next instant is nearer: the one up to which the fixed n of this instant keeps the features apart.
 //
 // On the other hand, two places of the features that are nearer than d prove that the features are
 // within d at that instant.

@@ -42,7 +42,7 @@ class Ball {
     if (backend.sign()) middle_ = -middle_;
     exponent_ += exponent;
   }
-  // The same of an integer of fixed width.
+  // The ball around an integer of fixed width.
   template <std::size_t limbs>
   explicit Ball(const FixedInteger<limbs>& value) {
     const FixedInteger<limbs> positive = value.negative() ? -value : value;
@@ -57,7 +57,7 @@ class Ball {
     if (value.negative()) middle_ = -middle_;
   }
 
-  // Exactly this double. REQUIRES that it is finite.
+  // Returns exactly this double. REQUIRES that it is finite.
   static Ball of(double value) {
     Ball ball;
     int exponent = 0;
@@ -66,9 +66,9 @@ class Ball {
     return ball;
   }
 
-  // All numbers between two doubles. REQUIRES 0 <= lo < hi, and hi - lo in the range of normal
-  // doubles. The middle and half of the width are each rounded once; the slack covers that, since
-  // the radius grows by a bit of hi as well.
+  // Returns the ball that holds all numbers between two doubles. REQUIRES 0 <= lo < hi, and hi - lo
+  // in the range of normal doubles. The middle and half of the width are each rounded once; the
+  // slack covers that, since the radius grows by a bit of hi as well.
   static Ball between(double lo, double hi) {
     assert(0 <= lo && lo < hi && hi - lo >= 0x1p-1000);
     Ball ball;
@@ -113,7 +113,7 @@ class Ball {
   }
 
  private:
-  // Makes it the ball around the integer of these limbs, the last of which is not 0.
+  // Makes it the ball around the integer of these limbs. REQUIRES that the last limb is not 0.
   template <class Limb>
   void take_limbs(const Limb* limbs, std::size_t size) {
     const Limb top = limbs[size - 1];
@@ -129,7 +129,7 @@ class Ball {
 
   bool is_zero() const { return middle_ == 0 && radius_ == 0; }
 
-  // 2^exponent, for exponents of normal doubles.
+  // Returns 2^exponent. REQUIRES an exponent of normal doubles.
   static double power_of_two(std::int64_t exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
   }

@@ -88,7 +88,7 @@ struct MovingVectorOf {
 };
 using MovingVector = MovingVectorOf<double>;
 
-// p - q at both ends of the step, computed from the coordinates rounded to T.
+// Returns p - q at both ends of the step, computed from the coordinates rounded to T.
 template <class T = double>
 MovingVectorOf<T> difference(const MovingPoint& p, const MovingPoint& q) {
   MovingVectorOf<T> d;
@@ -128,7 +128,7 @@ CrossQuadraticOf<T> cross(const MovingVectorOf<T>& x, const MovingVectorOf<T>& y
           cross(x.t1, y.t1)};
 }
 
-// w . (x cross y)
+// Returns w . (x cross y).
 template <class T>
 CubicOf<T> triple_product(const MovingVectorOf<T>& w, const CrossQuadraticOf<T>& n) {
   return {dot(w.t0, n.b0), (2 * dot(w.t0, n.b1) + dot(w.t1, n.b0)) / 3,
@@ -146,7 +146,7 @@ void halve(const std::array<T, n>& b, std::array<T, n>& left, std::array<T, n>& 
   }
 }
 
-// The same for m polynomials whose coefficients lie side by side.
+// Does the same for m polynomials whose coefficients lie side by side.
 template <class T, std::size_t m, std::size_t n>
 void halve(const std::array<std::array<T, m>, n>& b, std::array<std::array<T, m>, n>& left,
            std::array<std::array<T, m>, n>& right) {

@@ -62,7 +62,7 @@ class FixedInteger {
   }
   FixedInteger operator-() const { return FixedInteger() - *this; }
 
-  // Times 2^count.
+  // Returns the value times 2^count.
   FixedInteger shifted(unsigned count) const {
     const std::size_t whole = count / 64;
     const unsigned part = count % 64;
@@ -73,7 +73,7 @@ class FixedInteger {
     }
     return out;
   }
-  // Times a factor below 2^63; cheaper than a full product.
+  // Returns the value times a factor below 2^63. It is cheaper than a full product.
   FixedInteger times(std::uint64_t factor) const {
     FixedInteger out;
     DoubleLimb carry = 0;

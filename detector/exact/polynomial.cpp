@@ -239,7 +239,7 @@ namespace {
 
 constexpr std::uint64_t prime = (std::uint64_t{1} << 61) - 1;
 
-// 2^61 is 1 modulo the prime.
+// Returns the value modulo the prime, for which 2^61 is 1.
 std::uint64_t reduced(DoubleLimb value) {
   value = (value & prime) + (value >> 61);
   value = (value & prime) + (value >> 61);
@@ -262,7 +262,7 @@ void trim(Residues& f) {
   while (!f.empty() && f.back() == 0) f.pop_back();
 }
 
-// leading(b) a - leading(a) t^k b, until the degree is below that of b.
+// Replaces a by leading(b) a - leading(a) t^k b until its degree is below that of b.
 void reduce_by(Residues& a, const Residues& b) {
   while (a.size() >= b.size()) {
     const std::uint64_t of_a = b.back(), of_b = prime - a.back();
@@ -288,10 +288,10 @@ bool surely_square_free(const Polynomial& f) {
   return a.size() <= 1;
 }
 
-// The last subresultant of a and b that is not zero (Collins; Cohen, A Course in Computational
-// Algebraic Number Theory, Algorithm 3.3.1). Each pseudo-remainder is divided by a factor that is
-// known to divide it. So the coefficients grow by a constant length in each step, as determinants
-// of coefficients do, and no greatest common divisor of integers has to be found.
+// Returns the last subresultant of a and b that is not zero (Collins; Cohen, A Course in
+// Computational Algebraic Number Theory, Algorithm 3.3.1). Each pseudo-remainder is divided by a
+// factor that is known to divide it. So the coefficients grow by a constant length in each step, as
+// determinants of coefficients do, and no greatest common divisor of integers has to be found.
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   Integer g = 1, h = 1;
   while (true) {

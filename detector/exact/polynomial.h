@@ -66,7 +66,7 @@ class Polynomial {
   // Returns the exact sign (-1, 0, 1) at a time. 0.1 us unless the terms cancel nearly wholly there
   // (ball.h).
   int sign_at(const Dyadic& time) const;
-  // The signs at t = 0 and t = 1. They need no Dyadic.
+  // Return the signs at t = 0 and t = 1. They need no Dyadic.
   int sign_at_zero() const;
   int sign_at_one() const;
 
@@ -79,9 +79,9 @@ class Polynomial {
   // than that of `divisor`, the result is this polynomial itself. REQUIRES that `divisor` is not
   // zero.
   Polynomial remainder(const Polynomial& divisor) const;
-  // This polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
-  // `divisor` divides this polynomial up to a constant. The result's integers are longer than
-  // those of this polynomial by some bits at most.
+  // Returns this polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
+  // `divisor` divides this polynomial up to a constant. The result's integers are longer than those
+  // of this polynomial by some bits at most.
   Polynomial quotient(const Polynomial& divisor) const;
 
   static constexpr std::size_t inline_coefficients = 7;

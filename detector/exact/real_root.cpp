@@ -9,8 +9,8 @@
 namespace assay::detector {
 namespace {
 
-// About where f changes sign between lo and hi, in plain double arithmetic. This is a guess that
-// saves exact evaluations and decides nothing.
+// Returns about where f changes sign between lo and hi, in plain double arithmetic. This is a guess
+// that saves exact evaluations and decides nothing.
 double approximate_root(const Polynomial& f, double lo, double hi) {
   constexpr unsigned kept_bits = 900;  // far inside the range of double
   unsigned most_bits = 0;
@@ -47,15 +47,15 @@ RealRoot enclosed(const Polynomial& f, const IsolatedRoot& root) {
   return {f, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), root.sign_after_lo, doubles};
 }
 
-// The isolated roots of `simple`, the square-free part of f. REQUIRES that f has the sign changes
-// of_f over (0,1).
+// Returns the isolated roots of `simple`, the square-free part of f. REQUIRES that f has the sign
+// changes of_f over (0,1).
 std::vector<IsolatedRoot> isolated_roots(const Polynomial& simple, const Polynomial& f,
                                          SignChanges of_f, Roots scope) {
   const bool is_f = simple.degree() == f.degree();
   return isolate_roots(simple, is_f ? of_f : sign_changes_over_unit(simple), scope);
 }
 
-// The double that a dyadic time is, or the two adjacent doubles around it.
+// Returns the double that a dyadic time is, or the two adjacent doubles around it.
 TimeEnclosure doubles_around(const Dyadic& time) {
   const Integer scale = Integer(1) << static_cast<unsigned>(-time.exponent);
   const Polynomial f = Polynomial::linear(-time.mantissa, scale - time.mantissa);
@@ -141,7 +141,7 @@ EndSigns end_signs(const Polynomial& q, const Dyadic& lo, const Dyadic& hi) {
   return signs;
 }
 
-// The sign of q at the root -b/a of a t + b.
+// Returns the sign of q at the root -b/a of a t + b.
 int sign_at_root_of_linear(const Polynomial& q, const Polynomial& linear) {
   const Integer &a = linear[1], &b = linear[0];
   return Integer(q[2] * b * b - q[1] * a * b + q[0] * a * a).sign();

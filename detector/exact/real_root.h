@@ -33,10 +33,10 @@ class RealRoot {
 
  private:
   bool is_exact() const { return sign_after_lo_ == 0; }
-  // The same for a q with roots in (lo, hi) that has the signs after_lo and before_hi just inside
-  // the ends of the interval.
+  // Does the same for a q with roots in (lo, hi) that has the signs after_lo and before_hi just
+  // inside the ends of the interval.
   int sign_by_order(const Polynomial& q, int after_lo, int before_hi) const;
-  // The same for a q of any degree.
+  // Does the same for a q of any degree.
   int sign_beside_roots(const Polynomial& q) const;
 
   Dyadic lo_, hi_;  // both are the root itself if is_exact()

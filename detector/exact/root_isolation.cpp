@@ -13,8 +13,8 @@ struct Part {
   SignChanges changes;
 };
 
-// A double between lo and hi: the middle in the order of doubles. In (0,1) that would be about
-// 2^-512, but most roots are of ordinary size. So intervals that begin at 0 are split at 1/2,
+// Returns a double between lo and hi: the middle in the order of doubles. In (0,1) that would be
+// about 2^-512, but most roots are of ordinary size. So intervals that begin at 0 are split at 1/2,
 // 2^-3, 2^-7, and so on down to 2^-1023.
 double split(double lo, double hi) {
   constexpr int last_exponent = -511;
@@ -69,9 +69,9 @@ void shift(Row<Number>& row, const Step& add_multiple) {
   }
 }
 
-// The changes over (0,1) of a polynomial with these coefficients of powers of t. Nothing if unsure
-// signs leave open whether there are 0, 1 or more changes. One unsure coefficient between two of
-// different signs does not matter.
+// Returns the changes over (0,1) of a polynomial with these coefficients of powers of t. Nothing if
+// unsure signs leave open whether there are 0, 1 or more changes. One unsure coefficient between
+// two of different signs does not matter.
 template <class Number>
 std::optional<SignChanges> changes_of(Row<Number> row) {
   std::reverse(row.begin(), row.end());
@@ -139,8 +139,8 @@ SignChanges sign_changes_over(const Polynomial& f, const Dyadic& lo, const Dyadi
 //   proof    The two cells around the guess hold all roots of the part where there is no sign
 //            change to their left and none to their right. Only that counts: a wrong guess costs
 //            time.
-//   pace     After a proof the two cells are the part, and k is doubled. Without one k is halved
-//            and the guess is made anew; at k = 1 the part is halved, and its halves begin with
+//   pace After a proof the two cells are the part, and k is doubled. Without a proof k is halved,
+//            and a new guess is made; at k = 1 the part is halved, and its halves begin with
 //            first_log_cells.
 //
 // Why it ends: each narrowing or halving leaves parts of at most half the width, and over a short
@@ -219,8 +219,8 @@ class GapIsolation {
     add_sub_part(part, Dyadic{0, 0}, half, part.log_width - 1, first_log_cells);
   }
 
-  // The boundary between cells that is nearest to the guess made from one end of the part, or
-  // nothing if the guess is outside of the part. From the end 1 the step goes back by n
+  // Returns the boundary between cells that is nearest to the guess made from one end of the part,
+  // or nothing if the guess is outside of the part. From the end 1 the step goes back by n
   // f(1)/f'(1).
   static std::optional<Integer> guessed_cell(const ClusterPart& part, int log_cells,
                                              bool from_end) {

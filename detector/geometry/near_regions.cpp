@@ -10,8 +10,8 @@
 namespace assay::detector {
 namespace {
 
-// Whether the features of four points, the first `first_group` of them and the others, are nearer
-// to each other than r.
+// Returns whether the features of four points, the first `first_group` of them and the others, are
+// nearer to each other than r.
 bool are_nearer(const std::array<const Point*, 4>& input, int first_group, double r) {
   std::array<double, 13> values;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -28,8 +28,8 @@ bool are_nearer(const std::array<const Point*, 4>& input, int first_group, doubl
   return some_region_holds(NearRegions<Integer>(points, first_group, squared), Near::nearer);
 }
 
-// True only if the two boxes are at least r apart. A rounded difference above r is above it before
-// rounding too, because rounding keeps the order of numbers and r is a double.
+// Returns true only if the two boxes are at least r apart. A rounded difference above r is above it
+// before rounding too, because rounding keeps the order of numbers and r is a double.
 bool boxes_are_apart(std::span<const Point> a, std::span<const Point> b, double r) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto less = [k](const Point& x, const Point& y) { return x[k] < y[k]; };

@@ -39,8 +39,8 @@ template <class Number>
 struct NearRegion {
   Number f;
   std::array<Number, 4> not_negative;
-  std::size_t conditions = 0;  // how many of these there are
-  Number positive;             // the strict condition; there is one if there are others
+  std::size_t conditions = 0;  // number of these
+  Number positive;             // the strict condition; stated if conditions > 0
 };
 
 template <class Number>
@@ -137,8 +137,8 @@ bool some_region_holds(const NearRegions<Number>& regions, Near near) {
 bool vertex_is_nearer_to_face(const Point& p, const std::array<Point, 3>& face, double r);
 bool edges_are_nearer(const std::array<Point, 2>& a, const std::array<Point, 2>& b, double r);
 
-// The same for two triangles that share no vertex: true if they pierce each other, or if a feature
-// of one is nearer than r to a feature of the other.
+// Does the same for two triangles that share no vertex: true if they pierce each other, or if a
+// feature of one is nearer than r to a feature of the other.
 bool triangles_are_nearer(const std::array<Point, 3>& a, const std::array<Point, 3>& b, double r);
 
 }  // namespace assay::detector

@@ -35,7 +35,7 @@ struct Differences {
     for (const double m : magnitude) in_range &= m > least_magnitude && m < greatest_magnitude;
     bound = orientation_error<ProvedBounds> * (magnitude[0] * magnitude[1] * magnitude[2]);
   }
-  // u[i] . (u[j] x u[k])
+  // Returns u[i] . (u[j] x u[k]).
   double volume(std::size_t i, std::size_t j, std::size_t k) const {
     const double n[3] = {u[j][1] * u[k][2] - u[j][2] * u[k][1],
                          u[j][2] * u[k][0] - u[j][0] * u[k][2],
@@ -47,8 +47,8 @@ struct Differences {
   bool in_range;
 };
 
-// Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
-// plane.
+// Returns whether doubles prove that both ends of the segment are strictly on one side of the
+// triangle's plane.
 bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   const Differences from(face[0], {&face[1], &face[2], &e0, &e1});
   const double side0 = from.volume(2, 0, 1), side1 = from.volume(3, 0, 1);
@@ -56,8 +56,8 @@ bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point
                            (side0 < -from.bound && side1 < -from.bound));
 }
 
-// Whether doubles prove that the segment's line passes outside of the triangle: two of its edges
-// turn around the line in opposite senses.
+// Returns whether doubles prove that the segment's line passes outside of the triangle: two of its
+// edges turn around the line in opposite senses.
 bool surely_turns_both_ways(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   const Differences from(e0, {&e1, &face[0], &face[1], &face[2]});
   const double turns[3] = {from.volume(0, 1, 2), from.volume(0, 2, 3), from.volume(0, 3, 1)};

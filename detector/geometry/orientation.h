@@ -81,7 +81,7 @@ bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array
 // 40 ns, no allocation.
 Decision bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 
-// The same as Number (double or float) computes it. It promises nothing.
+// Does the same as Number (double or float) computes it. It promises nothing.
 template <class Number>
 bool plain_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 

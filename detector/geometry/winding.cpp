@@ -30,8 +30,8 @@ constexpr int reach = 1000;
 // The work on a triangle (its size, one cast) and on a ray (one aim), in box tests.
 constexpr std::uint64_t work_of_size = 1, work_of_cast = 2, work_of_aim = 10;
 
-// The n-th direction to try, from a fixed recurrence. It is the same on every machine, and unlikely
-// to be parallel to many edges.
+// Returns the n-th direction to try, from a fixed recurrence. It is the same on every machine, and
+// unlikely to be parallel to many edges.
 RayDirection direction_number(int n) {
   std::uint32_t state = 0x9e3779b9u * static_cast<std::uint32_t>(n + 1);
   RayDirection r{};
@@ -124,8 +124,9 @@ class Crossings {
   }
 
  private:
-  // A ray that asks for a triangle's outside leaves strictly on the side of its normal; the
-  // triangle's own corners give r . normal as the sum of the three (equal) signs.
+  // Points the ray along r or against it. Returns false if r does not serve. A ray that asks for a
+  // triangle's outside leaves strictly on the side of its normal; the triangle's own corners give r
+  // . normal as the sum of the three (equal) signs.
   bool aim(const RayDirection& r, Ray& ray) const {
     ray.sum = 0;
     ray.reversed = false;
@@ -315,7 +316,8 @@ CrossingSigns exact_signs(const std::array<Point, 3>& corners, const RayOrigin& 
   return signs;
 }
 
-// A sign is 0 if doubles cannot tell it, or in plain numbers if the computed determinant is 0.
+// Returns the signs by doubles. A sign is 0 if they cannot tell it, or in plain numbers if the
+// computed determinant is 0.
 template <class Bounds>
 CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigin& o,
                              const RayDirection& r) {

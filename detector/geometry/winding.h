@@ -58,8 +58,9 @@ using RayDirection = std::array<int, 3>;
 // The signs of det(A,B,r), det(B,C,r), det(C,A,r), det(A,B,C), in this order.
 using CrossingSigns = std::array<int, 4>;
 
-// Exact arithmetic gives the true signs. Bounded arithmetic gives 0 for a sign that doubles cannot
-// tell. Plain doubles and floats give the signs as computed. About 30 ns if doubles can tell.
+// Returns the signs. Exact arithmetic gives the true ones. Bounded arithmetic gives 0 for a sign
+// that doubles cannot tell. Plain doubles and floats give the signs as computed. About 30 ns if
+// doubles can tell.
 CrossingSigns crossing_signs(const std::array<Point, 3>& corners, const RayOrigin& o,
                              const RayDirection& r, Arithmetic arithmetic);
 

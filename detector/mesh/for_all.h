@@ -51,7 +51,7 @@ bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run r
   return !pace->stopped();
 }
 
-// The same for items that cost work_of_each each; run returns nothing.
+// Does the same for items that cost work_of_each each; run returns nothing.
 template <class Run>
 bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
                     PacedStop* pace, Run run) {

@@ -63,7 +63,8 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
   return std::nullopt;
 }
 
-// Triangles with the same three vertices have the same lowest vertex.
+// Compares triangles with the same lowest vertex, because those with the same three vertices have
+// that.
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
@@ -208,8 +209,8 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "a list of triangles, but features are what counts"
-                                      : "a list of features, but triangles are what counts");
+    return wrong_relation(of_features ? "a list of pairs of triangles, in a relation of features"
+                                      : "a list of pairs of features, in a relation of triangles");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {

@@ -36,7 +36,7 @@ class PacedStop {
   // The same, but it also ends once more than `most` work was done.
   PacedStop(const StopFunction& stop, std::uint64_t interval, double most)
       : stop_(stop), interval_(interval), most_(most) {}
-  // For work that the workers share (for_all.h). One thread asks for all of them.
+  // Serves work that the workers share (for_all.h). One thread asks for all of them.
   PacedStop(const StopFunction& stop, const Workers& workers)
       : stop_(stop), workers_(&workers), interval_(usual_interval) {}
 

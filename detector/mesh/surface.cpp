@@ -60,7 +60,7 @@ struct LoopEdge {
   std::int32_t from, to;
 };
 
-// The unmatched edges, ascending by their first vertex, then by their second.
+// Returns the unmatched edges, ascending by their first vertex, then by their second.
 std::vector<LoopEdge> unmatched_edges(const Topology& mesh, PacedStop& pace) {
   std::vector<LoopEdge> unmatched;
   const auto take = [&](std::size_t i) {

@@ -27,7 +27,7 @@ using Loop = std::vector<std::int32_t>;
 // machine: a walk starts with the lowest unused unmatched edge, and from each vertex it takes the
 // lowest unused edge that leaves it, until none is left there. O(N + M).
 std::vector<Loop> boundary_loops(const Topology& mesh);
-// The same with a pace. If `pace` was stopped the result is of no use.
+// Does the same with a pace. If `pace` was stopped the result is of no use.
 std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace);
 
 // A mesh with its ghosts. Ghosts take part in the view test, in winding numbers and in the ghost
@@ -50,7 +50,7 @@ struct Surface {
 
 // REQUIRES triangles that have passed check_corners. O(N + M).
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count);
-// The same with a pace. If `pace` was stopped the result is of no use.
+// Does the same with a pace. If `pace` was stopped the result is of no use.
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
 // The two parts of make_surface.
 Surface surface_without_ghosts(const TrianglesView& triangles, Eigen::Index vertex_count,

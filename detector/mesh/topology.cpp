@@ -14,7 +14,7 @@ namespace {
 // The work on a corner and on a triangle, in box tests.
 constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
 
-// The triangles at each vertex, ascending.
+// Lists the triangles at each vertex, ascending.
 bool find_triangles_of_vertices(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   const auto vertices = [&](std::size_t t) -> const auto& { return mesh.triangles[t]; };
   return list_by_row(mesh.triangles.size(), vertex_count, vertices, mesh.vertex_triangles, pace);
@@ -49,8 +49,8 @@ class EdgesOfVertices {
     for (auto v = begin; v < end; ++v) collect(v, around.row(v));
   }
 
-  // Takes the first numbers of these edges and their uses, and sets both to the numbers that
-  // follow.
+  // Numbers these edges and their uses from `edge` and `use` on, and sets both to the next free
+  // numbers.
   void begin_at(std::size_t& edge, std::size_t& use) {
     first_edge_ = static_cast<std::int32_t>(std::exchange(edge, edge + count_));
     first_use_ = static_cast<std::int32_t>(std::exchange(use, use + uses_.size()));
@@ -117,7 +117,7 @@ class EdgesOfVertices {
   std::int32_t first_edge_ = 0, first_use_ = 0;
 };
 
-// Edges are made in pieces, so that the uses of a piece are still in the fastest cache when it is
+// Makes the edges, in pieces, so that the uses of a piece are still in the fastest cache when it is
 // written. The workers share a few pieces at a time.
 bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   constexpr std::size_t of_piece = 512, pieces_of_worker = 8;
@@ -190,7 +190,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   const auto join = [&](std::size_t t) {
     const auto& corners = mesh.triangles[t];
     for (std::size_t corner = 1; corner < 3; ++corner) {
-      if (parent[at(corners[0])] == parent[at(corners[corner])]) continue;  // as mostly
+      if (parent[at(corners[0])] == parent[at(corners[corner])]) continue;  // the usual case
       const auto a = root_of(parent, corners[0]), b = root_of(parent, corners[corner]);
       parent[at(std::max(a, b))] = std::min(a, b);
     }
@@ -265,7 +265,7 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
     const auto t = static_cast<Eigen::Index>(i);
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
   };
-  // Each function needs what those before it have made.
+  // Each function needs the results of those before it.
   if (for_all_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
       find_triangles_of_vertices(mesh, vertices, pace) && make_edges(mesh, vertices, pace) &&
       make_components(mesh, vertices, pace)) {

@@ -57,7 +57,7 @@ struct Topology {
 
 // REQUIRES triangles that have passed check_corners. O(N + M).
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
-// The same with a pace. If `pace` was stopped the result is of no use.
+// Does the same with a pace. If `pace` was stopped the result is of no use.
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
 
 }  // namespace assay::detector

@@ -56,7 +56,7 @@ struct SteppedMesh {
     return vertices_t0.data() == vertices_t1.data() && vertices_t0.rows() == vertices_t1.rows() &&
            vertices_t0.outerStride() == vertices_t1.outerStride();
   }
-  // The same mesh at rest: every vertex stays where it is at t=0.
+  // Returns the same mesh at rest: every vertex stays where it is at t=0.
   SteppedMesh at_start() const { return {vertices_t0, vertices_t0}; }
 };
 

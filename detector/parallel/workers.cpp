@@ -24,7 +24,8 @@ void put_needed() {
   if (!is_needed(state_now())) put(needed);
 }
 #else
-// The environment as a program starts with it. On ARM it also holds the treatment of denormals.
+// Returns the environment as a program starts with it. On ARM it also holds the treatment of
+// denormals.
 State state_now() {
   State state;
   std::fegetenv(&state);

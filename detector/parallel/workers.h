@@ -2,8 +2,8 @@
 // the pieces of a loop at the same time; everything else is done by the calling thread.
 //
 // A piece writes only to places of its own or of its lane, and the results of lanes are put
-// together in a way that does not depend on their order. So a result does not depend on how many
-// threads there are, nor on which of them did what. A loop returns when all of its pieces are done.
+// together in a way that does not depend on their order. So a result depends neither on the number
+// of threads nor on how the work was shared. A loop returns when all of its pieces are done.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ namespace assay::detector {
 // The threads themselves. They are those of oneTBB; only thread_arena.cpp names that library.
 class ThreadArena {
  public:
-  // Null if the library was built without oneTBB.
+  // Returns null if the library was built without oneTBB.
   static std::unique_ptr<ThreadArena> make(std::size_t threads);
   virtual ~ThreadArena() = default;
   class Work {

@@ -188,7 +188,7 @@ void assay_handle::keep(StepResult next) {
   times.swap(next_times);
 }
 
-// The table of assay_detector.h for the built-in detector.
+// Returns the table of assay_detector.h for the built-in detector.
 const assay_detector_api* assay_builtin_detector() {
   static const assay_detector_api api = [] {
     assay_detector_api table = {};

@@ -1,5 +1,5 @@
 /* The built-in detector in C. It is for programs in C, and for programs that use any detector
- * through the interface of assay_detector.h. C99 or C++; link assay::detector. Made like this:
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector. Make it like this:
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -29,8 +29,8 @@
 extern "C" {
 #endif
 
-/* The built-in detector as a table of assay_detector.h, with the default options. Never NULL;
- * valid for ever. */
+/* Returns the built-in detector as a table of assay_detector.h, with the default options. The table
+ * is never NULL and always valid. */
 const assay_detector_api* assay_builtin_detector(void);
 
 /* The errors. A number keeps its meaning for ever; new errors get new numbers. */
@@ -49,20 +49,19 @@ enum {
   ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* the state has a form that this build does not read */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
   ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
-  ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES =
-      14,                              /* (not met in C: nobody says there which pairs count) */
-  ASSAY_BUILTIN_WRONG_RELATION = 15,   /* (likewise) */
-  ASSAY_BUILTIN_WRONG_SEPARATION = 16, /* no distance, or with options that do not answer it */
-  ASSAY_BUILTIN_PROVES_NOTHING = 17,   /* a limit is asked for in double or float */
-  ASSAY_BUILTIN_WRONG_BOUND = 18,      /* until is no time from 0 to 1 */
-  ASSAY_BUILTIN_WRONG_OPTIONS = 64,    /* an option has no such value; struct_size is wrong */
-  ASSAY_BUILTIN_SMALL_BUFFER = 65,     /* the state takes more bytes than the buffer has */
-  ASSAY_BUILTIN_TOO_MANY = 66,         /* more than 2^31 - 1 triangles or vertices */
+  ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES = 14, /* (not met in C: create takes no relation) */
+  ASSAY_BUILTIN_WRONG_RELATION = 15,         /* (likewise) */
+  ASSAY_BUILTIN_WRONG_SEPARATION = 16,       /* no distance, or the options exclude it */
+  ASSAY_BUILTIN_PROVES_NOTHING = 17,         /* a limit is asked for in double or float */
+  ASSAY_BUILTIN_WRONG_BOUND = 18,            /* until is no time from 0 to 1 */
+  ASSAY_BUILTIN_WRONG_OPTIONS = 64,          /* an option has no such value; struct_size is wrong */
+  ASSAY_BUILTIN_SMALL_BUFFER = 65,           /* the state takes more bytes than the buffer has */
+  ASSAY_BUILTIN_TOO_MANY = 66,               /* more than 2^31 - 1 triangles or vertices */
   ASSAY_BUILTIN_NO_MEMORY = 67
 };
 
-/* The name of an error, such as "index_out_of_range", or "unknown_error" for any other number.
- * Static text. */
+/* Returns the name of an error, such as "index_out_of_range", or "unknown_error" for any other
+ * number. Static text. */
 const char* assay_builtin_error_name(int32_t code);
 
 /* An error. The struct is the caller's own. */
@@ -112,13 +111,14 @@ typedef struct assay_builtin_options {
                            depend on the number */
   double separation;    /* 0: contacts are looked for. Above 0: pairs of triangles without a common
                            vertex that come within this distance; culling is then bvh or none, and
-                           arithmetic exact. Options of a size without this member have 0 */
+                           arithmetic exact. 0 if struct_size is too small for this member */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
   { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1, 0 }
 
-/* The table's create, with options (NULL: the defaults). *handle is set only with ASSAY_OK. */
+/* Does what the table's create does, with options (NULL: the defaults). *handle is set only with
+ * ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const double* positions, uint64_t vertex_count,
                              const assay_builtin_options* options, assay_handle** handle,

@@ -192,17 +192,17 @@ typedef struct assay_description {
   /* Since version 3. */
   double separation; /* user's units; finite, >= 0. Above 0, the question is which triangles come
                         within this distance, 0 included, in place of which touch: read `within
-                        separation` wherever a claim says `in contact`. It wants
+                        separation` wherever a claim says `in contact`. It needs
                         ASSAY_ADJACENCY_NO_SHARED_VERTEX, as neighbours are near throughout. The
-                        elementary query is asked the same of two features. */
+                        elementary query is then about two features that come within it. */
   /* The pairs left out, besides neighbours. The mesh at rest is that given to create. */
-  int32_t counts;       /* ASSAY_COUNTS_...: what rings and rest_distance are of */
+  int32_t counts;       /* ASSAY_COUNTS_...: rings and rest_distance are about pairs of these */
   int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
   double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if it is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
-  /* How much it holds; 0: any amount. Beyond one of these it may answer ASSAY_BEYOND_CAPACITY. */
+  /* How much the detector holds; 0: no limit. Beyond it, it may answer ASSAY_BEYOND_CAPACITY. */
   uint64_t capacity_triangles;  /* of the mesh */
   uint64_t capacity_contacts;   /* pairs of triangles in contact during the step that its contract
                                    does not leave out */
@@ -341,7 +341,7 @@ typedef struct assay_detector_api {
 
   /* Since version 3. Each of these functions may be NULL. */
 
-  /* Is called with the pairs that count, once and before the first step, if not all do. The
+  /* Is called once, before the first step, with the pairs that count, unless all do. The
    * detector must copy what it needs later. A library without this function is asked about all
    * pairs. */
   int32_t (*count)(assay_handle* handle, const assay_counted_pairs* counted);

@@ -19,14 +19,14 @@
  * THREADS. A recorder is used by one thread at a time, and knows nothing of other recorders.
  *
  * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
- * assay_record_error tells one line about it. After a call that was refused nothing is written, and
- * the recorder is as before. A write that failed ends the log, perhaps in the middle of a record:
- * later records are refused with the same error, for a log is read up to its first damage. End the
+ * assay_record_error gives one line about it. A call that is refused writes nothing and leaves the
+ * recorder as it was. A write that fails ends the log, perhaps in the middle of a record. Later
+ * records are refused with the same error, because a log is read up to its first damage. End the
  * recorder, and begin another log in another file.
  *
  * COST. Arrays are written from the caller's memory at once, without a buffer between: a process
- * that is killed loses at most the record that it was writing. A step costs at most about twice
- * what it costs to write its arrays with fwrite. */
+ * that is killed loses at most the record that it was writing. A step takes at most about twice
+ * the time that fwrite takes for its arrays. */
 #ifndef ASSAY_RECORD_H
 #define ASSAY_RECORD_H
 
@@ -56,7 +56,7 @@ enum {
 typedef struct assay_record_settings {
   const char* path;
   uint64_t every;    /* one step of so many is recorded, the first one included; 0 and 1: each */
-  int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is lost */
+  int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is emptied */
 } assay_record_settings;
 
 /* An array of vertex_count x 3 numbers, double or float. data NULL: it is absent. */
@@ -89,7 +89,7 @@ typedef struct assay_recorder {
   uint32_t crc;
   /* The log. */
   int32_t is_begun;
-  int32_t triangle_count; /* here it takes no padding */
+  int32_t triangle_count; /* stands here because it takes no padding */
   uint64_t every, vertex_count;
   char* path;
   FILE* file;
@@ -125,7 +125,7 @@ static inline int32_t assay_record_note(assay_recorder* recorder, const char* te
  * if it could not write. A recorder that was begun is ended once. */
 static inline int32_t assay_record_end(assay_recorder* recorder);
 
-/* One line about the call that failed last, or "". Valid until the next call. */
+/* Returns one line about the call that failed last, or "". Valid until the next call. */
 static inline const char* assay_record_error(const assay_recorder* recorder);
 
 /* The rest is the recorder's own; its names end with an underscore. */
@@ -151,7 +151,7 @@ static inline void assay_record_make_tables_(assay_recorder* r) {
     }
 }
 
-/* Four bytes of the stream, the first one lowest, whatever the order of bytes of the machine. */
+/* Returns four bytes of the stream, the first one lowest, on any machine. */
 static inline uint32_t assay_record_four_(const unsigned char* p) {
   return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
@@ -246,7 +246,7 @@ static inline void assay_record_flush_(assay_recorder* r) {
   r->staged_size = 0;
 }
 
-/* Bytes outside of a body, or bytes that are in the sum already. */
+/* Writes bytes that are not to be summed: they are outside of a body, or in the sum already. */
 static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t n) {
   if (n > sizeof r->staged - r->staged_size) assay_record_flush_(r);
   if (n > sizeof r->staged) {
@@ -257,7 +257,7 @@ static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t
   }
 }
 
-/* Bytes of a body. File systems are quickest with few large pieces, so an array is one piece. */
+/* Writes bytes of a body. File systems are quickest with few large pieces: an array is one. */
 static inline void assay_record_put_(assay_recorder* r, const void* data, uint64_t size) {
   if (r->is_counted) {
     r->body_size += size;
@@ -271,7 +271,7 @@ static inline void assay_record_big_endian_(unsigned char* out, uint64_t value, 
   for (; bytes > 0; --bytes, value >>= 8) out[bytes - 1] = (unsigned char)(value & 255u);
 }
 
-/* The head of a CBOR item, in as few bytes as it takes; major: its type, 0 to 7. */
+/* Makes the head of a CBOR item, in as few bytes as it takes. major: its type, 0 to 7. */
 static inline size_t assay_record_head_bytes_(unsigned char* out, unsigned major, uint64_t n) {
   const int log = n < 256u ? 0 : n < 65536u ? 1 : n <= 0xFFFFFFFFu ? 2 : 3;
   if (n < 24u) {
@@ -288,7 +288,7 @@ static inline void assay_record_head_(assay_recorder* r, unsigned major, uint64_
   assay_record_put_(r, bytes, assay_record_head_bytes_(bytes, major, n));
 }
 
-/* How many bytes from p on are one character of UTF-8, or 0. */
+/* Returns how many bytes from p on are one character of UTF-8, or 0. */
 static inline size_t assay_record_utf8_(const unsigned char* p) {
   const size_t n = *p < 0x80u ? 1 : *p < 0xC2u ? 0 : *p < 0xE0u ? 2 : *p < 0xF0u ? 3 : 4;
   size_t i;
@@ -342,8 +342,8 @@ static inline void assay_record_real_(assay_recorder* r, const char* key, double
   assay_record_put_(r, bytes, sizeof bytes);
 }
 
-/* A typed array of RFC 8746. big: its tag on a machine whose first byte is the highest; each tag
- * is 4 more where it is the lowest. */
+/* Writes a typed array of RFC 8746. big: its tag on a big-endian machine. On a little-endian one
+ * each tag is 4 more. */
 static inline void assay_record_typed_(assay_recorder* r, const char* key, unsigned big,
                                        const void* data, uint64_t bytes) {
   const uint16_t one = 1;
@@ -370,7 +370,7 @@ static inline void assay_record_vertices_(assay_recorder* r, const char* key,
                         (array.is_float32 ? 12u : 24u) * r->vertex_count);
 }
 
-/* A map within the body: its keys are not those of the body. */
+/* Writes a map within the body. Its keys are not counted among those of the body. */
 static inline void assay_record_counted_(assay_recorder* r, const assay_counted_pairs* c) {
   const uint64_t outside = r->keys;
   assay_record_head_(r, 5,
@@ -448,7 +448,7 @@ static inline void assay_record_step_body_(assay_recorder* r, const assay_record
   assay_record_vertices_(r, "dx", s->dx);
   assay_record_vertices_(r, "committed", s->committed);
   if (s->result) assay_record_answer_(r, s->result);
-  if (s->limit && s->limit->share != -1) /* which says that it is not stated */
+  if (s->limit && s->limit->share != -1) /* -1: the share is not stated */
     assay_record_real_(r, "share", s->limit->share);
   if (s->limit && s->limit->positions)
     assay_record_doubles_(r, "positions", s->limit->positions, 3 * r->vertex_count);
@@ -534,7 +534,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   return ASSAY_OK;
 }
 
-/* Opens the file, after all that may be refused, and allocates what is needed. */
+/* Allocates what is needed and opens the file. All that may be refused is checked before. */
 static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_settings* s) {
   const size_t length = strlen(s->path) + 1;
   r->every = s->every ? s->every : 1;
@@ -586,7 +586,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   return code;
 }
 
-/* lo <= hi, both in [0, 1]; 0 for a NaN. */
+/* Returns whether lo <= hi, both in [0, 1]; 0 for a NaN. */
 static inline int assay_record_is_time_(double lo, double hi) {
   return 0 <= lo && lo <= hi && hi <= 1;
 }

@@ -64,7 +64,8 @@ class CandidateSearch {
   // Estimates, from a few hundred edges spread over the mesh, the share of pairs of triangles at an
   // edge that the rule asks for. REQUIRES that types are marked.
   double asked_share() const { return share_of_edges(false); }
-  // The same for the pairs that neither fans nor sheets prove apart. It finds fans and sheets now.
+  // Does the same for the pairs that neither fans nor sheets prove apart. It finds fans and sheets
+  // now.
   double open_share() {
     prove_apart();
     return share_of_edges(true);
@@ -98,7 +99,7 @@ class CandidateSearch {
   double share_of_edges(bool open_alone) const;
   // Sets the bound to the earliest contact so far. REQUIRES that all candidates so far were tested.
   void take_earliest();
-  // The same, and fits boxes to the rest of the step. Returns false if it was stopped.
+  // Does the same, and fits boxes to the rest of the step. Returns false if it was stopped.
   bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
   // Updates the representatives to the types that the marks hold.

@@ -45,8 +45,8 @@ class PairContacts {
  public:
   void add(const PairContact& contact);
 
-  // Whether a few more contacts would make the list grow in add(), where no stop function is
-  // asked. Call make_room() first if so.
+  // Returns whether a few more contacts would make the list grow in add(), where no stop function
+  // is asked. Call make_room() first if so.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
     return !all_.empty() && all_.capacity() - all_.size() < a_few;
@@ -207,7 +207,7 @@ class FeatureContacts {
   void sort_features(FeatureKey key, std::size_t found_before, Lane& lane) const;
   void note_ends(std::size_t found_before, std::size_t counted_before, Lane& lane) const;
   bool counts(std::int32_t a, std::int32_t b) const;
-  // Whether some triangle pair that holds the two features counts.
+  // Returns whether some triangle pair that holds the two features counts.
   bool some_pair_counts(FeatureKey key) const;
   bool hand_over(Lane& lane, const StopFunction& stop);
   static bool hand_over(std::vector<PairContact>& found, PairContacts& contacts,

@@ -14,7 +14,7 @@ constexpr std::uint64_t work_of_triangle = 24, work_of_vertex = 6, work_of_edge 
 
 using Triangle = std::array<std::int32_t, 3>;
 
-// Which corners two triangles share: bit 3 i + j is set if corner i of p is corner j of q.
+// Returns which corners two triangles share: bit 3 i + j is set if corner i of p is corner j of q.
 std::uint32_t shared_corners(const Triangle& p, const Triangle& q) {
   std::uint32_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -24,7 +24,8 @@ std::uint32_t shared_corners(const Triangle& p, const Triangle& q) {
   return shared;
 }
 
-// For each set of shared corners the pairs of features without a common vertex, as feature_bits.
+// Returns, for each set of shared corners, the pairs of features without a common vertex, as
+// feature_bits.
 constexpr std::array<std::uint32_t, 512> pairs_without_shared_corner() {
   using namespace feature_bits;
   std::array<std::uint32_t, 512> pairs{};
@@ -58,7 +59,7 @@ void for_each_bit(std::uint32_t bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-// The pairs of features that two triangles stand for, as feature_bits.
+// Returns the pairs of features that two triangles stand for, as feature_bits.
 std::uint32_t represented_pairs(RepresentedFeatures a, RepresentedFeatures b, bool may_pierce) {
   constexpr std::uint32_t three = 7, rows[] = {0, 7, 56, 63, 448, 455, 504, 511};
   const std::uint32_t corners_a = a & three, corners_b = b & three;

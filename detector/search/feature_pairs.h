@@ -163,7 +163,7 @@ struct alignas(32) FeaturePoint {
 class FeaturePoints {
  public:
   FeaturePoints() = default;  // of no step
-  // If `pace` was stopped, they must not be used.
+  // If `pace` was stopped, the points must not be used.
   explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr,
                          double separation = 0) {
     assign(motion, pace, separation);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t work_to_compare = 2;
 
-// The parts grow like the rounds of a search for the first contact (search_lanes.h): they hold 1,
-// 3, 12, 16 and 32 of 64 shares.
+// Returns the part of a feature pair. The parts grow like the rounds of a search for the first
+// contact (search_lanes.h): they hold 1, 3, 12, 16 and 32 of 64 shares.
 std::size_t part_of(FeatureKey key) {
   constexpr std::uint64_t mixer = 0x9e3779b97f4a7c15;
   const std::uint64_t share = key * mixer >> 58;

@@ -25,7 +25,7 @@ TwoEdges in_order(TwoEdges pair) {
   return pair;
 }
 
-// The vertices that a path of at most `steps` edges joins to one of these, ascending.
+// Returns the vertices that a path of at most `steps` edges joins to one of these, ascending.
 std::vector<std::int32_t> reached(const Topology& mesh, std::span<const std::int32_t> from,
                                   std::int32_t steps) {
   std::vector<std::int32_t> all(from.begin(), from.end()), last = all, next;

@@ -62,10 +62,11 @@ struct PairTables {
 class PairRule {
  public:
   virtual ~PairRule() = default;
-  // For the first search: K inside a component, every pair of two components.
+  // Returns the pairs of the first search: K inside a component, every pair of two components.
   virtual PairTables candidates() const;
-  // For a round of the closure: every triangle that has joined H, against its whole component
-  // (U,H). No pair of two components is asked for, because the first search looked at all of them.
+  // Returns the pairs of a round of the closure: every triangle that has joined H, against its
+  // whole component (U,H). No pair of two components is asked for, because the first search looked
+  // at all of them.
   virtual PairTables closure() const;
   // Returns whether triangle `t` of this contact, which is within one component, joins H. In L7
   // both of its triangles do.
@@ -192,8 +193,8 @@ class Marking {
  private:
   // Makes the flags agree with the types of the triangles in marks.changed.
   void update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) const;
-  // The same by one pass over all nodes, for types that have one flag each, as those of a first
-  // search have.
+  // Does the same by one pass over all nodes, for types that have one flag each, as those of a
+  // first search have.
   static void mark_anew(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts);
 };
 

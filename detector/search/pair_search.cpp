@@ -51,7 +51,7 @@ class Descent {
     above_.clear();
   }
 
-  // Hands over what was found last. False if the search has ended early.
+  // Hands over the last candidates. Returns false if the search has ended early.
   bool finish() {
     found_.hand_over(is_ended());
     return !is_ended();
@@ -69,7 +69,7 @@ class Descent {
     return hunt_.table_of(tree_.component(p.a), tree_.component(p.b));
   }
 
-  // One table serves all pairs below a pair that is not mixed.
+  // Empties the stack. One table serves all pairs below a pair that is not mixed.
   void drain(const PairTable& table) {
     while (!stack_.empty() && !is_ended()) {
       const NodePair p = stack_.back();
@@ -93,7 +93,7 @@ class Descent {
     }
   }
 
-  // For nodes that hold several components, and for pairs with such a node.
+  // Splits nodes that hold several components, and pairs with such a node.
   void split_mixed(const NodePair& p) {
     if (p.a == p.b) {
       const auto child = tree_.child(p.a);

@@ -20,15 +20,15 @@ namespace assay::detector {
 class PatchProofs {
  public:
   virtual ~PatchProofs() = default;
-  // True only if no two triangles below the node are in contact during the step.
+  // Returns true only if no two triangles below the node are in contact during the step.
   virtual bool is_free(std::int32_t node) = 0;
-  // True only if no two triangles below a or b are in contact during the step.
+  // Returns true only if no two triangles below a or b are in contact during the step.
   // It is asked if the boxes of a and b meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
   // Returns whether the search has to end; the two functions above then return false.
   virtual bool is_stopped() const { return false; }
-  // The same proofs for one lane of several (parallel/workers.h). A lane has counts and a pace of
-  // its own.
+  // Returns the same proofs for one lane of several (parallel/workers.h). A lane has counts and a
+  // pace of its own.
   virtual std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                                PacedStop& pace) const = 0;
 };
@@ -110,9 +110,9 @@ class MeshSearch;
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
-  // Called once, when the detector is created. The result searches for that detector, and refers
-  // to this search. It must not refer to the mesh or the tree, because both are moved later. If
-  // `pace` was stopped, the result must not be used.
+  // Makes the search of a detector, once, when that is created. The result refers to this search.
+  // It must not refer to the mesh or the tree, because both are moved later. If `pace` was stopped,
+  // the result must not be used.
   virtual std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                               PacedStop& pace) const;
   // Fits the tree to a step, before the searches of that step, unless an earlier stage has done so.

@@ -24,15 +24,16 @@ struct ContourEdge {
     if (vertex == left_vertex || vertex == right_vertex) return own_end;
     return sure_side(left, right, point, 2);
   }
-  // The same for another edge; 0 for an edge that is on both sides, or has both ends in common.
+  // Returns the side of another edge; 0 for an edge that is on both sides, or has both ends in
+  // common.
   int side_of(const ContourEdge& edge) const {
     const int l = side_of(edge.left, edge.left_vertex), r = side_of(edge.right, edge.right_vertex);
     return l == own_end ? r % own_end : r == own_end || r == l ? l : 0;
   }
 };
 
-// Notes whether one of two edges passes below the left end of the other. False if they may meet
-// anywhere but at a common vertex. Where one ends, to the right or upward, another may begin.
+// Notes whether one of two edges passes below the left end of the other. Returns false if they may
+// meet anywhere but at a common vertex. Where one ends, to the right or upward, another may begin.
 bool compare(ContourEdge& a, ContourEdge& b) {
   const auto [lo_a, hi_a] = std::minmax(a.left[1], a.right[1]);
   const auto [lo_b, hi_b] = std::minmax(b.left[1], b.right[1]);
@@ -57,8 +58,8 @@ struct Sheets::Builder {
   std::size_t most_edges = 0;                           // of a contour
   std::vector<std::vector<ContourEdge>> contours = {};  // of this level, by region and direction
 
-  // A triangle is seen from a side if that component of its normal is not small beside the greatest
-  // one. So where a sheet ends, a sheet of another side goes on.
+  // Finds the sides of a triangle. It is seen from a side if that component of its normal is not
+  // small beside the greatest one. So where a sheet ends, a sheet of another side goes on.
   void look(std::size_t t) {
     const auto& [u, v, w] = mesh.triangles[t];
     const Point a = point_of(x, u), b = point_of(x, v), c = point_of(x, w);
@@ -119,8 +120,8 @@ struct Sheets::Builder {
     }
   }
 
-  // Whether the contour is as L13 requires. A sweep compares each edge with those that reach as far
-  // to the right as its left end.
+  // Returns whether the contour is as L13 requires. A sweep compares each edge with those that
+  // reach as far to the right as its left end.
   bool is_simple(std::vector<ContourEdge>& contour) {
     std::sort(contour.begin(), contour.end(),
               [](const auto& a, const auto& b) { return a.left[0] < b.left[0]; });
@@ -138,7 +139,8 @@ struct Sheets::Builder {
     });
   }
 
-  // Finds the sheets of this level. False if nothing is left to look for, or if it was stopped.
+  // Finds the sheets of this level. Returns false if nothing is left to look for, or if it was
+  // stopped.
   bool find_sheets() {
     constexpr std::size_t few = 256, share = 16, work_of_holders = 1, work_of_contour_edge = 8;
     const std::size_t regions = std::size_t{1} << of_lower * level;

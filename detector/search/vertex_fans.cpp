@@ -30,10 +30,11 @@ FloatLanes cross(FloatLanes a, FloatLanes b) {
 
 FloatLanes size_of(FloatLanes a) { return greatest(a, -a); }
 
-// A triangle that is seen from one side is seen from there throughout the step. Positions are
-// floats of the grid, off by e = 2^-23 at most (its radius is 1, and the third of three roundings
-// is that to float). S_k is the greatest size of an edge along axis k, as computed, at most 4. An
-// edge is off by 2 e and by its own rounding, 2^-24 S_k: by d = 2^-21 at most. A component a_i b_j
+// Returns the sides. A triangle that is seen from one side is seen from there throughout the step.
+// Positions are floats of the grid, off by e = 2^-23 at most (its radius is 1, and the third of
+// three roundings is that to float). S_k is the greatest size of an edge along axis k, as computed,
+// at most 4. An edge is off by 2 e and by its own rounding, 2^-24 S_k: by d = 2^-21 at most. A
+// component a_i b_j
 // - a_j b_i of the normal is off by 2 d (S_i + S_j) + 2 d^2, and by the roundings of its two
 // products and of their difference, 2^-22 S_i S_j <= 2^-20 min(S_i, S_j): by less than 2^-19 (S_i +
 // S_j) + 2^-41. Twice the middle coefficient is a sum of two such components; it is off by twice

@@ -38,7 +38,7 @@ struct WideHunt : Hunt {
 struct ChildFlags {
   std::uint64_t bytes = 0;
   std::uint8_t of(std::size_t i) const { return static_cast<std::uint8_t>(bytes >> (8 * i)); }
-  // The children that have some flag of this set, as bits.
+  // Returns the children that have some flag of this set, as bits.
   std::uint8_t with(std::uint8_t set) const {
     constexpr std::uint64_t low = 0x7f7f7f7f7f7f7f7f, ones = 0x0101010101010101;
     const std::uint64_t some = bytes & (set * ones);
@@ -74,7 +74,7 @@ class WideDescent {
     stack_.clear();
   }
 
-  // Hands over what was found last. False if the search has ended early.
+  // Hands over the last candidates. Returns false if the search has ended early.
   bool finish() {
     found_.hand_over(is_ended());
     return !is_ended();
@@ -161,7 +161,7 @@ class WideDescent {
     }
   }
 
-  // The children of a node, as bits, that are asked about together with a binary node.
+  // Returns the children of a node, as bits, that are asked about together with a binary node.
   std::uint8_t asked_of(const WideTree::Node& node, std::int32_t other) const {
     std::uint8_t children = 0;
     for (std::size_t i = 0; i < node.count; ++i) {
@@ -171,7 +171,7 @@ class WideDescent {
     return children;
   }
 
-  // Whether some pair below two binary nodes may be asked for.
+  // Returns whether some pair below two binary nodes may be asked for.
   bool asks(std::int32_t a, std::int32_t b) const {
     const auto c = component(a), d = component(b);
     const auto p = hunt_.flags[at(a)], q = hunt_.flags[at(b)];

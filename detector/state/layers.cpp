@@ -56,8 +56,8 @@ class Flood {
   const std::vector<std::uint8_t>& clean_;
 };
 
-// The first triangle, from place `next` of the piece on, from which a ray can start. Leaves `next`
-// behind it.
+// Returns the first triangle, from place `next` of the piece on, from which a ray can start. Leaves
+// `next` behind it.
 std::optional<std::int32_t> representative(const TouchedSurface& instant,
                                            const std::vector<std::int32_t>& piece,
                                            std::size_t& next) {
@@ -72,8 +72,8 @@ std::optional<std::int32_t> representative(const TouchedSurface& instant,
   return std::nullopt;
 }
 
-// By piece: the winding number outside of its triangles, which they have in common. Nothing if it
-// is not known; such a piece stays dirty.
+// Returns, by piece, the winding number outside of its triangles, which they have in common.
+// Nothing if it is not known; such a piece stays dirty.
 std::vector<std::optional<int>> windings_outside(
     const TouchedSurface& instant, std::size_t c,
     const std::vector<const std::vector<std::int32_t>*>& pieces) {
@@ -99,7 +99,7 @@ std::vector<std::optional<int>> windings_outside(
   return winding;
 }
 
-// The layer that most untouched triangles have, by its winding number outside.
+// Returns the layer that most untouched triangles have, by its winding number outside.
 std::optional<int> most_common(const std::map<int, std::vector<std::int32_t>>& by_layer) {
   std::optional<int> common;
   std::size_t most = 0;

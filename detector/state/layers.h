@@ -50,7 +50,7 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              const std::vector<std::int32_t>& witnesses,
                              std::vector<std::uint8_t>& is_seen, std::vector<std::uint8_t>& clean);
 
-// The same at a new start, where all triangles of the component are in doubt.
+// Does the same at a new start, where all triangles of the component are in doubt.
 std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t c,
                                    std::vector<std::uint8_t>& is_seen,
                                    std::vector<std::uint8_t>& clean);

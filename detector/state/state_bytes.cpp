@@ -84,7 +84,7 @@ inline void field(Reader& in, bool& value) {
   value = read != 0;
 }
 
-// A value of an enum that lists its values.
+// Writes or reads a value of an enum that lists its values.
 template <Listed Enum>
 void field(Writer& out, Enum value) {
   out.byte(static_cast<std::uint8_t>(value));
@@ -96,8 +96,9 @@ void field(Reader& in, Enum& value) {
   value = read.value_or(first_value<Enum>);
 }
 
-// The length of a list whose members take at least `least` bytes each. A reader refuses a length
-// for which too few bytes are left, so that damaged bytes cannot make it allocate much memory.
+// Writes or reads the length of a list whose members take at least `least` bytes each. A reader
+// refuses a length for which too few bytes are left, so that damaged bytes cannot make it allocate
+// much memory.
 template <class List>
 void length(Writer& out, const List& list, std::size_t) {
   out.number(list.size());

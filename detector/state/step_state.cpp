@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t row_bytes = 3 * sizeof(double);
 
-// Whether the rows of x follow each other without gaps, so that they can be handled as one block.
+// Returns whether the rows of x follow each other without gaps, so that they can be handled as one
+// block.
 bool is_packed(const PositionsView& x) { return x.outerStride() == 3; }
 
 }  // namespace
@@ -100,7 +101,7 @@ bool fits(const StateFields& state, const Surface& surface, std::size_t anchors)
   return fits(*state.committed, surface) && (!chosen || fit(*chosen, anchors, n));
 }
 
-// FNV-1a, taken over indices instead of bytes.
+// Computes FNV-1a over indices instead of bytes.
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&](std::int32_t value) {

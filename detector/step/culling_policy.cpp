@@ -9,11 +9,11 @@
 namespace assay::detector {
 namespace {
 
-// The estimate of what a step with views may save and cost. The cost model decides by these numbers
-// (culling_policy.h).
+// An estimate of the saving and the cost of a step with views. The cost model decides by these
+// numbers (culling_policy.h).
 
-// The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
-// have equal signs more often than far ones, so of a component with p positive and n negative
+// Returns the share of pairs that are left out because both triangles lie in V+ or both in V-. Near
+// pairs have equal signs more often than far ones, so of a component with p positive and n negative
 // triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out. Only triangles whose
 // `counts` is not 0 are among the p and n; without `counts` all are.
 double saved_share(const GivenStep& step, const StepMarks& marks,
@@ -35,7 +35,7 @@ double saved_share(const GivenStep& step, const StepMarks& marks,
   return count == 0 ? 0 : saved / count;
 }
 
-// By triangle: 1 if it was in no contact with its own component in the step before.
+// Returns, by triangle, 1 if it was in no contact with its own component in the step before.
 // REQUIRES that the step goes on from a committed one.
 std::vector<std::uint8_t> untouched_before(const GivenStep& step) {
   std::vector<std::uint8_t> untouched(step.surface.mesh.triangles.size(), 1);
@@ -73,12 +73,13 @@ SampledSigns sample_signs(const GivenStep& step, const ViewPrimitive& primitive,
   return sample;
 }
 
-// Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
+// Returns whether more than `limit` triangles lie in the boxes of ghosts of components that are not
+// free.
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
   if (!step.tree.join_boxes(&pace)) return true;
-  // The workers add up the pairs of their ghosts. Each stops when the sum is too large. The sum at
-  // which they stop depends on their order, but not whether they stop.
+  // The workers add up the pairs of their ghosts. Each stops when the sum is too large. Whether
+  // they stop does not depend on their order; the sum at which they stop does.
   std::atomic<double> pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
   constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
@@ -123,7 +124,7 @@ constexpr double cost_of_open = 15;
 
 // Costs in candidates a triangle: cones, and the binary descent in place of the wide one, take 0.3
 // us a triangle. If patches of a hundred triangles are not free, a proof is asked for at each of
-// the many smaller ones. Worths: proofs leave out pairs of neighbours, of which about half lie
+// the many smaller ones. Worths: proofs leave out pairs of neighbours. About half of these lie
 // within small patches that are free, three quarters within medium ones, and nearly all within
 // large ones. Each candidate that is left costs more in the binary descent, too. Measured on steps
 // of 20,000 to 25,000 triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a
@@ -133,7 +134,8 @@ constexpr double cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3, cost_
                  least_provable = 0.5;
 
 // With views K asks for pairs along the borders between V+ and V- alone. Patches there are cut up
-// into small ones before they are free, and proofs leave out 0.3 to 0.4 of what they do elsewhere.
+// into small ones before they are free, and proofs leave out 0.3 to 0.4 of the pairs that they
+// leave out elsewhere.
 constexpr double worth_beside_views = 0.4;
 
 constexpr std::uint64_t longest_pause = 32;
@@ -160,9 +162,9 @@ double work_of_pairs(std::uint64_t pairs, std::uint64_t tests) {
 // others, and, for an unclosed mesh, a tree of boxes.
 constexpr double work_of_plane = 25, work_of_look = 6, work_of_boxes = 10;
 constexpr std::size_t planes_of_search = 1024;
-// Only this share of the saving estimated at a glance is counted on. With holes, or without such a
-// saving, this many times the least work has to be affordable: work on views that turn out too dear
-// is lost.
+// share_of_hope: the part of an estimated saving that the policy counts on. with_holes,
+// without_hope: how many times the least work has to be payable before views are tried, for a mesh
+// with holes, and without an estimated saving. Work on views that turn out too dear is lost.
 constexpr double share_of_hope = 0.7, with_holes = 1.5, without_hope = 2;
 
 double least_work_of_views(const Surface& surface) {
@@ -374,7 +376,7 @@ bool CostModel::worth_using(const GivenStep& step, const StepMarks& marks,
   return does_without(ViewUse::among_dirty);
 }
 
-// In candidates; the closure not included.
+// Returns the cost in candidates, without the closure.
 double CostModel::cost_beside_search(const StepCounts& counts) const {
   const double tests = static_cast<double>(counts.ghosts.elementary_tests) +
                        static_cast<double>(counts.release.elementary_tests);

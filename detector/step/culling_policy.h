@@ -103,10 +103,10 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 
 // The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
 //
-// It weighs what views are expected to save against what they are expected to cost. Both are
-// computed from the numbers of triangles and pairs of this step and of the steps committed before,
-// never from a clock: the same input gives the same bytes. A step may be seen from anywhere (L3),
-// so each step may have primitives of its own.
+// It weighs the expected saving of views against their expected cost. Both are computed from the
+// numbers of triangles and pairs of this step and of the steps committed before, never from a
+// clock: the same input gives the same bytes. A step may be seen from anywhere (L3), so each step
+// may have primitives of its own.
 //
 // The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
 // axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
@@ -127,14 +127,14 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 //
 // In addition, culling automatic keeps an account of counted work in box tests (work_of_candidate
 // and the constants beside it; the benches account/ hold it against times). Each step without views
-// earns a share of what it takes. A step with views earns the work by which culling bvh would at
-// least have exceeded it, and pays for the work of views. Views are made and tried only if they can
-// be paid for. So after any number of steps, automatic has spent little more than culling bvh would
-// have spent. A mesh that a glance from its middle shows to be positive may spend beforehand what
-// this saves within the step. If only a first contact is known of a start, it would have to be
-// verified anew, which costs more than views save: such a step is done without them. Work that
-// depends on the tree is not counted, so that a restored detector, whose tree is another one,
-// decides alike. A mesh at rest earns nothing.
+// earns a share of its work. A step with views earns the work by which culling bvh would at least
+// have exceeded it, and pays for the work of views. Views are made and tried only if they can be
+// paid for. So after any number of steps, automatic has spent little more than culling bvh would
+// have spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
+// in advance the saving of views within it. If only the first contact of the last step is known,
+// the start would have to be verified anew. That costs more than views save, so such a step does
+// without views. Work that depends on the tree is not counted, so that a restored detector, whose
+// tree is another one, decides alike. A mesh at rest earns nothing.
 //
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.
@@ -151,7 +151,7 @@ class CostModel : public CullingPolicy {
 
   bool may_use_views() const override { return true; }
   void begin(const SteppedMesh& motion, const StepState* last_state, bool needs_views) override;
-  // Views are due unless a pause lasts or they cost more than may be spent.
+  // Returns whether views are due: no pause lasts, and they cost no more than may be spent.
   bool is_due() const override { return state_.pause == 0 && !waits_; }
   double most_for_views() const override;
   void pay_for_views(bool are_made, double work) override;
@@ -169,8 +169,8 @@ class CostModel : public CullingPolicy {
   bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
   // Leaves out layers, which cost about a step of culling bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
-  // Returns whether the signs save enough among the triangles that are clean. If nothing was known
-  // of the start, the answer false begins no pause.
+  // Returns whether the signs save enough among the triangles that are clean. The answer false
+  // begins a pause, unless nothing was known of the start.
   bool worth_using(const GivenStep& step, const StepMarks& marks,
                    const StepCounts& counts) override;
 
@@ -179,7 +179,8 @@ class CostModel : public CullingPolicy {
   // asked_share: the share of pairs of neighbours that K asks for and that fans leave open.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
-  // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
+  // Notes whether views have paid: release, ghost sweep and closure cost less than the pairs that
+  // views left out.
   void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
 
   ViewUse use() const override {
@@ -195,9 +196,9 @@ class CostModel : public CullingPolicy {
   // Returns the cost of release and ghost sweep, in candidates.
   double cost_beside_search(const StepCounts& counts) const;
   void update_anchors(PolicyState& next) const;
-  // Estimates what views save at once in a step that is seen from the middle of its components.
+  // Estimates the saving of views within a step that is seen from the middle of its components.
   double hoped_at_a_glance(const SteppedMesh& motion) const;
-  // Returns whether the counts of the search tell what bvh takes. They do not if proofs, or the
+  // Returns whether the counts of the search tell the work of bvh. They do not if proofs, or the
   // sheets of a mesh at rest, leave out pairs: these depend on the tree, and thus on the positions
   // that the detector was made from.
   bool counts_tell() const { return !proves_ && !is_at_rest_; }

@@ -27,19 +27,21 @@ class ReleaseRule {
   explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
-  // L8: whether the state of the last commit is valid for a step that starts at vertices_t0.
+  // Returns whether the state of the last commit is valid for a step that starts at vertices_t0
+  // (L8).
   virtual bool still_holds(const StepState& state, const PositionsView& vertices_t0,
                            const PacedStop& pace) const {
     return state.holds_at(vertices_t0, pace);
   }
 
-  // L5 over the step: whether every triangle and every ghost of the component is positive, and the
-  // winding number is 1 at the primitive at t=0. The component is then free and all of it is
-  // clean.
+  // Applies L5 over the step: returns whether every triangle and every ghost of the component is
+  // positive, and the winding number is 1 at the primitive at t=0. The component is then free and
+  // all of it is clean.
   virtual bool is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
                        std::size_t component) const;
 
-  // L5 at t=0: whether the component is embedded there. It is then clean, whatever came before.
+  // Applies L5 at t=0: returns whether the component is embedded there. It is then clean, whatever
+  // came before.
   virtual bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
                                  std::size_t component) const;
 
@@ -74,8 +76,8 @@ class ReleaseRule {
                            std::size_t component) const;
 
   // Returns those triangles in doubt that may touch a ghost of their component at t=0 of a step
-  // that goes on from step.last_state: all of them. Being in no pair says nothing, because a
-  // triangle may hang out of a hole, with a ghost through it, and be in no pair.
+  // that goes on from step.last_state: all of them. Triangles in no pair are included, because one
+  // may hang out of a hole with a ghost through it.
   virtual std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const;
 

@@ -50,8 +50,8 @@
 namespace assay::detector {
 namespace {
 
-// One anchor for each component: where it is seen from best, with its ghosts, at these positions.
-// Where views are used only if they pay, their search has to be cheap beside a step.
+// Returns one anchor for each component: where it is seen from best, with its ghosts, at these
+// positions. Where views are used only if they pay, their search has to be cheap beside a step.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
                                       const PositionsView& positions, PacedStop& pace) {
@@ -80,8 +80,8 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   return anchors;
 }
 
-// Whether check_positions would find no problem. The workers share the rows, because no row has to
-// be named here.
+// Returns whether check_positions would find no problem. The workers share the rows, because no row
+// has to be named here.
 bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop& pace) {
   if (x.rows() != vertex_count) return false;
   std::atomic<bool> found_nothing = true;
@@ -122,7 +122,7 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
   return std::nullopt;
 }
 
-// The result of a step that is stopped, or refused with this problem.
+// Returns the result of a step that is stopped, or refused with this problem.
 StepResult no_answer(std::optional<Problem> problem = std::nullopt) {
   StepResult result;
   result.answer = problem ? Answer::error : Answer::undecided;
@@ -130,7 +130,7 @@ StepResult no_answer(std::optional<Problem> problem = std::nullopt) {
   return result;
 }
 
-// The algorithm above, in its order. False if it was stopped.
+// Runs the algorithm above, in its order. Returns false if it was stopped.
 bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives) {
   if (!step.place_primitives(mesh, primitives)) return false;
   if (!step.classify_components()) return false;
@@ -170,7 +170,7 @@ struct MovedGhosts {
   Positions all_t0, all_t1;
 };
 
-// False if it was stopped.
+// Returns false if it was stopped.
 bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop& pace,
                  MovedGhosts& ghosts) {
   constexpr std::uint64_t work_of_apex = 10, work_of_vertex = 3;

@@ -35,8 +35,8 @@ class FirstViews {
   // Returns the work that making them took, once they are made. It is counted in one thread.
   double work() const { return work_; }
 
-  // The anchors by component, and the rules by loop. Empty before they are made, and with a culling
-  // without views.
+  // Return the anchors by component, and the rules by loop. Empty before they are made, and with a
+  // culling without views.
   const std::vector<ViewAnchor>& anchors() const { return anchors_; }
   const std::vector<ApexRule>& apex_rules() const { return apex_rules_; }
 
@@ -44,7 +44,7 @@ class FirstViews {
   std::optional<Positions> x_;  // nothing once they are made
   std::vector<ViewAnchor> anchors_;
   std::vector<ApexRule> apex_rules_;
-  double work_ = 0;  // until they are made, a lower bound of what they take
+  double work_ = 0;  // until they are made, a lower bound of their work
 };
 
 // The data that a detector keeps for its mesh: the results of preprocessing, and the working memory

@@ -9,9 +9,9 @@
 namespace assay::detector {
 namespace {
 
-// The type follows from the sign, the state and the ghosts. A triangle that is dirty or touched by
-// a ghost gets that type whatever its sign is, because Vv is tested against everything. Without
-// views every clean triangle gets the type `violated`.
+// Returns the type, which follows from the sign, the state and the ghosts. A triangle that is dirty
+// or touched by a ghost gets that type whatever its sign is, because Vv is tested against
+// everything. Without views every clean triangle gets the type `violated`.
 TriangleType type_of(const StepMarks& marks, std::size_t t) {
   if (!marks.clean[t]) return TriangleType::dirty;
   // A type that is tested against everything, but, unlike `dirty`, not for piercing its own
@@ -54,7 +54,7 @@ void count_sets(const StepMarks& marks, bool looks_everywhere, StepResult& resul
   }
 }
 
-// The enclosure of the first contact time; {0, 0} without pairs.
+// Returns the enclosure of the first contact time; {0, 0} without pairs.
 //
 // The least lo and the least hi, each by itself. No contact is before the least lo, and by each hi
 // below 1 there is a contact. For unique enclosures the result is the least of them.
@@ -72,11 +72,11 @@ TimeEnclosure least_time(std::span<const PairContact> pairs) {
 // free over the step is clean (L5). Otherwise the state of the last commit decides if it holds at
 // t=0 (L8), and some of its dirty triangles may be released (L9). If there is no such state,
 // `start` decides; a verified start looks at the component from its view primitive (L5), then at
-// its layers (L9). False if stopped.
+// its layers (L9). Returns false if stopped.
 //
 // Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
 // leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
-// of this step tell the next one what is clean (L15).
+// of this step tell the next one which triangles are clean (L15).
 bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
                          const ReleaseRule& release, Start start, StartBy by) {
   if (marks.all_free()) {
@@ -111,8 +111,8 @@ bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost
          (to_verify.empty() || release.verify_start(step, marks, cost, to_verify));
 }
 
-// The state for the next step. `complete` says that `pairs` are all pairs in contact in the step
-// (L8). If all components are free it costs little more than a copy of the positions.
+// Returns the state for the next step. `complete` says that `pairs` are all pairs in contact in the
+// step (L8). If all components are free it costs little more than a copy of the positions.
 StepState state_at_end(const GivenStep& step, const StepMarks& marks, const PacedStop& pace,
                        const ReleaseRule& release, const std::vector<PairContact>& pairs,
                        bool complete, const PositionsView& mesh_x_t1) {
@@ -208,7 +208,7 @@ bool StepRun::pays_to_use() {
 void StepRun::drop_views() {
   // Uses only what is known already. Without a committed state or the caller's word (Start::clean)
   // all triangles are dirty. Nothing is lost by that: the step tests every pair anyway, and from
-  // its pairs the next step releases what is clean (L15).
+  // its pairs the next step releases the clean triangles (L15).
   const Start start = context_.options.start;
   if (step_.last_state) {
     marks_.clean = step_.last_state->clean;

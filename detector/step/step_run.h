@@ -38,8 +38,8 @@ class StepRun {
   void drop_views();
   // Finds the triangles that ghosts touch (L11).
   bool sweep_ghosts();
-  // Whether the one component of the mesh is free, so that nothing is left to search. Now that all
-  // sets are known, it counts them for the result.
+  // Returns whether the one component of the mesh is free, so that nothing is left to search. Now
+  // that all sets are known, it counts them for the result.
   bool ends_free();
 
   // Gives each triangle its type, and marks the tree.
@@ -61,7 +61,7 @@ class StepRun {
   // Puts the contacts that the search found into the result, also if it was stopped. Returns false
   // if it was stopped while contacts were sorted into those that count and others.
   bool take_found();
-  // Whether the first contact alone is looked for.
+  // Returns whether the first contact alone is looked for.
   bool looks_for_first() const { return question_.pairs == Pairs::first; }
   TimeBound by_time(double until) const {
     return {until, context_.options.arithmetic == Arithmetic::exact};

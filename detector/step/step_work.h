@@ -60,7 +60,7 @@ struct StepMarks {
   // The same for touches of moving boxes; it serves the counts alone.
   std::vector<std::uint8_t> near_ghosts = {};
 
-  // True: the step tests K and its closure alone. False: it tests every pair.
+  // Returns true if the step tests K and its closure alone, false if it tests every pair.
   bool has_views() const { return !signs.empty(); }
 
   bool all_free() const {

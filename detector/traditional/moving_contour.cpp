@@ -78,8 +78,9 @@ bool are_apart(const Sides& sides, double scale, int depth) {
   return are_apart(left, scale, depth + 1) && are_apart(right, scale, depth + 1);
 }
 
-// Whether it is proved that two edges that leave a common vertex do not overlap. They overlap only
-// if they run in the same direction: then the turn between them is 0 and their cosine positive.
+// Returns whether it is proved that two edges that leave a common vertex do not overlap. They
+// overlap only if they run in the same direction: then the turn between them is 0 and their cosine
+// positive.
 bool is_open(const Quadratic& turned, const Quadratic& aligned, double turn_scale,
              double aligned_scale, int depth) {
   const double units = turn_units(depth) * unit_roundoff;

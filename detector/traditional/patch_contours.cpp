@@ -18,7 +18,7 @@ Boundary boundary_of_triangle(const Topology& mesh, std::int32_t t) {
   return edges;
 }
 
-// The boundary of two sets together: opposite edges cancel.
+// Returns the boundary of two sets together: opposite edges cancel.
 Boundary joined(const Boundary& a, const Boundary& b) {
   Boundary out;
   out.reserve(a.size() + b.size());
@@ -135,7 +135,7 @@ class PatchMaker {
   }
 
  private:
-  // At most `most` triangles, found from `seed` across edges. Marks them as taken.
+  // Returns at most `most` triangles, found from `seed` across edges. Marks them as taken.
   std::vector<std::int32_t> triangles_around(std::int32_t seed, std::size_t most) {
     std::vector<std::int32_t> patch = {seed};
     is_taken_[at(seed)] = 1;
@@ -152,7 +152,7 @@ class PatchMaker {
     return patch;
   }
 
-  // The directed edges of the triangles after opposite ones have cancelled.
+  // Returns the directed edges of the triangles after opposite ones have cancelled.
   std::vector<DirectedEdge> boundary_of(const std::vector<std::int32_t>& patch) const {
     std::vector<DirectedEdge> edges;
     for (const auto t : patch) {
@@ -179,7 +179,7 @@ class PatchMaker {
   std::vector<std::uint8_t> is_taken_;  // by triangle: 1 in the patch that is made
 };
 
-// `count` patches with seeds spread evenly over the triangles.
+// Returns `count` patches with seeds spread evenly over the triangles.
 std::vector<SamplePatch> spread(const Topology& mesh, PatchMaker& patches, ContourMaker& contours,
                                 std::size_t count, std::size_t size) {
   std::vector<SamplePatch> result;

@@ -109,7 +109,7 @@ class PatchCones : public PatchProofs {
     moving_.ask(pace_);
   }
 
-  // The number of triangles below the node: 1, 2, or 4 for any number above 2.
+  // Returns the number of triangles below the node: 1, 2, or 4 for any number above 2.
   int size(std::int32_t node) const {
     if (tree_.is_leaf(node)) return 1;
     const auto child = tree_.child(node);
@@ -119,7 +119,7 @@ class PatchCones : public PatchProofs {
     return triangles >= 4 || scheme_.scope() == NormalConeSearch::Scope::all;
   }
 
-  // Finds the cones of all nodes. False if it was stopped.
+  // Finds the cones of all nodes. Returns false if it was stopped.
   bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree) {
     return tree.for_each_upward(work_of_cone, pace_, [&](std::int32_t node) {
       auto& cone = patches_.cones[at(node)];
@@ -179,8 +179,8 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
   bool has_proofs() const override { return true; }
 
-  // If a large patch is free, so are all patches within it. If all large patches are free, the
-  // others are not looked at.
+  // Tries the samples. If a large patch is free, so are all patches within it. If all large patches
+  // are free, the others are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {
     MovingContour moving(*motion_);
     const double of_large = share_of(samples_.large, mesh, moving);
@@ -191,7 +191,7 @@ class NormalConeSearch::OfMesh : public MeshSearch {
 
  private:
   // Finds the contours, which takes about as long as building the tree. So it is done for the first
-  // search that uses proofs. False if it was stopped.
+  // search that uses proofs. Returns false if it was stopped.
   bool keep_contours(const SearchInput& input) {
     const auto maker = scheme_.contour_maker(input.mesh);
     PatchContours contours(input.mesh, input.tree, *maker, input.pace);

@@ -50,7 +50,7 @@ class NormalConeSearch : public TreeSearch {
   }
 
  private:
-  class OfMesh;  // what prepare() makes
+  class OfMesh;  // made by prepare()
   Scope scope_;
 };
 

@@ -17,8 +17,8 @@ namespace {
 
 using Row = std::array<double, 5>;  // four unknowns and the right side
 
-// Gaussian elimination with full pivoting. Unknowns whose pivot is below `least` times the first
-// pivot become 0.
+// Solves the rows by Gaussian elimination with full pivoting. Unknowns whose pivot is below `least`
+// times the first pivot become 0.
 std::array<double, 4> solve(std::array<Row, 4> rows, double least) {
   std::array<std::size_t, 4> column = {0, 1, 2, 3};
   std::size_t rank = 0;
@@ -54,8 +54,8 @@ std::array<double, 4> solve(std::array<Row, 4> rows, double least) {
 
 constexpr std::size_t direction_count = 54;
 
-// The number of the cell that the offset points to, on the surface of a cube with 3 x 3 cells on
-// each face.
+// Returns the number of the cell that the offset points to, on the surface of a cube with 3 x 3
+// cells on each face.
 std::size_t direction_of(const Point& y) {
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
@@ -184,7 +184,7 @@ class AnchorChoice {
     return points;
   }
 
-  // The best places of a search, ranked by their scores among all planes.
+  // Returns the best places of a search, ranked by their scores among all planes.
   template <class Scored, class Score>
   std::vector<Scored> held_against_all(const std::vector<Scored>& ranked, Score score,
                                        std::uint64_t work) const {
@@ -219,7 +219,8 @@ class AnchorChoice {
     });
   }
 
-  // The score as a line, for points too. This makes the scores of points and lines comparable.
+  // Returns the score as a line, for points too. This makes the scores of points and lines
+  // comparable.
   std::int64_t score_as_line(const ViewAnchor& anchor) const {
     const int last = anchor.kind == ViewKind::line ? 1 : 0;
     return planes_.score(placed(anchor, 0), placed(anchor, last));
@@ -236,8 +237,8 @@ class AnchorChoice {
                           q);
   }
 
-  // The actual place of the anchor. It may differ from the place that was asked for if the anchor's
-  // vertices do not span all directions.
+  // Returns the actual place of the anchor. It may differ from the place that was asked for if the
+  // anchor's vertices do not span all directions.
   Point placed(const ViewAnchor& anchor, int end) const {
     return planes_.to_unit(combine(anchor.ends[end], x_));
   }

@@ -55,7 +55,7 @@ enum class Effort : std::uint8_t {
 // Returns the effort for a component: `least` for a small component of a mesh with many components,
 // such as a soup of triangles; otherwise `effort`. A search takes 0.1 ms and more, however small
 // the component is. For many small components that would be more than their steps take. In this way
-// the searches take at most 6 us a triangle beside what large components take.
+// the searches take at most 6 us a triangle more than those of large components.
 Effort effort_for(const Component& component, const Topology& mesh, Effort effort);
 
 // Returns the best place that a search (view_search.h) finds for the component of `mesh`, ghosts

@@ -65,7 +65,7 @@ void include(Box& box, const Box& other) {
   include(box, other.hi.data());
 }
 
-// The box around the vertices. It grows several boxes in turn, because with one alone each
+// Returns the box around the vertices. It grows several boxes in turn, because with one alone each
 // comparison would wait for the one before.
 Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x) {
   constexpr std::size_t chains = 4;

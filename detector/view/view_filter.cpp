@@ -47,9 +47,9 @@ Range<T> around(T value, T error) {
   return {value - error, value + error};
 }
 
-// The sign of (1-s) h0 + s h1 if it is surely the same for all values in the ranges, else 0. The
-// sums of ranges above were rounded once more, and these values are rounded four times: `slack`
-// covers that.
+// Returns the sign of (1-s) h0 + s h1 if it is surely the same for all values in the ranges, else
+// 0. The sums of ranges above were rounded once more, and these values are rounded four times:
+// `slack` covers that.
 template <class Bounds, class T>
 int sure_value_sign(const Range<T>& h0, const Range<T>& h1, const Range<T>& s) {
   constexpr T slack = 16 * Bounds::unit;

@@ -53,7 +53,7 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
     }
     const Point n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
     const double length = std::sqrt(dot(n, n));
-    if (!(length > 0)) continue;  // no place sees it positive
+    if (!(length > 0)) continue;  // it is positive from no place
     nx_.push_back(n[0] / length);
     ny_.push_back(n[1] / length);
     nz_.push_back(n[2] / length);

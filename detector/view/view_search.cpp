@@ -23,7 +23,7 @@ void rank(std::vector<Scored>& all) {
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
 }
 
-// The mean of all vertices, then the means of the vertices in each octant around `centre`.
+// Returns the mean of all vertices, then the means of the vertices in each octant around `centre`.
 std::vector<Point> vertex_means(std::span<const Point> points, const Point& centre) {
   std::array<Point, 9> sums{};
   std::array<double, 9> counts{};
@@ -85,7 +85,7 @@ void add_points_of_box(std::span<const Point> points, std::vector<Point>& places
   }
 }
 
-// The direction in which the points extend most, from their second moments.
+// Returns the direction in which the points extend most, from their second moments.
 Point longest_direction(std::span<const Point> points, const Point& mean) {
   double m[3][3] = {};
   for (const auto& p : points) {
@@ -138,7 +138,7 @@ Point neighbour(const Point& q, int n, double step) {
 
 constexpr std::size_t descents = 3;
 
-// The best `count` places that are more than `distance` apart from each other.
+// Returns the best `count` places that are more than `distance` apart from each other.
 std::vector<Point> spread(const std::vector<ScoredPoint>& ranked, std::size_t count,
                           double distance) {
   std::vector<Point> chosen;
@@ -157,8 +157,8 @@ bool is_perfect(const ViewPlanes& planes, std::int64_t score) {
                       static_cast<std::int64_t>(planes.size());
 }
 
-// Makes the function that is asked before each score whether to end. For each triangle a score
-// takes a fifth of a box test from a point, and as long as a box test from a line.
+// Makes the function that is asked before each score whether to end. Seen from a point, a score
+// takes a fifth of a box test for each triangle; from a line, a whole one.
 auto asker(const ViewPlanes& planes, PacedStop* pace, bool of_lines) {
   const std::uint64_t work = planes.size() / (of_lines ? 1 : 5) + 1;
   return [pace, work] { return pace && pace->after(work); };

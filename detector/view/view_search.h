@@ -22,8 +22,8 @@ class ViewPlanes {
   ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x,
              std::size_t most = most_planes);
 
-  // The same component with at most `most` of these triangles and as many of its points, evenly
-  // chosen.
+  // Returns the same component with at most `most` of these triangles and as many of its points,
+  // evenly chosen.
   ViewPlanes thinned(std::size_t most) const;
 
   // Returns the vertices in the order of component.vertices, with coordinates in [-1,1] (in [-2,2]
@@ -77,8 +77,8 @@ struct ScoredLine {
 // triangles are tried before all others.
 std::vector<ScoredPoint> search_points(const ViewPlanes& planes, PacedStop* pace = nullptr);
 
-// The same for lines. It tries lines along the direction in which the component extends most, and
-// lines between points that are good by themselves. Never empty; the ends differ unless the
+// Does the same for lines. It tries lines along the direction in which the component extends most,
+// and lines between points that are good by themselves. Never empty; the ends differ unless the
 // component is one point.
 std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
                                      const std::vector<ScoredPoint>& points,

@@ -43,7 +43,7 @@ class Rungs {
   }
 
   // Calls put(triangle, sign) for each triangle of a block. REQUIRES at most block_size triangles.
-  // False if stopped.
+  // Returns false if stopped.
   template <class Put>
   bool run(std::span<const std::int32_t> block, Put put) {
     std::span<const std::int32_t> left = block;
@@ -65,7 +65,7 @@ class Rungs {
   }
 
   const ViewCounts& counts() const { return counts_; }
-  // Sets the pace that later runs ask.
+  // Makes later runs ask this pace.
   void ask(PacedStop* pace) { pace_ = pace; }
 
  private:
@@ -283,15 +283,15 @@ class ExactView {
     return middle(i).sign_at_zero();
   }
 
-  // Whether the value vanishes at a vertex that is nearest to the end q0 or q1.
+  // Returns whether the value vanishes at a vertex that is nearest to the end q0 or q1.
   bool vanishes_at_an_end() const {
     const auto negative = [](int sign) { return sign <= 0; };
     const auto positive = [](int sign) { return sign >= 0; };
     return vanishes_where(h0_, g0_, negative) || vanishes_where(h1_, g1_, positive);
   }
 
-  // Whether h vanishes at a time when some g has a sign that is asked for. The roots of h serve
-  // all three vertices.
+  // Returns whether h vanishes at a time when some g has a sign that is asked for. The roots of h
+  // serve all three vertices.
   template <class SignIsAsked>
   static bool vanishes_where(const Polynomial& h, const std::array<Polynomial, 3>& g,
                              SignIsAsked is_asked) {
@@ -308,9 +308,9 @@ class ExactView {
     return false;
   }
 
-  // Whether the value vanishes at a vertex that is nearest to a point between the ends, which
-  // means g0 > 0 and g1 < 0. If one of them has the other sign over the whole step, the vertex is
-  // never nearest to such a point, and its middle piece is not looked at.
+  // Returns whether the value vanishes at a vertex that is nearest to a point between the ends,
+  // which means g0 > 0 and g1 < 0. If one of them has the other sign over the whole step, the
+  // vertex is never nearest to such a point, and its middle piece is not looked at.
   bool vanishes_between() const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Polynomial &g0 = g0_[i], &g1 = g1_[i];
@@ -324,8 +324,8 @@ class ExactView {
     return false;
   }
 
-  // True only if f surely has this sign nowhere in (0,1), and thus, being continuous, nowhere in
-  // [0,1].
+  // Returns true only if f surely has this sign nowhere in (0,1), and thus, being continuous,
+  // nowhere in [0,1].
   static bool is_never(int sign, const Polynomial& f) {
     if (f.is_zero()) return true;
     const SignChanges changes = sign_changes_over_unit(f);

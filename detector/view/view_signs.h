@@ -27,7 +27,7 @@ using MovingTriangle = std::array<MovingPoint, 3>;
 std::optional<ViewSign> filter_view_sign(const MovingTriangle& triangle,
                                          const ViewPrimitive& primitive);
 
-// The same with bounds 0, as computed in Number (double or float). It promises nothing. A sign
+// Does the same with bounds 0, as computed in Number (double or float). It promises nothing. A sign
 // that stays open is zero.
 template <class Number>
 ViewSign plain_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
@@ -46,8 +46,8 @@ inline constexpr int max_view_depth = 5;
 
 // The view test in exact integers. It decides every sign that the filter leaves open.
 //
-// The exact sign over the whole step (L1, L2), for every finite input. The middle piece of a
-// view-line whose ends move apart is a quintic. 10 to 100 us; if denormals stand beside ordinary
+// Returns the exact sign over the whole step (L1, L2), for every finite input. The middle piece of
+// a view-line whose ends move apart is a quintic. 10 to 100 us; if denormals stand beside ordinary
 // numbers 1 ms, rarely 20 ms.
 ViewSign exact_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
 

@@ -76,12 +76,12 @@ class Enclosed {
     return e;
   }
 
-  // Whether these places are surely within d at t. REQUIRES t = grid(t).
+  // Returns whether these places are surely within d at t. REQUIRES t = grid(t).
   bool surely_near(double t, const ClosestPlaces& places) const {
     const auto at = [&](int j, int k) { return (1 - t) * u0_[j - 1][k] + t * u1_[j - 1][k]; };
     const double first = places.first, second = places.second;
     if (first_group_ == 1 && (Enclosure(first) + Enclosure(second)).hi > 1 && second > 0) {
-      // Rounding alone may put the place outside: then a place a little farther inside will do.
+      // Rounding alone may put the place outside. A place a little farther inside will do then.
       const double inside = std::max(0.0, second - 0x1p-50);
       if ((Enclosure(first) + Enclosure(inside)).hi > 1) return false;
       return surely_near(t, {first, inside, places.apart, places.squared});
@@ -96,7 +96,7 @@ class Enclosed {
     return squared.hi <= squared_.lo;
   }
 
-  // A multiple of 2^-52 not above t: 1 minus it is exact.
+  // Returns a multiple of 2^-52 not above t: 1 minus it is exact.
   static double grid(double t) {
     constexpr double per_unit = 0x1p52;
     return std::floor(t * per_unit) / per_unit;
@@ -108,7 +108,7 @@ class Enclosed {
   Enclosure squared_;                          // d^2
 };
 
-// The same direction with a greatest coordinate of 1, so that no product of it overflows.
+// Returns the same direction with a greatest coordinate of 1, so that no product of it overflows.
 Point scaled(const Point& n) {
   const double greatest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
   return {n[0] / greatest, n[1] / greatest, n[2] / greatest};
@@ -119,9 +119,10 @@ constexpr int most_stops = 24;
 
 // The findings of the rung "interval".
 struct Approach {
-  // no: farther apart than d at all times. yes: within d at `near`. open: neither is known.
+  // no: the features are farther apart than d at all times. yes: they are within d at `near`. open:
+  // neither is known.
   Decision decision = Decision::open;
-  // Farther apart than d on [0,apart]; negative if not even that is known.
+  // The features are farther apart than d on [0,apart]. Negative if nothing is known.
   double apart = -1;
   double near = 1;
 };
@@ -179,7 +180,7 @@ Approach approach(const FourPoints& q, const Separation& d) {
   return walk(q, d);
 }
 
-// The least distance over the step in plain doubles: a guess.
+// Returns the least distance over the step in plain doubles: a guess.
 double guess_least_distance(const FourPoints& q) {
   const auto squared = [&](double t) { return closest_places(q, t).squared; };
   constexpr int samples = 32;
@@ -205,8 +206,8 @@ double guess_least_distance(const FourPoints& q) {
   return std::sqrt(least);
 }
 
-// The least time over the regions, given that the features are apart on [0,apart], and that no time
-// after `last` is asked for. The lesser of two times has the lesser enclosure, so the times
+// Returns the least time over the regions, given that the features are apart on [0,apart], and that
+// no time after `last` is asked for. The lesser of two times has the lesser enclosure, so the times
 // themselves need not be compared.
 std::optional<TimeEnclosure> first_time_of_regions(const Regions& regions, double apart,
                                                    double last, Want want) {
@@ -259,13 +260,13 @@ using detector::Point;
 
 Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-// The share of 0 in 0 is not defined; any value will do.
+// Returns a share. The share of 0 in 0 is not defined; any value will do.
 double share(double part, double whole) {
   return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0;
 }
 
-// The face's place nearest to the point. The signs of products tell whether it is at a vertex, on
-// an edge or inside (Ericson, Real-Time Collision Detection, 5.1.5).
+// Finds the place of the face that is nearest to the point. The signs of products tell whether it
+// is at a vertex, on an edge or inside (Ericson, Real-Time Collision Detection, 5.1.5).
 void nearest_on_face(const Point& p, const Point& a, const Point& b, const Point& c,
                      ClosestPlaces& places) {
   const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -291,7 +292,7 @@ void nearest_on_face(const Point& p, const Point& a, const Point& b, const Point
   }
 }
 
-// The two edges begin at a and c, with the directions u and v.
+// Finds the nearest places of two edges, which begin at a and c and have the directions u and v.
 void nearest_on_edges(const Point& a, const Point& u, const Point& c, const Point& v,
                       ClosestPlaces& places) {
   const Point r = a - c;

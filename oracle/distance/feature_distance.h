@@ -22,10 +22,10 @@ namespace assay::oracle {
 
 using detector::Separation;
 
-// The features of a query are its two groups: a vertex and a face, or two edges, as in contact.h.
-// In the answer `contact` says whether they come within d. Its rung is axis, interval, or integers
-// (Regions), which count as quadratic; if interval found the features near, the time is then
-// computed in integers.
+// Returns whether the two features of a query come within d, and when first. The features are its
+// two groups: a vertex and a face, or two edges, as in contact.h. In the answer `contact` says
+// whether they come within d. Its rung is axis, interval, or integers (Regions), which count as
+// quadratic. If interval finds the features near, integers compute the time.
 ContactAnswer first_time_within(const detector::FourPoints& q, const Separation& d,
                                 detector::Want want = detector::Want::first_time);
 
@@ -78,8 +78,8 @@ class Regions {
  public:
   Regions(const detector::FourPoints& q, const Separation& d);
 
-  // The regions are 3 points, 3 edges and the face; or 4 pairs of ends, 4 of an end and an edge,
-  // and 1 of the edges.
+  // Returns the number of regions: 3 points, 3 edges and the face; or 4 pairs of ends, 4 pairs of
+  // an end and an edge, and the pair of edges.
   int size() const { return first_group_ == 1 ? 7 : 9; }
   Region operator[](int i) const;
 

@@ -76,7 +76,8 @@ namespace {
 
 using detector::TimeEnclosure;
 
-// The sign of p between s and e by Descartes' rule; 0 if it is not certain, or if p is zero.
+// Returns the sign of p between s and e by Descartes' rule; 0 if it is not certain, or if p is
+// zero.
 int sign_between(const IntegerPolynomial& p, double s, double e) {
   bool positive = false, negative = false;
   for (const Integer& x : bernstein_over_unit(on_piece(p, s, e))) {
@@ -86,8 +87,8 @@ int sign_between(const IntegerPolynomial& p, double s, double e) {
   return static_cast<int>(positive && !negative) - static_cast<int>(negative && !positive);
 }
 
-// 1: the conditions hold at all times between s and e; -1: some condition fails at all of them; 0:
-// neither is certain.
+// Returns 1 if the conditions hold at all times between s and e, -1 if some condition fails at all
+// of them, 0 if neither is certain.
 int conditions_between(const Region& region, double s, double e) {
   bool hold = true;
   for (const IntegerPolynomial& g : region.not_negative) {
@@ -104,8 +105,8 @@ bool conditions_hold_at(const Region& region, double t) {
                      [&](const IntegerPolynomial& g) { return sign_at(g, t) >= 0; });
 }
 
-// The sign of g at the only zero of f between lo and hi, which is simple and is no zero of g. It
-// shrinks the piece until g has one sign on it.
+// Returns the sign of g at the only zero of f between lo and hi, which is simple and is no zero of
+// g. It shrinks the piece until g has one sign on it.
 int sign_at_zero_of_other(IntegerPolynomial f, IntegerPolynomial g, double lo, double hi) {
   for (;;) {
     // x = 0 is the end nearer to the zero, because doubles are densest at 0.
@@ -123,8 +124,8 @@ int sign_at_zero_of_other(IntegerPolynomial f, IntegerPolynomial g, double lo, d
   }
 }
 
-// The sign of g at the only zero of f between lo and hi. REQUIRES that it is simple, and f not zero
-// at lo and hi.
+// Returns the sign of g at the only zero of f between lo and hi. REQUIRES that it is simple, and f
+// not zero at lo and hi.
 int sign_at_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, double lo, double hi) {
   if (g.is_zero()) return 0;
   if (const int sign = sign_between(g, lo, hi)) return sign;
@@ -144,8 +145,8 @@ std::uint64_t bits(double t) { return std::bit_cast<std::uint64_t>(t + 0.0); }
 bool adjacent(double lo, double hi) { return bits(hi) - bits(lo) <= 1; }
 double of_bits(std::uint64_t b) { return std::bit_cast<double>(b); }
 
-// Where to divide a piece. In a piece from 0 on, the exponent is multiplied by 8, because few zeros
-// are tiny.
+// Returns where to divide a piece. In a piece from 0 on, the exponent is multiplied by 8, because
+// few zeros are tiny.
 double middle(double lo, double hi) {
   const int exponent = std::ilogb(hi);
   constexpr int longest = 8, least = -1000;
@@ -159,9 +160,9 @@ struct Piece {
   bool aimed = false;  // made by aim()
 };
 
-// Only pieces as small as the gap between two neighbouring zeros (or near zeros) separate these.
-// The two lie about a zero of the derivative. Appends the piece in parts, later ones first: a tiny
-// part about that zero, and the parts before and after it. Returns whether it did.
+// Appends the piece in parts, later ones first: a tiny part about a zero of the derivative, and the
+// parts before and after it. Returns whether it did. Two neighbouring zeros (or near zeros) lie
+// about such a zero, and only pieces as small as their gap separate them.
 bool aim(const IntegerPolynomial& f, const Piece& piece, std::vector<Piece>& left) {
   const IntegerPolynomial slope = derivative(f);
   const int at_lo = sign_at(slope, piece.lo);
@@ -224,14 +225,14 @@ std::optional<TimeEnclosure> scan(const Region& region, double s, double e,
   return {};
 }
 
-// p(x / 2), up to a positive factor.
+// Returns p(x / 2), up to a positive factor.
 IntegerPolynomial halved(IntegerPolynomial p) {
   const int n = p.degree();
   for (int i = 0; i < n; ++i) p.c[i] <<= static_cast<mp_bitcnt_t>(n - i);
   return p;
 }
 
-// The half of the piece from one adjacent double towards the other, as a step of its own.
+// Returns the half of the piece from one adjacent double towards the other, as a step of its own.
 Region half_seen_from(const IntegerPolynomial& f, const Region& region, double from, double to) {
   const auto half_of = [&](const IntegerPolynomial& p) { return halved(on_piece(p, from, to)); };
   Region half{half_of(f), {}, half_of(region.positive)};

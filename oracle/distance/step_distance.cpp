@@ -15,14 +15,14 @@ using detector::TrianglesView;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = std::numeric_limits<double>::max();
 
-// Half of d or more. Halves of denormals, and sums, are rounded by one unit at most.
+// Returns half of d or more. Halves of denormals, and sums, are rounded by one unit at most.
 double half_of(const Separation& d) {
   const double half = d.first / 2 + d.second / 2;
   return d.first == 0 && d.second == 0 ? 0 : std::nextafter(half, infinity);
 }
 
-// The box over the step, grown: boxes of features within d meet if each is grown by half of d, or
-// by its own offset. No box reaches beyond the greatest double, because no coordinate does.
+// Returns the box over the step, grown: boxes of features within d meet if each is grown by half of
+// d, or by its own offset. No box reaches beyond the greatest double, because no coordinate does.
 BoxOfVertices grown_boxes(const SteppedMesh& motion, double half,
                           const std::vector<double>& offsets) {
   return [boxes = swept_boxes(motion), half, &offsets](std::span<const std::int32_t> vertices) {
@@ -55,7 +55,7 @@ StepJudgement judge(const StepFeatures& features, const SteppedMesh& motion, con
   return features.judge(grown_boxes(motion, half_of(d), offsets), gate, answer);
 }
 
-// The longest side of the box of all vertices over the step, or the greatest double.
+// Returns the longest side of the box of all vertices over the step, or the greatest double.
 double extent(const SteppedMesh& motion) {
   double longest = 0;
   for (int k = 0; motion.size() > 0 && k < 3; ++k) {

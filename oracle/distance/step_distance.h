@@ -1,9 +1,9 @@
 // Finds which triangles of a mesh come within a distance of each other during a step, when, and how
 // near any two of them come.
 //
-// It is built as the exact pair set (mesh/step.h) is: boxes, grown by the distance, find candidate
-// pairs of features; feature_distance.h judges them as they are found; and features within d count
-// for all pairs of triangles that hold them. Two triangles are within d at t if two of their closed
+// It works as the exact pair set (mesh/step.h) does. Boxes, grown by the distance, find candidate
+// pairs of features. feature_distance.h judges each as it is found. Two features within d count for
+// all pairs of triangles that hold them. Two triangles are within d at t if two of their closed
 // faces without a common vertex are within d at t, or if t is 0 and an edge of one pierces the
 // other. After t=0 an edge begins to pierce a face only by a contact of two features.
 #pragma once
@@ -19,8 +19,8 @@
 namespace assay::oracle {
 
 struct DistanceOptions : JudgeOptions {
-  // Whether triangles that share a vertex or an edge count: they are as near as the faces that they
-  // do not share.
+  // Whether triangles that share a vertex or an edge count. Their distance is that of the faces
+  // that they do not share.
   bool neighbours = false;
   WantedPair also_asked{};  // says of a pair whether it counts; empty: every pair does
   // An offset for each vertex. If not empty, the distance is not the same for all pairs: it is the

@@ -24,9 +24,9 @@ mpq_class times_power_of_two(mpq_class x, int exponent) {
   return x;
 }
 
-// lo = hi = x if x is a double. Otherwise lo and hi are the two neighbours of the double to which
-// GMP truncates x (a number too small for a double becomes 0 or a smallest double), so they enclose
-// x.
+// Sets lo = hi = x if x is a double. Otherwise lo and hi become the two neighbours of the double to
+// which GMP truncates x (a number too small for a double becomes 0 or a smallest double), so they
+// enclose x.
 void enclose(const mpq_class& x, double& lo, double& hi) {
   lo = hi = x.get_d();
   if (mpq_class(lo) == x) return;
@@ -125,7 +125,7 @@ int sign_for(const Rest& q, int i, const Integer& lam) {
   return i < q.first_group ? sgn(lam) : -sgn(lam);
 }
 
-// Whether the groups meet if all points lie on one line. They miss each other when they are
+// Returns whether the groups meet if all points lie on one line. They miss each other when they are
 // strictly ordered along an axis along which the points differ.
 bool meet_on_a_line(const Rest& q) {
   for (int k = 0; k < 3; ++k) {
@@ -180,7 +180,7 @@ bool features_meet(StaticPoints x, const Feature& feature) {
 
 namespace {
 
-// The box, widened by the distance, so that the boxes of two features that are nearer meet.
+// Returns the box, widened by the distance, so that the boxes of two features that are nearer meet.
 Box widened(Box box, double distance) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -224,9 +224,9 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
   return found;
 }
 
-// The differences of the places of two triangles fill a convex body, and the two cross when 0 is
-// inside of it. Its sides are normal to a triangle or to an edge of each. If it is flat, all
-// normals here are normal to its plane, or 0.
+// Returns whether two triangles cross. The differences of their places fill a convex body, and they
+// cross when 0 is inside of it. Its sides are normal to a triangle or to an edge of each. If it is
+// flat, all normals here are normal to its plane, or 0.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair) {
   std::array<detector::MovingPoint, 6> places;

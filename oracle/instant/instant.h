@@ -62,14 +62,14 @@ class Instant {
 using StaticPoints = std::span<const IntegerPoint>;
 
 // Returns whether two closed features have a point in common. A zero-area triangle is the segment
-// or point that it has become. Of a piercing edge, returns the condition of
+// or point that it has become. For a piercing edge, returns the condition of
 // segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides of the plane of
 // the face, and the line passes strictly inside all three of its edges.
 bool features_meet(StaticPoints x, const detector::Feature& feature);
 
-// Element t of the result is 1 when triangle t meets another triangle of its own component, or a
-// ghost of that component. REQUIRES that triangles and ghosts name vertices of this instant.
-// `component` lists the component of each triangle, then that of each ghost.
+// Returns, by triangle, 1 if it meets another triangle of its own component, or a ghost of that
+// component; else 0. REQUIRES that triangles and ghosts name vertices of this instant. `component`
+// lists the component of each triangle, then that of each ghost.
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
@@ -86,9 +86,9 @@ std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsV
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
 
-// Returns whether two triangles at rest cross: no plane has one on each of its closed sides.
-// Triangles that meet without crossing touch, even if they lie on each other in one plane. Exact,
-// 10 to 30 us.
+// Returns whether two triangles at rest cross. They do if no plane separates them: one triangle on
+// each of its closed sides. Triangles that meet without crossing touch, even if they lie on each
+// other in one plane. Exact, 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);
 

@@ -25,7 +25,7 @@ IntegerPoint direction_vector(int k) {
 
 double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
-// The farthest that a ray in direction (2^20, s) rises over `run`, rounded up.
+// Returns the farthest that a ray in direction (2^20, s) rises over `run`, rounded up.
 double rise(double run, double s) {
   constexpr double rounding_slack =
       1 + 0x1p-10;  // for the roundings of three operations: far below 2^-50
@@ -211,7 +211,7 @@ std::vector<std::int32_t> components(const MeshFeatures& all) {
   return numbered(classes, all.faces.size(), [](std::int32_t) { return true; });
 }
 
-// Whether the face has the directed edge from the lower to the higher vertex.
+// Returns whether the face has the directed edge from the lower to the higher vertex.
 bool runs_upward(const Face& face, const Edge& edge) {
   for (int k = 0; k < 3; ++k) {
     if (face[k] == edge[0] && face[(k + 1) % 3] == edge[1]) return true;
@@ -234,7 +234,7 @@ std::vector<std::int32_t> pieces(const MeshFeatures& all,
   return numbered(classes, touched.size(), [&](std::int32_t t) { return !touched[t]; });
 }
 
-// The layers of the untouched triangles. They are found once for each piece, in the winding
+// Returns the layers of the untouched triangles. They are found once for each piece, in the winding
 // numbers of its component.
 std::vector<std::optional<Layer>> layers(const Instant& instant, const detector::Triangles& all,
                                          const LayerState& state) {

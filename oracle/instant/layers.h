@@ -67,17 +67,16 @@ struct LayerState {
   // The layer of the triangle: winding numbers of its own component. Nothing for a touched
   // triangle.
   std::vector<std::optional<Layer>> layer;
-  // By component: the common layer, which is that of most of its untouched triangles. If two
-  // layers have equally many, it is the one that holds the lowest triangle. Nothing when all are
-  // touched.
+  // By component: the common layer, which most of its untouched triangles have. If two layers have
+  // equally many, the one that holds the lowest triangle. Nothing when all are touched.
   std::vector<std::optional<Layer>> common;
   // 1: the triangle is untouched, and its layer is the common layer of its component.
   std::vector<std::uint8_t> clean;
 };
 
-// REQUIRES closes(triangles, ghosts), indices in range; ghosts name vertices of this instant too.
-// Contacts between two components make nothing dirty here, because such pairs are always
-// candidates and the layers of a component count that component alone (L10). Every untouched
+// Finds the layers. REQUIRES closes(triangles, ghosts), indices in range; ghosts name vertices of
+// this instant too. Contacts between two components make nothing dirty here, because such pairs are
+// always candidates and the layers of a component count that component alone (L10). Every untouched
 // triangle has a normal: one of zero area is always touched, by the triangle or ghost at its
 // longest edge, and one that repeats an index counts as touched.
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,

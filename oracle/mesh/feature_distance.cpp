@@ -33,8 +33,8 @@ mpq_class squared_distance_to(const Place& p, const Place& a, const Place& b) {
   return squared(to - along({}, edge, share));
 }
 
-// The squared distance is a convex function of the two places on the edges, so it is least at an
-// end of one of them, or where both derivatives are 0.
+// Returns the squared distance, which is a convex function of the two places on the edges, so it is
+// least at an end of an edge, or where both derivatives are 0.
 mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place& c,
                                     const Place& d) {
   mpq_class least = std::min({squared_distance_to(a, c, d), squared_distance_to(b, c, d),
@@ -48,8 +48,8 @@ mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place&
   return std::min(least, squared(along(a, u, s) - along(c, v, t)));
 }
 
-// If the point is above the inside of the face, this is its distance to the plane, else that to an
-// edge.
+// Returns the squared distance to the plane if the point is above the inside of the face, else that
+// to an edge.
 mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& b, const Place& c) {
   mpq_class least = std::min(
       {squared_distance_to(p, a, b), squared_distance_to(p, b, c), squared_distance_to(p, c, a)});
@@ -64,7 +64,7 @@ mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& 
   return std::min(least, mpq_class(height * height / length));
 }
 
-// Whether the distance along some axis alone is not below the limit.
+// Returns whether the distance along some axis alone is not below the limit.
 template <class First, class Second>
 bool boxes_apart(const std::vector<detector::Point>& places, const First& a, const Second& b,
                  const mpq_class& limit) {

@@ -17,7 +17,7 @@ bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t
                         const Face& face, double distance);
 bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,
                        double distance);
-// The same for two whole faces, which are at distance 0 if they share a vertex or pierce each
+// Does the same for two whole faces, which are at distance 0 if they share a vertex or pierce each
 // other.
 bool faces_nearer_than(const std::vector<detector::Point>& places, const Face& a, const Face& b,
                        double distance);

@@ -57,8 +57,8 @@ class BoxTree {
 // Gives the box of a feature from its one, two or three vertices.
 using BoxOfVertices = std::function<Box(std::span<const std::int32_t>)>;
 
-// Boxes over the whole step, or boxes at rest if the mesh is given at rest. REQUIRES that the
-// positions outlive the result.
+// Returns boxes over the whole step, or boxes at rest if the mesh is given at rest. REQUIRES that
+// the positions outlive the result.
 BoxOfVertices swept_boxes(const detector::SteppedMesh& motion);
 
 // The features of one mesh, found by their boxes. The trees are built when first asked for. One
@@ -89,7 +89,7 @@ struct FeaturePair {
   std::span<const std::int32_t> of_first, of_second;
 };
 
-// The two features as a query. REQUIRES a vertex and a face, or two edges.
+// Returns the two features as a query. REQUIRES a vertex and a face, or two edges.
 inline detector::FourPoints points_of(const detector::SteppedMesh& motion,
                                       const detector::Feature& feature) {
   const auto& v = feature.vertices;
@@ -129,8 +129,8 @@ using VisitFaces = std::function<void(std::int32_t of_a, std::int32_t of_b, int 
 // with faces of b. If a and b are the same object, two edges come once, the lower edge first.
 void for_each_pair(const FeatureIndex& a, const FeatureIndex& b, detector::FeatureKind kind,
                    const Workers& workers, const VisitPair& visit);
-// Visits faces of a mesh whose boxes meet, also faces that share vertices: two come once, the lower
-// face first.
+// Visits pairs of faces of a mesh whose boxes meet, also faces that share vertices. Each pair comes
+// once, the lower face first.
 void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const VisitFaces& visit);
 
 // Says of two triangles, the lower first, whether they count.

@@ -78,7 +78,7 @@ void add_edges(const detector::TrianglesView& triangles, std::vector<DirectedEdg
   }
 }
 
-// The edges that are left when opposite ones cancel.
+// Returns the edges that are left when opposite ones cancel.
 std::vector<DirectedEdge> unmatched(std::vector<DirectedEdge> edges) {
   std::vector<DirectedEdge> reversed;
   reversed.reserve(edges.size());

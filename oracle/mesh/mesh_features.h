@@ -33,7 +33,8 @@ struct MeshFeatures {
   Incidence triangles_of_edge;         // by place in `edges`
 };
 
-// A triangle that repeats an index has only its edges between different vertices. n log n.
+// Finds the features. A triangle that repeats an index has only its edges between different
+// vertices. n log n.
 MeshFeatures mesh_features(const detector::TrianglesView& triangles);
 
 // Returns all pairs of triangles with the same three vertices.

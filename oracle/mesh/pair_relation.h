@@ -14,8 +14,8 @@
 namespace assay::oracle {
 
 // Answers for the features of one mesh, and for its faces by their numbers. Both references must
-// outlive the object. Several threads may ask at the same time. No answers are kept, so each costs
-// 1 us, and in addition 5 to 20 us for each two features whose places at rest are compared.
+// outlive the object. Several threads may ask at the same time. No answer is kept. Each takes 1 us,
+// and 5 to 20 us more for each pair of features whose places at rest are compared.
 class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).

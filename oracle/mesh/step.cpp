@@ -120,8 +120,8 @@ void StepFeatures::for_each(const BoxOfVertices& boxes, const Workers& workers,
     for_each_of(kind, boxes, workers, visit);
 }
 
-// Visits the pairs of one kind that counted pairs of triangles may hold. Each kind has an index of
-// its own, so that no more than one tree is in memory at a time.
+// Visits the feature pairs of one kind that counted pairs of triangles may hold. Each kind has an
+// index of its own, so that no more than one tree is in memory at a time.
 void StepFeatures::for_each_of(FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
                                const VisitPair& visit) const {
   if (workers.gate->stopped()) return;
@@ -176,7 +176,7 @@ StepJudgement StepFeatures::judge(const BoxOfVertices& boxes, StopGate& gate,
       }
     }
   });
-  // What pierces at the start is of no kind of features: it is asked for where all kinds are.
+  // Piercings at the start are of neither kind of features. They are asked for if all kinds are.
   for_each_pierced_at_start(
       workers, [&](std::int32_t s, std::int32_t t, const Feature& feature, int worker) {
         found[worker].pairs.add(s, t, {0, 0}, feature);

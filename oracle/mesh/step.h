@@ -30,7 +30,7 @@ struct JudgeOptions {
   // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
   const detector::CountedPairs* counted = nullptr;
   // Which of the counted pairs the detector tests; null: all. Together with `features` it decides
-  // what asked_pairs holds. REQUIRES the same as `counted`.
+  // which pairs asked_pairs holds. REQUIRES the same as `counted`.
   const detector::CountedPairs* tested = nullptr;
 };
 
@@ -42,7 +42,7 @@ struct StepJudgement {
   detector::TimeEnclosure first;             // the least time of all; set for a collision
   std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
   // If JudgeOptions names one kind of features, or some pairs as tested: the pairs in which two
-  // tested features of that kind meet, each with the first time at which they do. With one kind,
+  // tested features of that kind meet, each with the first time of such a meeting. With one kind,
   // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
   // Empty if JudgeOptions names neither.
   std::vector<detector::PairContact> asked_pairs;
@@ -54,17 +54,17 @@ struct StepJudgement {
   RungCounts rungs;
 };
 
-// REQUIRES indices in range, finite positions, equal row counts. Two triangles with the same three
-// vertices are in contact at t=0 by convention.
+// Judges a step. REQUIRES indices in range, finite positions, equal row counts. Two triangles with
+// the same three vertices are in contact at t=0 by convention.
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
-// The features of a mesh over a step, and the pairs of them that counted pairs of triangles hold.
+// The features of a mesh over a step, and the feature pairs that counted pairs of triangles hold.
 class StepFeatures {
  public:
-  // If `neighbours` is false, triangles that share a vertex do not count. `also_asked` says of a
-  // pair whether it counts; empty: every pair does. REQUIRES indices in range, finite positions,
-  // equal row counts, and a motion that outlives it.
+  // Makes the features. If `neighbours` is false, triangles that share a vertex do not count.
+  // `also_asked` says of a pair whether it counts; empty: every pair does. REQUIRES indices in
+  // range, finite positions, equal row counts, and a motion that outlives it.
   StepFeatures(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                const JudgeOptions& options, bool neighbours = true, WantedPair also_asked = {});
   StepFeatures(const StepFeatures&) = delete;
@@ -80,7 +80,7 @@ class StepFeatures {
   void for_each_pierced_at_start(const Workers& workers, const VisitPierced& visit) const;
 
   // Says whether a counted pair of triangles holds the two features. Relations take time, so this
-  // is asked about what is near, and not about every pair that is visited.
+  // is asked about near features only, and not about every pair that is visited.
   bool some_pair_counts(const FeaturePair& pair) const;
 
   // Judges the step by the answer to each pair of features whose boxes meet.
@@ -94,7 +94,7 @@ class StepFeatures {
 
   void for_each_of(detector::FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
                    const VisitPair& visit) const;
-  bool may_count(std::int32_t s, std::int32_t t) const;  // but for the relation
+  bool may_count(std::int32_t s, std::int32_t t) const;  // before the relation
   bool counts(std::int32_t s, std::int32_t t) const;
   bool some_of(const FeaturePair& pair, Says says) const;
   static bool passes(const Relation& relation, const FeaturePair& pair);

@@ -126,8 +126,8 @@ namespace {
 
 using detector::TimeEnclosure;
 
-// True when F has a root of multiplicity 2 or more and its derivative a zero in the enclosure.
-// Such a root is a rational number, because F is a cubic with rational coefficients.
+// Returns true when F has a root of multiplicity 2 or more and its derivative a zero in the
+// enclosure. Such a root is a rational number, because F is a cubic with rational coefficients.
 bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) {
   if (discriminant(f) != 0) return false;
   const IntegerPolynomial slope = derivative(f);

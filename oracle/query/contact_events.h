@@ -34,9 +34,9 @@ class ContactPolynomials {
  public:
   explicit ContactPolynomials(const FourPoints& q);
 
-  // F, which is zero when the four points are coplanar.
+  // Returns F, which is zero when the four points are coplanar.
   const IntegerPolynomial& coplanarity();
-  // L_0..L_3, of the points projected along this axis.
+  // Returns L_0..L_3 of the points projected along this axis.
   const std::array<IntegerPolynomial, 4>& sides(int axis);
   // Returns all D of this axis.
   std::vector<IntegerPolynomial> gaps(int axis) const;

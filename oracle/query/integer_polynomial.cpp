@@ -197,7 +197,7 @@ Residue inverse(Residue x, Residue prime) {
   return result;
 }
 
-// Euclid's algorithm.
+// Finds the divisor by Euclid's algorithm.
 Residues common_divisor(Residues u, Residues v, Residue prime) {
   if (u.size() < v.size()) std::swap(u, v);
   while (!v.empty()) {
@@ -215,7 +215,7 @@ Residues common_divisor(Residues u, Residues v, Residue prime) {
   return u;
 }
 
-// p divided by `divisor`; nothing if it is none over the integers.
+// Returns p divided by `divisor`; nothing if p has no such divisor over the integers.
 std::optional<IntegerPolynomial> divided(const IntegerPolynomial& p,
                                          const IntegerPolynomial& divisor) {
   const int n = divisor.degree();
@@ -237,7 +237,7 @@ std::optional<IntegerPolynomial> divided(const IntegerPolynomial& p,
 
 }  // namespace
 
-// By remainders modulo small primes (Brown). Modulo a prime that divides neither leading
+// Works by remainders modulo small primes (Brown). Modulo a prime that divides neither leading
 // coefficient, the common divisor has at least its true degree, and with few exceptions exactly
 // that. Its leading coefficient divides that of p (Gauss), so it is scaled to the leading
 // coefficient of p. The Chinese remainder theorem joins its coefficients, until one more prime

@@ -32,7 +32,8 @@ IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
 IntegerPolynomial derivative(const IntegerPolynomial& p);
 
-// Zero exactly when p has a root of multiplicity 2 or more. REQUIRES a degree of at most 3.
+// Returns the discriminant: zero exactly when p has a root of multiplicity 2 or more. REQUIRES a
+// degree of at most 3.
 Integer discriminant(const IntegerPolynomial& p);
 
 // Returns the exact sign of p at t. REQUIRES t finite and >= 0.
@@ -47,7 +48,8 @@ std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 // one.
 int sign_changes(const std::vector<Integer>& sequence);
 
-// True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
+// Returns true if Descartes' rule in Bernstein form shows that p has no zero in [0,1]. False says
+// nothing.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 
 // Returns the greatest common divisor, with coefficients without a common divisor; 1 if the two
@@ -59,8 +61,8 @@ IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolyno
 // the divisor have no common divisor.
 IntegerPolynomial quotient(const IntegerPolynomial& p, const IntegerPolynomial& divisor);
 
-// p(lo + (hi - lo) x) as a polynomial of x, up to a positive factor. REQUIRES lo and hi in [0,1];
-// hi may be the lesser.
+// Returns p(lo + (hi - lo) x) as a polynomial of x, up to a positive factor. REQUIRES lo and hi in
+// [0,1]; hi may be the lesser.
 IntegerPolynomial on_piece(const IntegerPolynomial& p, double lo, double hi);
 
 // Turns the doubles of a query into integers: it multiplies by the least power of two that makes
@@ -72,7 +74,7 @@ class IntegerScale {
 
   // REQUIRES a coordinate of the given points.
   Integer operator()(double coordinate) const;
-  // A coordinate is its integer times 2^exponent().
+  // Returns the exponent: a coordinate is its integer times 2^exponent().
   int exponent() const { return exponent_; }
 
  private:
@@ -82,7 +84,7 @@ class IntegerScale {
 // A vector whose coordinates are polynomials in time.
 using PolynomialVector = std::array<IntegerPolynomial, 3>;
 
-// `to - from`, scaled: three linear polynomials.
+// Returns `to - from`, scaled: three linear polynomials.
 PolynomialVector moving_difference(const IntegerScale& scale, const detector::MovingPoint& from,
                                    const detector::MovingPoint& to);
 

@@ -12,8 +12,8 @@ namespace assay::oracle {
 
 namespace {
 
-// -1: all of S lies more than `distance` before all of S' along the axis; 1: after; 0: neither.
-// Where a difference that is rounded to nearest is greater than a double, so is the exact one.
+// Returns -1 if all of S lies more than `distance` before all of S' along the axis, 1 if after,
+// else 0. If a difference that is rounded to nearest is greater than a double, so is the exact one.
 int order_beyond(const FourPoints& q, detector::Point detector::MovingPoint::*end, int axis,
                  double distance) {
   const auto at = [&](int i) { return (q.points[i].*end)[axis]; };
@@ -51,7 +51,7 @@ constexpr int most_depth = 9;
 // If a query needs more pieces, the rung "quadratic" is the cheaper one.
 constexpr int most_pieces = 40;
 
-// The rung "axis" again, on a piece. The four points are taken as 0, u_1, u_2, u_3.
+// Does what the rung "axis" does, on a piece. The four points are taken as 0, u_1, u_2, u_3.
 bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
   for (int k = 0; k < 3; ++k) {
     auto order = [&](const auto& end) {
@@ -103,7 +103,7 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
     all_agree = all_agree || positive == 4 || negative == 4;
   }
   if (!f_changes || !all_agree) return {};
-  // F' has the scaled coefficients f1 - 3 f0, 2 (f2 - f1), 3 f3 - f2; the factor is no matter.
+  // F' has the scaled coefficients f1 - 3 f0, 2 (f2 - f1), 3 f3 - f2; the factor does not matter.
   const Interval three(3.0);
   const Bernstein<Interval, 2> slope = {f[1] - three * f[0], f[2] - f[1], three * f[3] - f[2]};
   return {detector::Decision::yes, sure_sign(slope) != 0};
@@ -149,7 +149,7 @@ IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want) {
   const std::vector<IntegerPolynomial> events = event_polynomials(polynomials);
   if (events.size() > 1) {  // coplanar throughout
-    // Many such queries begin in contact: then the other times are not needed.
+    // Many such queries begin in contact, and then the other times are not needed.
     const QuadraticTimes start({events.data(), 1});
     const ExactAnswer at_start = first_contact(polynomials, start, want);
     if (at_start.contact) return at_start;

@@ -27,11 +27,12 @@ struct IntervalAnswer {
   double s = 0, e = 1;
 };
 
-// A piece of the step is free of contact when on it the groups stay ordered along an axis, or F
-// keeps one sign, or some axis has one L surely > 0 and one surely < 0. It holds a contact when F
-// surely changes sign over it and some axis has all four L surely of one sign. Pieces are taken in
-// time order, and a contact with its time is claimed only when all earlier pieces are free.
-// Coordinates of 2^300 or more are left to the next rung, so no interval ever overflows.
+// Judges by pieces. A piece of the step is free of contact when on it the groups stay ordered along
+// an axis, or F keeps one sign, or some axis has one L surely > 0 and one surely < 0. It holds a
+// contact when F surely changes sign over it and some axis has all four L surely of one sign.
+// Pieces are taken in time order, and a contact with its time is claimed only when all earlier
+// pieces are free. Coordinates of 2^300 or more are left to the next rung, so no interval ever
+// overflows.
 IntervalAnswer interval_answer(const FourPoints& q, detector::Want want);
 
 // The rung "quadratic": the complete exact test, by closed formulas. About 8 us for contacts on the

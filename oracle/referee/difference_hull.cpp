@@ -45,7 +45,8 @@ mpz_class scaled(double x, int unit) {
   return value;
 }
 
-// Nearest point of the triangle of corners a, b, c, by the regions of its vertices and edges.
+// Returns the nearest point of the triangle of corners a, b, c, by the regions of its vertices and
+// edges.
 NearestPoint nearest_of_triangle(const Hull<double>& hull, int a, int b, int c) {
   const auto &A = hull.corner[a], &B = hull.corner[b], &C = hull.corner[c];
   const auto ab = minus(B, A), ac = minus(C, A);

@@ -7,8 +7,9 @@
 
 namespace assay::oracle {
 
-// The scaled terms of d have at most 2^-1075 of error each, from underflow, and their sum one
-// rounding: the neighbour of the sum is beyond the exact sum, apart from that underflow.
+// Returns the hull with bounds of d. Each scaled term of d is wrong by at most 2^-1075, from
+// underflow, and their sum has one rounding. So the neighbour of the sum is beyond the exact sum,
+// apart from that underflow.
 DoubleReach double_reach(const detector::FourPoints& query, const detector::Separation& d) {
   constexpr double infinity = std::numeric_limits<double>::infinity(), underflow = 0x1p-1070;
   DoubleReach reach{double_hull(query)};
@@ -34,7 +35,8 @@ IntegerReach integer_reach(const detector::FourPoints& query, const detector::Se
 }
 namespace {
 
-// Places on one line of sight from the origin have the same unit vector. Zero stays zero.
+// Returns v with length 1: places on one line of sight from the origin have the same result. Zero
+// stays zero.
 Vector<double> unit_vector(Vector<double> v) {
   const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
   if (!(largest > 0)) return {};
@@ -48,11 +50,11 @@ Vector<double> unit_vector(Vector<double> v) {
 //
 // Bound, u = 2^-53. The products n_s.c(s) and n_e.c(e), and the middle sum of two products, are
 // wrong by at most 7.1 u S, S = sum over k of (|n_s[k]| + |n_e[k]|) size[k], and S itself is
-// computed with less than 8 roundings (existence.cpp, at `judge`); 8 u S is enough, and what is
-// spare, 0.9 u S, covers underflow, because the directions are unit vectors and so S > 2^-901. A
-// length |n| as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a root.
-// The product with d, the sum of two of these and the sum with the bound add 4 u, so a length that
-// is taken 16 u longer makes the comparison sure.
+// computed with less than 8 roundings (existence.cpp, at `judge`); 8 u S is enough, and the spare
+// 0.9 u S covers underflow, because the directions are unit vectors and so S > 2^-901. A length |n|
+// as computed is wrong by 2.6 u: three squares, two sums of positive numbers and a root. The
+// product with d, the sum of two of these and the sum with the bound add 4 u, so a length that is
+// taken 16 u longer makes the comparison sure.
 SeparationProof judged(const DoubleReach& reach, const Hull<double>& at_s, const Hull<double>& at_e,
                        const Vector<double>& n_s, const Vector<double>& n_e) {
   constexpr double u = 0x1p-53;
@@ -154,8 +156,8 @@ std::optional<ExactNearest> nearest_of_inside(const Hull<mpz_class>& hull) {
                       inner(p, p) * determinant + pu * share_u + pv * share_v, determinant};
 }
 
-// The squared length is a convex function: it is least on the hull where it is least on the plane,
-// if that place is in the hull, or else on a side.
+// Returns the nearest point. The squared length is convex, so it is least on the hull where it is
+// least on the plane, if that place is in the hull, or else on a side.
 ExactNearest nearest_of(const Hull<mpz_class>& hull) {
   if (auto inside = nearest_of_inside(hull)) return std::move(*inside);
   const auto& c = hull.corner;
@@ -200,7 +202,8 @@ Direction direction_to(const Hull<mpz_class>& hull, std::size_t bits) {
   return to;
 }
 
-// For the middle coefficients both directions get the same length: n_s |n_e| and n_e |n_s|.
+// Returns whether the two directions separate. For the middle coefficients both get the same
+// length: n_s |n_e| and n_e |n_s|.
 bool separates(const Hull<mpz_class>& at_s, const Hull<mpz_class>& at_e, const mpz_class& d,
                const Direction& from, const Direction& to) {
   const mpz_class first = d * from.length, last = d * to.length, both = 2 * first * to.length;

@@ -94,15 +94,15 @@ class DistanceReferee {
     }
   }
 
-  // Whether the bracket of the first time that begins with the piece is short enough. The bracket
-  // may end in a later piece.
+  // Returns whether the bracket of the first time that begins with the piece is short enough. The
+  // bracket may end in a later piece.
   bool is_close_to_near(const TimePiece& piece) const {
     if (!by_ || piece.depth < options_.bits) return false;
     const TimePiece last = {(piece.k >> (piece.depth - options_.bits)) + 1, options_.bits};
     return !(last.end() < *by_);
   }
 
-  // The time behind which nothing is of interest.
+  // Returns the time behind which nothing is of interest.
   Fraction behind() const { return by_ ? *by_ : Fraction{1, 1}; }
 
   bool found_near(const Fraction& time) {
@@ -111,7 +111,7 @@ class DistanceReferee {
     return true;
   }
 
-  // Made when doubles do not suffice.
+  // Returns the hull in integers, which is made when doubles do not suffice.
   const IntegerReach& exact() {
     if (!exact_) {
       exact_ = integer_reach(query_, d_);
@@ -122,7 +122,8 @@ class DistanceReferee {
     return *exact_;
   }
 
-  // The double that is nearest to the time, a multiple of 2^-53; and whether it is the time.
+  // Returns the double that is nearest to the time, a multiple of 2^-53, and whether it is the time
+  // itself.
   static std::pair<double, bool> as_double(const Fraction& time) {
     const bool is_dyadic = (time.q & (time.q - 1)) == 0;
     const double t = static_cast<double>(time.p) / static_cast<double>(time.q);
@@ -164,7 +165,7 @@ class DistanceReferee {
     look_for_contact(piece);
   }
 
-  // A short contact shows at no rational time when d is small.
+  // Looks for a contact, because a short one shows at no rational time when d is small.
   void look_for_contact(const TimePiece& piece) {
     constexpr double small = 0x1p-12, same_time = 0x1p-45;
     if (!reach_.hull.usable || reach_.most > small) return;
@@ -198,8 +199,9 @@ class DistanceReferee {
   const DoubleReach reach_;
   std::optional<IntegerReach> exact_;
   std::uint64_t cost_ = 0, cells_ = 0;
-  // From here on integers are asked where doubles see no direction. Slivers have poor directions in
-  // doubles, which shows after many halvings; once it has shown, integers are asked at once.
+  // From this depth on integers are asked where doubles see no direction. Slivers have poor
+  // directions in doubles, which shows after many halvings; once it has shown, integers are asked
+  // at once.
   int depth_of_doubt_ = 16;
   Fraction after_{0, 1};
   std::optional<Fraction> by_;

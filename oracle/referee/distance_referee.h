@@ -1,5 +1,5 @@
-// A second method, independent of any polynomial of the distance, for one vertex-face or edge-edge
-// query: do the two features come within d of each other during the step, and when first?
+// A second method for one vertex-face or edge-edge query, independent of any polynomial of the
+// distance: do the two features come within d of each other during the step, and when first?
 //
 // Guarantee: yes and no are proved, by other means than zeros of polynomials in time: no region of
 // a feature has a polynomial of its own here. open means that neither proof was found, which is
@@ -28,16 +28,16 @@ struct DistanceRefereeOptions {
   // 60. Shorter brackets find more wrong times, and where the distance only touches d they need
   // integers.
   int bits = 40;
-  // The most pieces of the step to look at; a piece that needs integers counts as 8 or more, by the
-  // length of its numbers.
+  // The most pieces of the step that are looked at. A piece that needs integers counts as 8 or
+  // more, by the length of its numbers.
   std::uint64_t max_cells = 2000;
 };
 
 struct DistanceVerdict {
   detector::Decision within = detector::Decision::open;
-  // The features are farther apart than d at all times up to and including `after`. The one
-  // exception is a yes with `by` 0: its first time is 0. So a yes has its first time in (after,
-  // by], or at 0. With an open verdict, features that come within d do so later than `after`.
+  // The features are farther apart than d at all times up to and including `after`. A yes has its
+  // first time in (after, by]; only if `by` is 0, its first time is 0. With an open verdict,
+  // features that come within d do so later than `after`.
   RationalTime after{0, 1}, by{1, 1};
   std::uint64_t cells = 0;  // the pieces of the step that were looked at
 };
@@ -83,10 +83,11 @@ detector::Decision near_in_double(const DoubleReach& reach, double t, double sla
 // Returns whether the hull is within d at time p/q. Exact, for degenerate hulls too. 5 us.
 bool near_in_integers(const IntegerReach& reach, const Fraction& time);
 
-// On [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-52. 0.3 to 0.6 us.
+// Looks for a proof on [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-52. 0.3 to 0.6 us.
 SeparationProof apart_in_double(const DoubleReach& reach, double s, double e);
 
-// On [k/2^depth, (k+1)/2^depth]. REQUIRES depth <= 61. False: nothing is known. 10 to 60 us.
+// Looks for a proof on [k/2^depth, (k+1)/2^depth]. REQUIRES depth <= 61. False says nothing. 10 to
+// 60 us.
 bool apart_in_integers(const IntegerReach& reach, std::int64_t k, int depth);
 
 }  // namespace assay::oracle

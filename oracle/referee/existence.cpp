@@ -25,8 +25,8 @@ bool triangle_contains_origin(const Vector<mpz_class>& a, const Vector<mpz_class
   return side_holds(a, b, ab) || side_holds(b, c, bc) || side_holds(c, a, ca);
 }
 
-// The corners that play P, P + U and P + V for a base. The corners of a triangle may be turned, so
-// that near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
+// Returns the corners that play P, P + U and P + V for a base. The corners of a triangle may be
+// turned, so that near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
 std::array<int, 3> roles(int base) { return {base, (base + 1) % 3, (base + 2) % 3}; }
 
 template <class Number>
@@ -47,7 +47,7 @@ struct Range {
   std::int64_t lo, hi;
 };
 
-// The part of [x - r, x + r] in [0,1], r = 2^-bits.
+// Returns the part of [x - r, x + r] in [0,1], r = 2^-bits.
 Range range_about(double x, int bits) {
   const auto centre =
       static_cast<std::int64_t>(std::ldexp(std::clamp(x, 0.0, 1.0), parameter_bits));
@@ -61,14 +61,14 @@ class IntegerMap {
  public:
   IntegerMap(const IntegerHull& hull, int base) : at_t0_(hull.t0, base), at_t1_(hull.t1, base) {}
 
-  // f times a positive constant.
+  // Returns f times a positive constant.
   Vector<mpz_class> value(std::int64_t t, std::int64_t u, std::int64_t v) const {
     return plus(times(blend(&Frame<mpz_class>::p, t), number(parameter_one)),
                 plus(times(blend(&Frame<mpz_class>::u, t), number(u)),
                      times(blend(&Frame<mpz_class>::v, t), number(v))));
   }
-  // Rows of the adjugate of the Jacobian at a place, each up to a positive constant common to all
-  // places; empty when the Jacobian is singular.
+  // Returns the rows of the adjugate of the Jacobian at a place, each up to a positive constant
+  // common to all places; empty when the Jacobian is singular.
   std::optional<std::array<Vector<mpz_class>, 3>> adjugate(std::int64_t t, std::int64_t u,
                                                            std::int64_t v) const {
     const auto column_u = blend(&Frame<mpz_class>::u, t), column_v = blend(&Frame<mpz_class>::v, t);
@@ -89,7 +89,7 @@ class IntegerMap {
   Frame<mpz_class> at_t0_, at_t1_;
 };
 
-// The premise of Poincare-Miranda on one box.
+// Returns whether the premise of Poincare-Miranda holds on one box.
 bool signs_differ_on_opposite_sides(const IntegerMap& map,
                                     const std::array<Vector<mpz_class>, 3>& rows,
                                     const std::array<Range, 3>& box) {
@@ -121,8 +121,8 @@ bool contains_origin(const Hull<mpz_class>& hull) {
 
 Fraction simplest_fraction(std::int64_t k, int depth) {
   // By continued fractions: the result is the first integer between the ends or, if there is none,
-  // the integer part and the reciprocal of the simplest fraction between the reciprocals of what
-  // is left.
+  // the integer part and the reciprocal of the simplest fraction between the reciprocals of the
+  // remainders.
   auto simplest = [](auto&& self, std::int64_t a, std::int64_t b, std::int64_t c,
                      std::int64_t d) -> Fraction {  // in [a/b, c/d]
     const std::int64_t whole = a / b;
@@ -211,7 +211,7 @@ struct Piece {
     middle.corners = s.corners;
     for (int i = 0; i < s.corners; ++i) middle.corner[i] = plus(s.corner[i], e.corner[i]);
   }
-  // The weights decide how good a candidate is, never whether it is right.
+  // Sets the weights, which decide how good a candidate is, never whether it is right.
   void set_weights(const std::array<Number, 4>& weight) {
     motion = nearest = {Number(0), Number(0), Number(0)};
     for (int i = 0; i < s.corners; ++i) {
@@ -221,7 +221,7 @@ struct Piece {
   }
 };
 
-// The corners around the hull, in order: consecutive ones are its edges.
+// Returns the index of the i-th corner around the hull. Its edges join consecutive corners.
 int around(int corners, int i) {
   constexpr std::array<int, 4> parallelogram = {0, 1, 3, 2};
   i %= corners;
@@ -233,7 +233,7 @@ Vector<Number> normal_of(const Hull<Number>& h) {
   return outer(minus(h.corner[1], h.corner[0]), minus(h.corner[2], h.corner[0]));
 }
 
-// The part of v that is perpendicular to w, times |w|^2.
+// Returns the part of v that is perpendicular to w, times |w|^2.
 template <class Number>
 Vector<Number> perpendicular(const Vector<Number>& v, const Vector<Number>& w) {
   return minus(times(v, inner(w, w)), times(w, inner(w, v)));
@@ -272,8 +272,8 @@ bool some_direction(const Piece<Number>& p, const Accept& accept) {
   return false;
 }
 
-// Whether the Bernstein coefficients are positive, as far as comparison with `bound` proves it. 1:
-// all surely are, -1: one surely is not, 0: neither is sure.
+// Returns whether the Bernstein coefficients are positive, as far as comparison with `bound` proves
+// it. 1: all surely are, -1: one surely is not, 0: neither is sure.
 int all_positive(const Piece<double>& p, const Vector<double>& n_s, const Vector<double>& n_e,
                  double bound) {
   int result = 1;

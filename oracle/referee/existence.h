@@ -32,7 +32,7 @@ struct Hull {
   int corners = 3;
 };
 
-// Vector arithmetic that directions in doubles and in integers share.
+// Vector arithmetic, for directions in doubles and in integers.
 template <class Number>
 Vector<Number> minus(const Vector<Number>& a, const Vector<Number>& b) {
   return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
@@ -75,7 +75,7 @@ struct IntegerHull {
   Hull<mpz_class> t0, t1;
   int unit = 0;
 
-  // q times the corners at time p/q, 0 <= p <= q.
+  // Returns q times the corners at time p/q, 0 <= p <= q.
   Hull<mpz_class> at(std::int64_t p, std::int64_t q) const;
 };
 
@@ -106,12 +106,12 @@ NearestPoint nearest_to_origin(const Hull<double>& hull);
 // difference overflows in double. Integers may yet prove it.
 enum class SeparationProof : std::uint8_t { separated, near, not_found };
 
-// On [s,e]. REQUIRES 0 <= s < e <= 1, both multiples of 2^-53. In double with error bounds; about
-// 1 us.
+// Looks for a proof on [s,e], in double with error bounds. REQUIRES 0 <= s < e <= 1, both multiples
+// of 2^-53. About 1 us.
 SeparationProof separated_in_double(const DoubleHull& hull, double s, double e);
 
-// On [k/2^depth, (k+1)/2^depth]. REQUIRES depth <= 61. In integers; tens of us. False: nothing is
-// known.
+// Looks for a proof on [k/2^depth, (k+1)/2^depth], in integers. REQUIRES depth <= 61. False says
+// nothing. Tens of us.
 bool separated_in_integers(const IntegerHull& hull, std::int64_t k, int depth);
 
 // Returns whether the hull contains the origin. Exact, for degenerate hulls too. A few us.
@@ -132,12 +132,12 @@ struct Crossing {
   int base = 0;  // the corner that plays P: u and v are counted from it
 };
 
-// Newton's method in double, started in the middle of [s,e]. Returns nothing when it does not
-// converge to a place of the hull, up to rounding errors.
+// Guesses by Newton's method in double, started in the middle of [s,e]. Returns nothing when it
+// does not converge to a place of the hull, up to rounding errors.
 std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double e);
 
-// True: by the theorem of Poincare-Miranda some box about the guess holds a time and place at
-// which the origin is in the hull. False: nothing is known.
+// Returns true if, by the theorem of Poincare-Miranda, some box about the guess holds a time and
+// place at which the origin is in the hull. False says nothing.
 // Let f(t,u,v) = P + u U + v V, and let g = A f with A the adjugate of the Jacobian of f at the
 // guess (regular, checked). Each component of g is affine in each of t, u, v alone, so it takes
 // its extremes on a side of the box at the side's four corners. If for every i component i is <= 0

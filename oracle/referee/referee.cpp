@@ -47,7 +47,7 @@ class Referee {
   static constexpr int most_depth_of_doubles = 53;  // the ends, and 1 minus them, are doubles
   static constexpr std::size_t witnesses_a_level = 4;
 
-  // Made when doubles do not suffice.
+  // Returns the hull in integers, which is made when doubles do not suffice.
   const IntegerHull& exact() {
     if (!exact_) exact_ = integer_hull(query_);
     return *exact_;
@@ -57,7 +57,7 @@ class Referee {
     return std::ldexp(static_cast<double>(k), -depth);
   }
 
-  // False: the piece is sure to begin at `until` or later, so it is not asked about.
+  // Returns false if the piece surely begins at `until` or later, so that it is not asked about.
   bool begins_in_time(std::int64_t k, int depth) const {
     return depth > most_depth_of_doubles || time(k, depth) < options_.until;
   }
@@ -128,7 +128,8 @@ using Quadratic = std::array<Rational, 3>;
 using Cubic = std::array<Rational, 4>;
 using LinearPoint = std::array<Linear, 3>;
 
-// An interval is halved this often: to 2^-300 of the step, where coordinates differ by their bits.
+// The most halvings of an interval of s. They leave 2^-300 of its length, which tells apart zeros
+// of polynomials whose coordinates differ in their last bits alone.
 constexpr int halvings = 300;
 
 template <std::size_t A, std::size_t B>
@@ -156,7 +157,7 @@ Rational value(const std::array<Rational, N>& p, const Rational& s) {
   return sum;
 }
 
-// The least and the greatest sign that a quadratic is known to have on [x,y]: those of its
+// Returns the least and the greatest sign that a quadratic is known to have on [x,y]: those of its
 // Bernstein coefficients there.
 std::array<int, 2> signs_on(const Quadratic& q, const Rational& x, const Rational& y) {
   const Rational middle = q[0] + q[1] * (x + y) / 2 + q[2] * x * y;
@@ -203,8 +204,8 @@ class Bracket {
     return combined(product(u_[a][l], u_[b][m]), -1, product(u_[a][m], u_[b][l]));
   }
 
-  // 0, places near the extremes of F, and 1: if F has several zeros, its sign changes between
-  // these.
+  // Returns 0, places near the extremes of F, and 1. If F has several zeros, it changes its sign
+  // between two of these.
   std::vector<Rational> monotone_ends() const {
     const Quadratic slope = {f_[1], 2 * f_[2], 3 * f_[3]};
     std::vector<Rational> ends = {0, 1};
@@ -242,8 +243,9 @@ class Bracket {
     return false;
   }
 
-  // Whether the features meet at every zero of F in [x,y]. Yes: the L of some axis are all >= 0, or
-  // all <= 0, and one of them is never zero. No: the L of some axis take both signs throughout.
+  // Returns whether the features meet at every zero of F in [x,y]. Yes: the L of some axis are all
+  // >= 0, or all <= 0, and one of them is never zero. No: the L of some axis take both signs
+  // throughout.
   detector::Decision meet_on(const Rational& x, const Rational& y) const {
     for (const auto& of_axis : lambda_) {
       std::array<bool, 2> on_side = {true, true};   // all <= 0, all >= 0

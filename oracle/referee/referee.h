@@ -28,8 +28,8 @@ struct RefereeOptions {
   double until = 1;
 };
 
-// A greater depth may decide a query that was open; it never turns a no into a yes or a yes into a
-// no.
+// Judges a query. A greater depth may decide a query that was open; it never turns a no into a yes
+// or a yes into a no.
 detector::Decision referee(const detector::FourPoints& query, const RefereeOptions& options = {});
 
 // A proof of contact by rational arithmetic between two times.

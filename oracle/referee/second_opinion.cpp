@@ -14,7 +14,8 @@ namespace {
 using detector::Feature;
 using detector::TrianglePair;
 
-// Equal for equal indices in equal order, otherwise as good as random (splitmix64's mixing).
+// Returns a hash in [0,1): equal for equal indices in equal order, otherwise as good as random
+// (splitmix64's mixing).
 double hash_to_unit(std::initializer_list<std::int32_t> indices) {
   std::uint64_t h = indices.size();
   for (const std::int32_t index : indices) {
@@ -81,7 +82,7 @@ class Second {
     }
   }
 
-  // Counts and compares; true when the referee has proved a contact.
+  // Counts and compares. Returns true when the referee has proved a contact.
   static bool compare_query(const Feature& feature, bool judged, detector::Decision verdict,
                             SecondOpinion& found) {
     ++found.queries;

@@ -50,7 +50,7 @@ bool meet(const A& a, const B& b) {
   return CGAL::do_intersect(a, b);
 }
 
-// The hull of points on one line: from the least to the greatest.
+// Returns the hull of points on one line: from the least to the greatest.
 Shape hull_on_a_line(const std::vector<Point>& points) {
   const auto [least, greatest] = std::minmax_element(points.begin(), points.end());
   if (*least == *greatest) return *least;
@@ -70,7 +70,7 @@ Shape hull(const std::vector<Point>& points) {
 // Bound, u = 2^-53: the time as a double is wrong by at most 3 u (numerator, denominator,
 // quotient), 1 - t by one more rounding, so the weights by 4 u and 3 u; two products and a sum add
 // 3 u more. In all that is below 11 u M, where M is the greater magnitude of the coordinate at the
-// two ends. The code takes 16 u M, plus what underflow may add.
+// two ends. The code takes 16 u M, plus a bound of underflow.
 class QuickPositions {
  public:
   QuickPositions(const detector::SteppedMesh& motion, const StaticTime& time) : motion_(motion) {

@@ -15,7 +15,7 @@ namespace assay::oracle {
 // A time in [0,1]: a fraction, or a double taken as exact.
 using StaticTime = std::variant<RationalTime, double>;
 
-// -1, 0 or 1 as time is less than, equal to or greater than t. Exact. REQUIRES t finite.
+// Returns -1, 0 or 1 if time is less than, equal to or greater than t. Exact. REQUIRES t finite.
 int compare(const StaticTime& time, double t);
 
 // Returns true when some closed face (vertex, edge or triangle) of triangle a meets one of triangle
@@ -32,8 +32,8 @@ bool triangles_meet(const detector::SteppedMesh& motion, const detector::Triangl
 
 }  // namespace assay::oracle
 
-// CGAL's own test of two triangles at rest. It is there for a detector of corpus/peers that
-// samples a step and is compiled with this file; the oracle never asks it. A triangle is nine
-// finite numbers, corner by corner. 1 when the two meet, exactly for these doubles; touching
-// counts. 0 when they do not, or when a triangle has no area.
+// Asks CGAL's own test of two triangles at rest. It serves a detector of corpus/peers that samples
+// a step and is compiled with this file; the oracle never asks it. A triangle is nine finite
+// numbers, corner by corner. Returns 1 when the two meet, exactly for these doubles; touching
+// counts. Returns 0 when they do not, or when a triangle has no area.
 extern "C" int assay_triangles_meet_now(const double* a, const double* b);

@@ -7,11 +7,11 @@
 
 namespace assay::oracle {
 
-// Element t of the result is 1 when some ghost touches triangle t of the mesh at any time in
-// [0,1]: closed faces of the two that share no vertex meet (vertex against triangle both ways,
-// edge against edge). So a triangle next to the loop is tested through the features that it does
-// not share with the ghost. All faces of a ghost count, its loop edge and corners too; a
-// degenerate ghost is the segment or point that it has become.
+// Returns, by triangle of the mesh, 1 if some ghost touches it at any time in [0,1], else 0: closed
+// faces of the two that share no vertex meet (vertex against triangle both ways, edge against
+// edge). So a triangle next to the loop is tested through the features that it does not share with
+// the ghost. All faces of a ghost count, its loop edge and corners too; a degenerate ghost is the
+// segment or point that it has become.
 //
 // In the numbering of the ghosts the vertices of the mesh come first: apex k is motion.size() + k.
 // It moves linearly from apexes_t0.row(k) at t=0 to apexes_t1.row(k) at t=1. REQUIRES indices in

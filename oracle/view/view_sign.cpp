@@ -71,7 +71,7 @@ bool not_positive_somewhere(const IntegerPolynomial& g) {
   return sign_at(g, 0) <= 0 || sign_at(g, 1) <= 0 || AlgebraicTimes({&g, 1}).size() > 0;
 }
 
-// Whether h is zero at a time when some g is <= 0.
+// Returns whether h is zero at a time when some g is <= 0.
 bool zero_of_end_piece(const IntegerPolynomial& h, std::span<const IntegerPolynomial> gs) {
   if (h.is_zero()) return std::any_of(gs.begin(), gs.end(), not_positive_somewhere);
   const AlgebraicTimes zeros({&h, 1});
@@ -83,10 +83,10 @@ bool zero_of_end_piece(const IntegerPolynomial& h, std::span<const IntegerPolyno
   return false;
 }
 
-// Whether the middle piece is zero at a time when it is active. If hm is identically zero, the
-// piece is not active at t=0, because the sign there is known not to be zero. So a time at which
-// it becomes active is a boundary of the piece, where the view function is zero by continuity, and
-// h0 or h1 with it; the end pieces find that.
+// Returns whether the middle piece is zero at a time when it is active. If hm is identically zero,
+// the piece is not active at t=0, because the sign there is known not to be zero. So a time at
+// which it becomes active is a boundary of the piece, where the view function is zero by
+// continuity. There h0 or h1 is zero too, and the end pieces find that.
 bool zero_of_middle_piece(const ViewPolynomials& v, int vertex) {
   const IntegerPolynomial hm = v.between(vertex);
   if (hm.is_zero()) return false;
@@ -131,7 +131,7 @@ bool surely_zero(const Interval& x) { return x.inf() == 0 && x.sup() == 0; }
 struct SignsOnRange {
   int h0, h1, g0, g1, hm;
 
-  // 1 or -1 when the view function surely has that sign throughout.
+  // Returns 1 or -1 when the view function surely has that sign throughout, else 0.
   int view() const {
     for (const int sign : {1, -1}) {
       const bool before = h0 == sign || g0 > 0;

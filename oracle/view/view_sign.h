@@ -31,10 +31,10 @@ std::optional<detector::ViewSign> interval_view_sign(const MovingTriangle& trian
 detector::ViewSign exact_view_sign(const MovingTriangle& triangle,
                                    const detector::ViewPrimitive& primitive);
 
-// positive: (x - n(x)).N > 0 at every point x of the triangle and every t in [0,1], where n(x) is
-// the primitive's point nearest to x and N the triangle's normal; negative: < 0; zero: neither.
-// The primitive may be a point, a fixed segment, or a segment whose ends move apart (the middle
-// piece is then a quintic).
+// Returns the view sign. positive: (x - n(x)).N > 0 at every point x of the triangle and every t in
+// [0,1], where n(x) is the primitive's point nearest to x and N the triangle's normal; negative: <
+// 0; zero: neither. The primitive may be a point, a fixed segment, or a segment whose ends move
+// apart (the middle piece is then a quintic).
 detector::ViewSign view_sign(const MovingTriangle& triangle,
                              const detector::ViewPrimitive& primitive);
 
@@ -51,7 +51,7 @@ std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
 // edge are pairs like all others.
 class Candidates {
  public:
-  // Each list is by triangle. `violated` is 1 for a triangle of Vv (dirty, or touched by a ghost),
+  // Takes lists by triangle. `violated` is 1 for a triangle of Vv (dirty, or touched by a ghost),
   // else 0; it may be empty if Vv is. `groups` holds components; it may be empty if all are of one
   // group.
   Candidates(std::vector<detector::ViewSign> signs, std::vector<std::uint8_t> violated,

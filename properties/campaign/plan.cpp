@@ -17,7 +17,8 @@
 namespace assay::properties {
 namespace {
 
-// Every generic family gets the first number of cases, every other family the second.
+// Makes the strata. Every generic family gets the first number of cases, every other family the
+// second.
 std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, double generic_bound,
                                 double other_bound) {
   std::vector<StratumPlan> list;
@@ -33,7 +34,8 @@ std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, dou
   return list;
 }
 
-// Adds strata of sizes, from 1,000 triangles on. A multiple of ten shows each shape equally often.
+// Adds strata of sizes, from 1,000 triangles on. Counts that are multiples of ten show each shape
+// equally often.
 void add_sizes(CampaignPlan& plan, std::initializer_list<std::uint64_t> cases) {
   auto family = size_families().begin();
   for (const auto count : cases) plan.strata.push_back({std::string((family++)->name), count, 0});
@@ -43,7 +45,7 @@ std::vector<CampaignPlan> make_named_plans() {
   constexpr double minute = 60, hour = 60 * minute;
   CampaignPlan smoke;
   smoke.name = "smoke";
-  smoke.about = "a short form of all of it, 2 minutes on 2 cores; states its bounds and wants none";
+  smoke.about = "a short form of the whole, 2 minutes on 2 cores; states its bounds and wants none";
   smoke.strata = strata(600, 200, 0, 0);
   smoke.law_premises = 20;
   smoke.fault_cases = 300;
@@ -320,7 +322,7 @@ std::string plan_text(const CampaignPlan& plan) {
 namespace {
 
 // Returns whether a run's options and its detector's parts turn the named plan `other` into this
-// one. Options limit a case; a plug-in is not asked question families, nor relations if it takes
+// one. Options limit a case; a plug-in is asked no question families, and no relations if it takes
 // none; its query is judged beside the steps, or alone. Times may differ: a campaign that was
 // stopped by --time keeps its name.
 bool is_made_of(CampaignPlan plan, const CampaignPlan& other) {
@@ -347,7 +349,7 @@ corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
   for (const auto& other : named_plans()) {
     if (plan.name == other.name && !is_made_of(plan, other))
-      return corpus::problem_in(file, "is another plan than the built-in campaign of its name");
+      return corpus::problem_in(file, "differs from the built-in campaign of its name");
   }
   return plan;
 }

@@ -44,14 +44,14 @@ struct Policy {
 struct CampaignPlan {
   std::string name, about;
   std::vector<StratumPlan> strata;
-  // Seconds of the clock that the whole run may take; trials that are left then make it incomplete.
-  // 0: the run goes to its end.
+  // Seconds of the clock that the whole run may take. Trials that are left then make it incomplete.
+  // 0: no limit.
   double seconds = 0;
   // Seconds of processor time that one case may take in one configuration. A case that takes more
   // counts as hanging, which is undecided.
   double case_seconds = 10;
-  // Bytes of address space that a process that runs cases may take; it gets no more memory beyond
-  // that. 0: no limit.
+  // Bytes of address space that a process that runs cases may take. Beyond that it gets no memory.
+  // 0: no limit.
   std::uint64_t case_bytes = std::uint64_t{4} << 30;
   std::uint64_t laws_every = 1;    // every k-th case of a family goes through the laws
   std::uint64_t law_premises = 0;  // the least number of times that each law's premise must hold
@@ -63,7 +63,7 @@ struct CampaignPlan {
   Policy policy;
 };
 
-// Returns smoke, quick, nightly and release.
+// Returns the plans smoke, quick, nightly and release.
 const std::vector<CampaignPlan>& named_plans();
 
 // Returns a plan by its name, or from a file.
@@ -82,7 +82,7 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
 // Returns the text of a plan, to which a store is bound: equal plans have equal texts.
 std::string plan_text(const CampaignPlan& plan);
 
-// Returns "quick:1:closed-generic:12".
+// Returns the id of a trial: "quick:1:closed-generic:12".
 std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,
                      std::uint64_t index);
 

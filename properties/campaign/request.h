@@ -56,8 +56,8 @@ struct CampaignRequest : Subject {
   }
 
   // Returns the limits of the worker that runs a case a second time, to judge the claim
-  // `deterministic`: the worker was started at another time with other hash seeds and addresses, a
-  // plug-in that asks may use another number of threads, and each step is evaluated twice.
+  // `deterministic`. That worker has other hash seeds and addresses, and evaluates each step twice;
+  // a plug-in that asks may use another number of threads in it.
   WorkerLimits second_worker_limits() const {
     constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (phases.h)
     auto second = worker_limits(1);

@@ -23,7 +23,7 @@ bool is_finite(const Case& c) {
 
 namespace {
 
-// The exponent of the least power of two above all coordinates.
+// Returns the exponent of the least power of two above all coordinates.
 int exponent_above(const Case& c) {
   int exponent = 0;
   std::frexp(largest_along(c), &exponent);
@@ -32,7 +32,7 @@ int exponent_above(const Case& c) {
 
 constexpr int least_bit = -1074;
 
-// The exponent of the lowest bit that is set in a coordinate.
+// Returns the exponent of the lowest bit that is set in a coordinate.
 int lowest_bit(const Case& c) {
   int lowest = 0;
   for (const double* x : numbers_along(c)) {
@@ -55,7 +55,7 @@ Case on_a_grid(Case c) {
   return c;
 }
 
-// This is the TwoSum of Knuth, whose error term is exact.
+// Adds by the TwoSum of Knuth, whose error term is exact.
 bool adds_exactly(double a, double b, double& sum) {
   sum = a + b;
   if (!std::isfinite(sum)) return false;
@@ -264,8 +264,8 @@ MaybeForm number_backwards(const Case& c, Random&) {
 MaybeForm draw_scale(const Case& c, Random& random) {
   constexpr int most = 60, end_of_doubles = 1024;
   const int some = random.between(1, most);
-  // Up to the largest doubles, where sums and differences overflow, or to the least. No filter
-  // decides there, so large meshes would take long.
+  // Scales up to the largest doubles, where sums and differences overflow, down to the least, or by
+  // some power between. No filter decides at the ends, so large meshes would take long.
   constexpr Eigen::Index largest_small = 40;
   const int kind = random.below(4) + (c.triangles.rows() > largest_small ? 2 : 0);
   return if_exact(scaled(c, kind == 0       ? end_of_doubles - exponent_above(c)
@@ -313,8 +313,8 @@ MaybeForm turn_inside_out(const Case& c, Random&) {
   return form;
 }
 
-// A step that is not committed cannot be halved, because its first half would have to be committed.
-// REQUIRES a case without a view primitive.
+// Halves the steps. A step that is not committed cannot be halved, because its first half would
+// have to be committed. REQUIRES a case without a view primitive.
 MaybeForm halve_steps(const Case& c, Random&) {
   Form form = unchanged(c);
   form.same_times = false;
@@ -347,8 +347,9 @@ MaybeForm halve_steps(const Case& c, Random&) {
   return exact ? MaybeForm(form) : std::nullopt;
 }
 
-// What meets in a step meets in the reversed step, too: the places at time t are those at 1 - t. A
-// contact is closed faces that meet, so an edge that pierces a triangle at the start does too.
+// Plays each step backwards. What meets in a step meets in the reversed step too: the places at
+// time t are those at 1 - t. A contact is closed faces that meet, so an edge that pierces a
+// triangle at the start does too.
 MaybeForm play_back(const Case& c, Random&) {
   Form form = unchanged(c);
   form.same_times = false;

@@ -19,7 +19,7 @@ class Random;
 // A case in another form.
 struct Form {
   Case c;
-  // By triangle of the form: the same triangle in the case, or the one of which it is a part.
+  // By triangle of the form: the same triangle in the case, or the one that it is a part of.
   Numbers parent;
   // By step of the case: the same step in the form. Empty if the answers cannot be compared,
   // because coordinates were rounded or steps divided.
@@ -33,9 +33,9 @@ struct CaseChange {
   std::string_view seed;
   // Returns nothing if the change does not apply, or if it would round a coordinate.
   std::optional<Form> (*draw)(const Case&, Random&);
-  // The change starts from a case whose coordinates were rounded before (on_a_grid).
+  // Whether the coordinates of the case are rounded before the change (on_a_grid).
   bool on_grid = false;
-  // The steps of the case are asked for unchanged, between other steps that must not matter: a
+  // The steps of the case are asked for unchanged, between other steps that must not matter. A
   // detector that claims to be deterministic then gives the same answers.
   bool same_calls = false;
   bool keeps_lengths = true;
@@ -132,7 +132,8 @@ void set_path(Case& c, const CaseStep& step, std::int32_t vertex, const MovingPo
 void renumber_vertices(Case& c, const Numbers& new_number);
 // Gives triangle t the number new_number[t].
 void reorder_triangles(Form& form, const Numbers& new_number);
-// Do both, after drawing another first corner for each triangle. The second draws numbers, too.
+// Renumber vertices and triangles, after drawing another first corner for each triangle. The second
+// function draws the numbers too.
 Form renumbered(Random& random, const Case& c, const Numbers& vertices, const Numbers& triangles);
 Case renumbered(Random& random, const Case& c);
 

@@ -13,9 +13,10 @@ namespace {
 
 using Corners = std::array<std::int32_t, 3>;
 
-// Whether the area vector N(t) vanishes at no time of the step: along some axis its three Bernstein
-// coefficients have one strict sign. Each is a sum of four products of two differences at most; the
-// differences, products and sums have less than 8 roundings, so 2^-40 of the sizes covers them.
+// Returns whether the area vector N(t) vanishes at no time of the step: along some axis its three
+// Bernstein coefficients have one strict sign. Each is a sum of four products of two differences at
+// most; the differences, products and sums have less than 8 roundings, so 2^-40 of the sizes covers
+// them.
 bool surely_keeps_area(const Corners& v, const Positions& x_t0, const Positions& x_t1) {
   using Vector = Eigen::RowVector3d;
   const Vector a0 = x_t0.row(v[1]) - x_t0.row(v[0]), b0 = x_t0.row(v[2]) - x_t0.row(v[0]);
@@ -35,8 +36,8 @@ bool surely_keeps_area(const Corners& v, const Positions& x_t0, const Positions&
   return false;
 }
 
-// a + w (b - a) for a dyadic w in (0,1), if that is a double. Nothing if a or b is so small that
-// fma could lose the rounding error.
+// Returns a + w (b - a) for a dyadic w in (0,1), if that is a double. Nothing if a or b is so small
+// that fma could lose the rounding error.
 std::optional<double> exactly_between(double a, double b, double w) {
   const double of_a = (1 - w) * a, of_b = w * b;
   double sum = 0;
@@ -88,16 +89,16 @@ bool split(Form& form, Eigen::Index triangle, int k, double w) {
   return true;
 }
 
-// A contact is closed faces without a common vertex that meet. Let x be where two such faces of two
-// triangles meet. x lies in a part of each, on faces of these parts that have no other vertices
-// than the split points besides; a split point is common to two parts only if both triangles had
-// the edge, and lie on either side of it, which faces without a common vertex do not. Conversely,
-// let parts meet in faces without a common vertex. Their triangles meet there too. If these have a
-// vertex p in common, and the one part meets the other at a split point m of an edge (p,q), follow
-// the edge from m towards q: it leaves the other triangle, which is convex, at q or through a face
-// without p, and either is a contact of the two triangles at the same time. So contacts and their
-// times stay, up to which part it is. A triangle without area may meet itself in its parts, which
-// is why none is split.
+// Splits some edges. Why contacts stay: a contact is closed faces without a common vertex that
+// meet. Let two such faces of two triangles meet at x. In each triangle x lies in a part, on a face
+// of that part whose vertices are vertices of the whole face or split points. A split point is
+// common to two parts only if both triangles have the split edge, and two faces without a common
+// vertex do not both hold it. Conversely, let parts meet in faces without a common vertex. Their
+// triangles meet there too. If these have a vertex p in common, and the one part meets the other at
+// a split point m of an edge (p,q), follow the edge from m towards q. It leaves the other triangle,
+// which is convex, at q or through a face without p. Either is a contact of the two triangles at
+// the same time. So contacts and their times stay; only the parts that are named may differ. A
+// triangle without area may meet itself in its parts, which is why none is split.
 std::optional<Form> split_some_edges(const Case& c, Random& random) {
   Form form = unchanged(c);
   const int count = random.between(1, 4);

@@ -64,7 +64,7 @@ struct CandidateCount {
   std::uint64_t given_pairs = 0, least = 0;
 };
 
-// What a limiter allowed in a step that starts without a contact (judge_limit).
+// The way that a limiter allowed in a step that starts without a contact (judge_limit).
 struct LimitDiff {
   double share = -1;  // of the step; -1: not stated
   double way = 0;     // the share, or, if none, the part of the way that the positions go
@@ -83,7 +83,7 @@ struct StepDiff {
   std::vector<Claim> breaches;        // claims of the detector that this step refutes
   Answer answer = Answer::undecided;  // the detector's
   bool oracle_complete = false;       // false: the oracle was stopped
-  bool nothing_in_contact = false;    // says a complete oracle, whatever is left out
+  bool nothing_in_contact = false;    // by a complete oracle, whatever is left out
   bool starts_near = false;           // StepTruth::starts_near
   bool claims_pairs = false;          // a claim about pairs is made (About::pairs)
   bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
@@ -157,8 +157,8 @@ Symptom if_any(const char* kind, const std::vector<Wrong>& list) {
 // The claims that a detector can make.
 
 // In the list below t* is the first contact time of the step. Under a contract with a separation d,
-// a contact is a pair that comes within d, and t* is the first time of one. The contact graph at t*
-// has the triangles as nodes, and the pairs in contact at t* as edges.
+// a contact is a pair that comes within d. The contact graph at t* has the triangles as nodes, and
+// the pairs in contact at t* as edges.
 enum class Claim : std::uint8_t {
   free_sound,     // never `free` when the oracle has a contact
   not_late,       // lower end of its first time <= t*
@@ -174,9 +174,9 @@ enum class Claim : std::uint8_t {
   path_free,    // the share that it allows is below t*
   progress,     // the share is at least Contract::progress of the possible one (judge_limit)
   whole,        // it allows a step without a contact to its very end
-  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. For a
-  // detector that claims this, the other claims on times are read in the same strict way. Only the
-  // built-in detector claims it: plug-ins cannot, and no list names it.
+  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. If a
+  // detector claims this, its other claims on times are read as strictly. Only the built-in
+  // detector claims it; plug-ins cannot, and no list names it.
   times_unique,
 };
 
@@ -189,15 +189,15 @@ enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, ru
 enum class Probe : std::uint8_t {
   by_step,           // any judged step
   by_contact,        // a step with a contact that counts
-  by_stated_time,    // such a step with a stated first time
+  by_stated_time,    // a step with a contact that counts and a stated first time
   by_candidates,     // a step with pairs that must be among the candidates
   by_contact_ahead,  // of a limiter
   by_free_way,       // of a limiter
   by_second_run,     // of the same case
 };
 
-// The misdeed that breaks a claim. One change of the detector may mend all failures of one deed. A
-// failure whose kind begins with "early" counts as `reports`, whatever its claim.
+// What a detector does wrong when it breaks a claim. One mistake may cause all failures of one
+// deed. A failure whose kind begins with "early" counts as `reports`, whatever its claim.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;
@@ -242,7 +242,7 @@ constexpr auto names_of(Claim) {
       {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, 1, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
       {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, 1, times, by_stated_time, loses,
-       [](D d) {  // an oracle that was stopped knows no exact first time
+       [](D d) {  // if the oracle was stopped, it knows no exact first time
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },

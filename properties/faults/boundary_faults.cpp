@@ -77,7 +77,7 @@ std::vector<Fault> boundary_faults() {
        "a mesh with an even number of triangles at each edge is taken as closed, however they are "
        "oriented"},
       {wrong<TakenAsClosed<no_edge_used_once>>, "boundary/fin-taken-as-closed", "L12", "F_fin", 5,
-       "a mesh without an edge of one triangle alone is taken as closed: three at an edge are no "
+       "a mesh without an edge of one triangle is taken as closed, though three at an edge are no "
        "cycle"},
       {wrong<ApexOfEnd<&SteppedMesh::vertices_t0>>, "boundary/apex-stays-behind", "L11",
        "F_apex_moves", 8, "an apex stays where it is at t=0 and jumps between two steps"},
@@ -87,7 +87,7 @@ std::vector<Fault> boundary_faults() {
        "the rule of an apex is chosen anew at each step"},
       {wrong<AlwaysCentroid>, "boundary/always-centroid", "L11", "", 0,
        "every apex is the centroid of its loop", with_points, FaultStatus::equivalent,
-       "the proof of L3 asks for an apex that moves continuously and not where: the choice costs "
+       "the proof of L3 needs an apex that moves continuously, wherever it is: the choice costs "
        "time only"},
   };
 }

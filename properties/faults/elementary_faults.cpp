@@ -111,9 +111,9 @@ double determinant(const Point& a, const Point& b, const Point& c) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// The filter of coplanarity with a wrong error bound. This bound is a share of the result, which
-// would be right for sums without cancellation. The right bound is made of the coordinates from
-// which the sums are made.
+// Tests coplanarity by a filter with a wrong error bound. This bound is a share of the result,
+// which would be right for sums without cancellation. The right bound is made of the coordinates
+// from which the sums are made.
 bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
   std::array<std::array<Point, 2>, 3> edges;  // from point 0, at t=0 and t=1
   for (std::size_t i = 0; i < 3; ++i) {

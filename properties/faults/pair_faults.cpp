@@ -148,7 +148,8 @@ struct StillBoxes : TreeSearch {
   }
 };
 
-// Searches K and one round of the closure. What that round finds starts no further one.
+// Searches K and one round of the closure. The triangles found in that round start no further
+// round.
 class SinglePassClosure : public TreeSearch {
  public:
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
@@ -208,8 +209,8 @@ std::vector<Fault> pair_faults() {
        "boxes are those at t=1, not swept"},
       {wrong<SinglePassClosure>, "pair/closure-single-pass", "all-pairs (L7)", "", 0,
        "the closure ends after its first round", with_points, FaultStatus::open,
-       "a pair that only the second round asks for is not known: what the first round finds has so "
-       "far always been all"},
+       "no case is known in which the second round finds a pair that the first round has not "
+       "found"},
   };
 }
 

@@ -56,7 +56,7 @@ inline constexpr PlantedStage wrong = wrong_stage<Wrong>();
 inline constexpr Options with_points{Culling::view_point}, with_lines{Culling::view_line},
     with_cones{Culling::normal_cone};
 
-// The modules, each with its rows of the registry.
+// Return the rows of the registry, module by module.
 std::vector<Fault> view_point_faults();
 std::vector<Fault> view_line_faults();
 std::vector<Fault> pair_faults();

@@ -30,7 +30,7 @@ struct ClearedForOthersToo : Marking {
 };
 
 // Stops marking at a parent that has any flag, as if all nodes above it were then marked with this
-// flag. They may be marked with another one.
+// flag. In truth they may have another flag only.
 struct MarkedUntilAnyFlag : Marking {
   void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
             MarkingCounts& counts) const override {
@@ -148,8 +148,8 @@ class GoesOnAfterStop : public TreeSearch {
   mutable std::uint64_t looked_at_ = 0;
 };
 
-// All detectors of the process count their box tests in one place, and each takes the sum that
-// accumulated while it searched for its own.
+// All detectors of the process count their box tests in one place, and each takes all that came
+// together during its search for its own count.
 struct CountedTogether : TreeSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     static std::atomic<std::uint64_t> box_tests = 0;
@@ -197,8 +197,8 @@ std::vector<Fault> search_faults() {
   };
 }
 
-// Wrong normal cones and contours (L13): what the classical form of the traditional scheme gets
-// wrong. See detector/traditional/traditional.cpp.
+// Wrong normal cones and contours (L13): the mistakes of the classical form of the traditional
+// scheme. See detector/traditional/traditional.cpp.
 
 namespace {
 
@@ -305,11 +305,11 @@ std::vector<Fault> cone_faults() {
        "F_cone_joined_at_vertex", 4, "patches that share a vertex only are merged", with_cones},
       {wrong<PatchesOneByOne>, "cone/patches-one-by-one", "all-pairs (L13)",
        "F_cone_patches_one_by_one", 5,
-       "two patches that are each free and face one way are free together", with_cones},
+       "two patches, each free and facing one way, are taken as free together", with_cones},
       {wrong<PatchesOneByOne>, "auto/patches-one-by-one", "L14", "F_auto_patches_one_by_one", 71,
-       "what culling auto leaves out are patches that are each free", auto_with_cones},
+       "culling auto leaves out two patches that are each free", auto_with_cones},
       {wrong<NormalsAtEnd>, "auto/normals-at-end", "L14", "F_auto_normals_at_end", 49,
-       "what culling auto leaves out faces one direction at t=1 alone", auto_with_cones},
+       "culling auto leaves out patches that face one direction at t=1 alone", auto_with_cones},
   };
 }
 

@@ -97,7 +97,8 @@ bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangle
       triangles, [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
 }
 
-// `surface` is the surface of the step, or its mesh without ghosts.
+// Returns whether all triangles are positive. `surface` is the surface of the step, or its mesh
+// without ghosts.
 bool all_positive_at_start(const GivenStep& step, const StepMarks& marks, std::size_t c,
                            const Topology& surface) {
   const auto& primitive = marks.primitives[c];

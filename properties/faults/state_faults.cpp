@@ -14,8 +14,8 @@ namespace {
 
 using PairList = std::vector<PairContact>;
 
-// What the step leaves behind is computed from a start at which too much is believed clean, or
-// from a step that is made to have seen too little.
+// Computes the state behind a step from a start at which too much is believed clean, or from too
+// few of the step's findings.
 template <void (*forget)(StepMarks&, PairList&, bool& complete)>
 struct Forgotten : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const PairList& pairs, bool complete,
@@ -133,7 +133,7 @@ std::vector<Fault> state_faults() {
        "after a free step without views an open component is believed as clean as before",
        auto_views},
       {wrong<CarriedPastGhosts>, "state/carried-past-ghosts", "L15", "F_views_dropped", 47,
-       "what was clean is clean after a step that swept no ghosts", auto_views},
+       "clean triangles stay clean after a step that swept no ghosts", auto_views},
       {wrong<OnlyMetAgainstGhosts>, "state/only-met-against-ghosts", "L15", "F_views_dropped", 47,
        "only triangles of the pairs that were found are tested against ghosts at the next start",
        auto_views},
@@ -277,7 +277,7 @@ std::vector<Fault> release_faults() {
        "F_released_while_touched", 5,
        "what still touches something is released beside a clean neighbour"},
       {wrong<WitnessesByPlace>, "release/witnesses-by-place", "L9", "F_witness_of_another", 11,
-       "the common layer is named by triangles whose place another component has clean"},
+       "the common layer is named by triangles whose place is clean in another component"},
   };
 }
 

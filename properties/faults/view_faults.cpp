@@ -89,7 +89,7 @@ ViewSign zero_area_is_positive(const MovingTriangle& triangle, const ViewPrimiti
                                                      : right_sign(triangle, primitive);
 }
 
-// Each triangle takes the one of two views that suits it (L10).
+// Lets each triangle take the one of two views that suits it (L10).
 ViewSign positive_from_either_place(const MovingTriangle& triangle,
                                     const ViewPrimitive& primitive) {
   const auto q0 = still(Sample::start, primitive.q0), q1 = still(Sample::end, primitive.q0);
@@ -145,9 +145,9 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<from_frozen_primitive<Sample::start>>>, "view/primitive-stays", "L3", "", 0,
        "a moving primitive is taken where it is at t=0, for the whole step", with_points,
        FaultStatus::equivalent,
-       "any fixed place is one continuous field (L10), and the winding number is taken there; "
-       "where the place at t=1 is trusted in the next step, it has winding number 1 or 0 in an "
-       "embedded surface, and from winding number 0 not everything is positive"},
+       "a fixed place is one continuous field (L10), with its own winding number; the next step "
+       "trusts the place at t=1, which has winding number 1 or 0 in an embedded surface, and from "
+       "0 not all is positive"},
   };
 }
 
@@ -208,8 +208,8 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
   return right_sign(triangle, midpoint(primitive));
 }
 
-// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
-// say nothing.
+// Asks for the winding number at the midpoint, from which the view is taken. The number at an end
+// would say nothing.
 struct FreeFromMidpoint : ReleaseRule {
   bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
                std::size_t c) const override {
@@ -254,10 +254,10 @@ std::vector<Fault> view_line_faults() {
        "corner 0 alone, with its own nearest point", with_lines},
       {wrong<Signs<region_of_first_corner>>, "view-line/region-of-first-corner", "L1",
        "B2_region_of_vertex0_at_start", 7,
-       "the region that corner 0 is in at t=0, for all and for the step", with_lines},
+       "the region of corner 0 at t=0 is used for all corners and the whole step", with_lines},
       {wrong<Signs<frozen_nearest_point>>, "view-line/frozen-nearest-point", "L10",
        "B3_nearest_point_frozen", 7,
-       "the point nearest to corner 0 at t=0, for all and for the step", with_lines},
+       "corner 0's nearest point at t=0 is used for all corners and the whole step", with_lines},
       {wrong<Signs<of_centroid>>, "view-line/centroid", "L1", "M_Lcentroid", 6,
        "the centroid alone, with its own nearest point", with_lines},
       {wrong<Signs<positive_from_either_end>>, "view-line/positive-from-either-end", "L10",
@@ -267,7 +267,7 @@ std::vector<Fault> view_line_faults() {
       {wrong<Signs<sampled<Sample::start>>>, "view-line/at-start-only", "L2", "M_Lstartall", 4,
        "the sign at t=0 is taken for the step's", with_lines},
       {wrong<Signs<sampled<Sample::start, Sample::end>>>, "view-line/at-ends-only", "L2",
-       "M_Lendsall", 5, "equal signs at t=0 and t=1 are the step's", with_lines},
+       "M_Lendsall", 5, "equal signs at t=0 and t=1 are taken for the step's", with_lines},
       {wrong<Signs<from_midpoint>>, "view-line/midpoint-with-winding-of-an-end", "L5",
        "F_line_midpoint_winding", 6,
        "seen from the line's midpoint, while the winding number is that of q0", with_lines},

@@ -46,8 +46,8 @@ ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
 ViewSign sign_of(const ViewPieces& pieces);
 
-// Hold things still at t=0, 1/2 or 1 (exact if the middle of two coordinates is a double): return
-// the sign of a triangle that is held still together with the primitive, or a still point.
+// Return the sign of a triangle, or a point, held still at t=0, 1/2 or 1, the triangle together
+// with the primitive. Exact if the middle of two coordinates is a double.
 enum class Sample { start, middle, end };
 ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                  const ViewPrimitive& primitive);

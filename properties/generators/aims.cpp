@@ -57,7 +57,7 @@ class Aimer {
     }
   }
 
-  // A place on the target at time t: at a vertex, on an edge, or inside.
+  // Returns a place on the target at time t: at a vertex, on an edge, or inside.
   Point place_on(const Face& f, double t) {
     const Point a = place_at(f[0], t), b = place_at(f[1], t), c = place_at(f[2], t);
     const double s = random_.between(1, 3) / 4.0;
@@ -169,7 +169,7 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start) {
   aimer.send(aimed->vertex, place, t);
   if (kind == 5) {
     const auto other = aimer.choose();
-    // The second aim must not move what the first aim rests on.
+    // The second aim must not move a vertex of the first one.
     if (other && other->vertex != aimed->vertex && !has(aimed->target, other->vertex) &&
         !has(other->target, aimed->vertex)) {
       aimer.send(other->vertex, aimer.place_on(other->target, t), t);
@@ -187,7 +187,7 @@ Point near_the_middle(Random& random, const Points& x) {
   return between(mean(x), one_of(random, x), share);
 }
 
-// A place on a face: a vertex, the middle of an edge, or inside.
+// Returns a place on a face: a vertex, the middle of an edge, or inside.
 Point on_face(Random& random, Draft& draft, const Points& x) {
   const Face& f = one_of(random, draft.faces);
   const Point &a = at(x, f[0]), &b = at(x, f[1]), &c = at(x, f[2]);
@@ -204,8 +204,8 @@ Point on_face(Random& random, Draft& draft, const Points& x) {
   }
 }
 
-// Returns the middle of the path on which a place of a face moves in a step, so that the surface
-// passes through it.
+// Returns a point through which the surface passes: the middle of the way of a place of a face in a
+// step.
 Point pierced(Random& random, Draft& draft) {
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1));
   const Face& f = one_of(random, draft.faces);
@@ -234,8 +234,8 @@ Point place_of_view(Random& random, Draft& draft) {
   }
 }
 
-// The path of the view: the same place in every frame, a place that goes with the mesh, or one
-// that moves on its own.
+// Returns the path of the view: the same place in every frame, a place that goes with the mesh, or
+// one that moves on its own.
 std::vector<Point> path_of_view(Random& random, Draft& draft, const Point& q) {
   std::vector<Point> path(draft.frames.size(), q);
   const int kind = random.below(3);

@@ -12,15 +12,15 @@ namespace assay::properties {
 
 namespace {
 
-// Exact up to 10^22.
+// Returns 10^power. Exact up to 10^22.
 double ten_to(int power) {
   double value = 1;
   for (int i = 0; i < power; ++i) value *= 10;
   return value;
 }
 
-// The double next to units * 10^power. A division by a power of ten rounds to the decimal that is
-// meant, where a product with 0.001 would not.
+// Returns the double next to units * 10^power. A division by a power of ten rounds to the decimal
+// that is meant, where a product with 0.001 would not.
 double decimal(double units, int power) {
   return power < 0 ? units / ten_to(-power) : units * ten_to(power);
 }
@@ -279,7 +279,8 @@ Draft faller(Random& random, bool is_closed, int size, std::vector<std::int32_t>
   return d;
 }
 
-// A place where the piece lands on the top: inside, on the border, at a corner, or anywhere.
+// Returns a place where the piece lands on the top: inside, on the border, at a corner, or
+// anywhere.
 Point place_on_top(Random& random) {
   const double along = random.signed_unit();
   switch (random.below(6)) {

@@ -218,10 +218,10 @@ RandomCase make_any(Random& random, std::string id) {
 }
 
 constexpr Family question_table[] = {
-    {"limits", "of any family; the built-in detector is asked how far each step may be gone", false,
-     true, make_any},
-    {"within", "of any family; it is asked what comes within 2^-6, and how far to keep that", false,
-     true, make_any}};
+    {"limits", "of any family; the built-in is asked how far each step may be taken", false, true,
+     make_any},
+    {"within", "of any family; the built-in is asked what comes within 2^-6, and limited by it",
+     false, true, make_any}};
 
 constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
@@ -296,8 +296,8 @@ class Responder {
     return static_cast<std::int32_t>(case_.frames.size()) - 1;
   }
 
-  // If a step is not shortened, its view primitive ends where that of the given step ends, because
-  // a primitive need not go with the mesh.
+  // Adds the place of the view. If a step is not shortened, its view primitive ends where that of
+  // the given step ends, because a primitive need not go with the mesh.
   void add_place(const std::vector<Point>& points, std::vector<Point>& new_points, std::size_t k,
                  double s) {
     const Point from = new_points[static_cast<std::size_t>(now_)];
@@ -326,10 +326,10 @@ class Responder {
     if (free) now_ = part;
   }
 
-  // The greatest power of two that is at most t / 2. It is 0 if t is 0.
+  // Returns the greatest power of two that is at most t / 2. It is 0 if t is 0.
   static double below_half(double t) { return t == 0 ? 0 : std::ldexp(1, std::ilogb(t) - 1); }
 
-  // The step from where the mesh is to a frame.
+  // Judges the step from where the mesh is to a frame.
   oracle::StepJudgement judge(std::int32_t to) const {
     return oracle::judge_step({case_.frames[at(now_)], case_.frames[at(to)]}, case_.triangles,
                               {1, {}});

@@ -27,7 +27,7 @@ void turn(Point& p, std::size_t axis, double turns) {
   b = s * a_before + c * b;
 }
 
-// Half the length of the mesh along an axis. It is never 0.
+// Returns half the length of the mesh along an axis. It is never 0.
 double reach(const Points& x, std::size_t axis) {
   double r = 0x1p-10;
   for (const auto& p : x) r = std::max(r, std::abs(p[axis]));
@@ -199,7 +199,7 @@ std::vector<const Motion*> some_motions(Random& random, int count, bool exact_to
 
 namespace {
 
-// The point of the view primitive in frame f that is nearest to c.
+// Returns the point of the view primitive in frame f that is nearest to c.
 Point nearest_of_view(const Draft& draft, std::size_t f, const Point& c) {
   if (draft.q1.empty()) return draft.q0[f];
   const Point along = draft.q1[f] - draft.q0[f];

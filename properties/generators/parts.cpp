@@ -114,7 +114,7 @@ double tiny(Random& random) {
   return std::ldexp(mantissa, -random.between(20, 45));
 }
 
-// A place on the face but for a tiny offset: at a vertex, on an edge, or inside.
+// Returns a place on the face but for a tiny offset: at a vertex, on an edge, or inside.
 Point beside(Random& random, const Points& x, const Face& f, int kind) {
   const Point &a = at(x, f[0]), &b = at(x, f[1]), &c = at(x, f[2]);
   const Point offset = {tiny(random), tiny(random), tiny(random)};
@@ -170,7 +170,7 @@ void choose_bodies(Random& random, const Case& c, CountedPairs& pairs) {
   }
 }
 
-// A sum of magnitudes, so that it has the same bits on every machine.
+// Returns the length of some edge as a sum of magnitudes, which has the same bits on every machine.
 double length_of_some_edge(Random& random, const Case& c) {
   const auto t = random.below(static_cast<int>(c.triangles.rows()));
   const auto& x = c.frames.front();
@@ -179,7 +179,7 @@ double length_of_some_edge(Random& random, const Case& c) {
   return sum;
 }
 
-// Two features of the pair, unless those that are drawn share a vertex.
+// Leaves out two features of the pair, unless the drawn ones share a vertex.
 void leave_out_features(Random& random, const Case& c, const TrianglePair& pair,
                         CountedPairs& pairs) {
   const auto [of, face] = random.one_in(2) ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);

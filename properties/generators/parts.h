@@ -76,10 +76,10 @@ void breathe(Random& random, const Point& centre, Points& x, double amount);
 // Motions that keep a star shape positive from within, which is the premise of L4 and L5.
 
 // Adds `steps` frames to a draft whose triangles (and ghosts) are positive from the origin, and
-// chooses the view primitive. In seven of eight cases something comes close to failing: a
-// triangle's view value falls to 1 % or less of the largest, by a dent to the view-point, by a
-// vertex that nearly reaches the opposite edge as seen from there, or by a view-point just below
-// the surface. Tagged "motion:positive" and "close:...".
+// chooses the view primitive. In seven of eight cases something comes close to failing: the view
+// value of a triangle falls to 1 % of the largest or less. The reason is a dent to the view-point,
+// a vertex that nearly reaches the opposite edge as seen from there, or a view-point just below the
+// surface. Tagged "motion:positive" and "close:...".
 void move_positively(Random& random, Draft& draft, int steps);
 
 // Aims contacts, and places the view primitive, in a mesh that moves.
@@ -97,8 +97,8 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start);
 // q1 for all frames; tags "view:...". A third of the cases gets none.
 void choose_view(Random& random, Draft& draft);
 
-// The same for meshes that are positive from `drift`, a place for each frame: chooses none, the
-// point `drift`, or a short segment about it.
+// Does the same for meshes that are positive from `drift`, a place for each frame: chooses none,
+// the point `drift`, or a short segment about it.
 void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 // Coordinate menus: the kinds of doubles that a case is made of. Each function changes all frames
@@ -238,12 +238,12 @@ inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
 // A body that makes a small case large, so that a detector shares its work out to several threads.
 //
 // Returns the case with a sheet far from the mesh, whose 12,544 vertices follow those of the mesh:
-// some loops over vertices then have four pieces (detector/mesh/for_all.h), so that with two or
-// three threads some lane takes two of them. Seen from above the sheet is a grid at rest; its
-// heights change from frame to frame. So it meets nothing, and no two of its triangles without a
-// common vertex come within `apart`: every step has the same answer as without the sheet. In a
-// relation the sheet is a body of its own. Views and facts are dropped. Returns nothing if
-// coordinates are too large or too small.
+// some loops over vertices then have four pieces (detector/mesh/for_all.h). With two or three
+// threads some lane takes two of them. Seen from above the sheet is a grid at rest; its heights
+// change from frame to frame. So it meets nothing, and no two of its triangles without a common
+// vertex come within `apart`: every step has the same answer as without the sheet. In a relation
+// the sheet is a body of its own. Views and facts are dropped. Returns nothing if coordinates are
+// too large or too small.
 std::optional<Case> with_far_body(Case c, double apart);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
 // The families of one size each. Shapes take turns by the index of the case, so that a few cases
-// show all of them.
+// show all shapes.
 //
 // A shape fills an empty draft with about `triangles` triangles, at least 100, and states the
 // places of the vertices at the end of its one motion. Lengths of edges are of the order of 1,
@@ -26,7 +26,7 @@ using corpus::sin_turn;
 
 // The parts of the shapes, beside the sheets and grids of corpus/scenes/shapes.h.
 
-// A tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
+// Adds a tetrahedron whose corners are `size` from `middle` along each axis, before it is tilted.
 void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point& tilt) {
   const Point corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   const auto v = draft.vertices();
@@ -38,7 +38,7 @@ void add_tetrahedron(Draft& draft, const Point& middle, double size, const Point
 // Many contacts, which fill buffers, or many boxes that meet. Their number for each triangle does
 // not grow with the size, so that the oracle judges a case in seconds.
 
-// Sheets that bulge through each other.
+// Makes sheets that bulge through each other.
 void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr double gap = 0.5;
   constexpr int layers = 8;
@@ -60,7 +60,7 @@ void layered_cloth(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// One sheet in pleats, pressed together.
+// Makes one sheet in pleats, pressed together.
 void crumpled_sheet(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr int wall = 8;  // cells from fold to fold
   constexpr double gap = 1;
@@ -89,7 +89,7 @@ void crumpled_sheet(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// Closed tubes side by side, squeezed.
+// Makes closed tubes side by side, squeezed.
 void bundle_of_tubes(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr int around = 8, along = 24;
   constexpr double radius = 1.3, gap = 0.3;
@@ -135,7 +135,7 @@ void bundle_of_tubes(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// Tetrahedra that fly into each other.
+// Makes tetrahedra that fly into each other.
 void soup_of_bodies(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr double pitch = 2, size = 0.45, way = 1.6;
   const int bodies = triangles / 4;
@@ -154,8 +154,8 @@ void soup_of_bodies(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// Stacks of triangles so thin that all of a stack lie in the same place: no tree can separate them.
-// A stack is half of the mesh at 1,000 triangles; at larger sizes it is a smaller part of it.
+// Makes stacks of triangles so thin that all of a stack lie in the same place: no tree can separate
+// them. A stack is half of the mesh at 1,000 triangles; at larger sizes it is a smaller part of it.
 void stacks_in_one_place(Random& random, int triangles, Draft& draft, Points& end) {
   // n triangles in stacks of g have n g / 2 pairs that no box separates. At n = 1,000 these are
   // 250,000, and they grow with the root of the size.
@@ -186,7 +186,7 @@ void stacks_in_one_place(Random& random, int triangles, Draft& draft, Points& en
 
 // Few contacts, at places where they are easily lost.
 
-// A wavy sheet of about so many triangles under `height`, which moves a little.
+// Adds a wavy sheet of about so many triangles under `height`, which moves a little.
 void add_ground(Draft& draft, Points& end, Random& random, int triangles, double height) {
   const int cells = nearest_resolution(triangles, 1, [](int k) { return 2 * k * k; });
   const double phase = random.unit();
@@ -205,7 +205,7 @@ void move_all(const Draft& draft, Points& end, std::int32_t first, const Point& 
   for (auto v = first; v < draft.vertices(); ++v) end.push_back(at(draft.rest(), v) + by);
 }
 
-// A sheet, and one body that falls on its far corner: its triangles are the last of the mesh.
+// Makes a sheet, and one body that falls on its far corner: its triangles are the last of the mesh.
 void contact_in_a_far_corner(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr double size = 0.3, above = 2;
   add_ground(draft, end, random, triangles - 4, 0);
@@ -217,7 +217,7 @@ void contact_in_a_far_corner(Random& random, int triangles, Draft& draft, Points
   move_all(draft, end, first, {0, 0, -above * (0.8 + 0.4 * random.unit())});
 }
 
-// Bodies on a grid, of which every fiftieth meets its neighbour.
+// Makes bodies on a grid. Every fiftieth body meets its neighbour.
 void many_components(Random& random, int triangles, Draft& draft, Points& end) {
   constexpr double pitch = 3, size = 0.5;
   constexpr int every = 50;
@@ -234,8 +234,8 @@ void many_components(Random& random, int triangles, Draft& draft, Points& end) {
   }
 }
 
-// Pairs of bodies that meet, each half as large and half as far from one point as the pair before,
-// 44 to 60 times: a tree that halves space is as deep. The rest of the mesh is a sheet.
+// Makes 44 to 60 pairs of bodies that meet, each half as large and half as far from one point as
+// the pair before: a tree that halves space becomes as deep. The rest of the mesh is a sheet.
 void bodies_to_one_point(Random& random, int triangles, Draft& draft, Points& end) {
   const int pairs = std::min(random.between(44, 60), triangles / 16);
   add_ground(draft, end, random, triangles - 8 * pairs, -4);
@@ -252,7 +252,7 @@ void bodies_to_one_point(Random& random, int triangles, Draft& draft, Points& en
   }
 }
 
-// A vertex of 1,000 triangles, of which some slide through each other; the rest is a sheet.
+// Makes a vertex of 1,000 triangles, some of which slide through each other; the rest is a sheet.
 void vertex_of_high_valence(Random& random, int triangles, Draft& draft, Points& end) {
   const int spokes = std::min(1000, triangles);
   constexpr double radius = 8, height = 3;
@@ -272,7 +272,7 @@ void vertex_of_high_valence(Random& random, int triangles, Draft& draft, Points&
   if (const int rest = triangles - spokes; rest >= 2) add_ground(draft, end, random, rest, -4);
 }
 
-// A closed sphere that breathes, and meets nothing.
+// Makes a closed sphere that breathes, and meets nothing.
 void breathing_sphere(Random& random, int triangles, Draft& draft, Points& end) {
   auto mesh = corpus::sphere_shape(triangles);
   // Edges of the order of 1.
@@ -307,8 +307,8 @@ constexpr LargeShape large_shapes[] = {
     {"sphere", breathing_sphere},
 };
 
-// The index of the id plus the number of the attempt behind it ("quick:1:size-1e4:3~2"), so that a
-// contract that cannot have a shape gets the next shape.
+// Returns the index of the id plus the number of the attempt behind it ("quick:1:size-1e4:3~2"). So
+// if a contract cannot take a shape, it gets the next shape.
 std::size_t turn_of(const std::string& id) {
   char* end = nullptr;
   const auto index = std::strtoull(id.c_str() + id.rfind(':') + 1, &end, 10);
@@ -316,8 +316,8 @@ std::size_t turn_of(const std::string& id) {
   return static_cast<std::size_t>(index + attempt);
 }
 
-// One linear map near the identity, so that nothing lies along the axes. It keeps contacts, except
-// where rounding decides.
+// Applies one linear map near the identity, so that nothing lies along the axes. It keeps contacts,
+// except where rounding decides.
 void map_all(Random& random, Draft& draft) {
   Point rows[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (auto& row : rows) {
@@ -336,7 +336,7 @@ RandomCase make_large(Random& random, std::string id) {
   Draft draft;
   draft.frames.resize(2);
   shape.make(random, triangles, draft, draft.frames[1]);
-  // A second step, which goes on in the same direction, shows what state is carried.
+  // A second step, which goes on in the same direction, shows the state that is carried.
   if (triangles <= largest_with_two_steps) {
     Points beyond;
     for (std::size_t v = 0; v < draft.rest().size(); ++v)

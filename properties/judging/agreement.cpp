@@ -23,8 +23,9 @@ struct Times {
   bool unique;
   double tolerance;
 
-  // The t* of the oracle is its lo if lo == hi; else it lies strictly between two adjacent
-  // doubles. In that case an interval of doubles holds t* if it holds both.
+  // Returns whether our interval begins after t*. The t* of the oracle is its lo if lo == hi; else
+  // it lies strictly between two adjacent doubles. In that case an interval of doubles holds t* if
+  // it holds both.
   bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs) const {
     return unique ? theirs < ours : ours.lo > theirs.lo + tolerance;
   }
@@ -33,11 +34,10 @@ struct Times {
   }
 };
 
-// Moves from `missing` to `excuses` the pairs that need not be found to have the first contact
-// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
-// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
-// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
-// time. O(n log n).
+// Moves from `missing` to `excuses` the pairs that a right first contact does not need: pairs later
+// than `first`, and pairs whose connected part of the contact graph holds a pair that was found.
+// The graph has the triangles as nodes. Its edges are those of `pairs` (all pairs of the oracle
+// that count) whose time is `first`. Times that share an enclosure count as one time. O(n log n).
 void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEnclosure& first,
                              std::vector<PairContact>& missing, std::vector<PairContact>& excuses) {
   std::set<TrianglePair> losses, of_lost_parts;
@@ -158,8 +158,8 @@ struct Comparison {
     diff_.excuses = std::move(excuses);
   }
 
-  // With a slack a first time may be earlier than the exact one, but not earlier than the first
-  // pair that comes within the slack.
+  // Compares with the slack. A first time may then be earlier than the exact one, but not earlier
+  // than the first pair that comes within the slack.
   void compare_with_slack() {
     if (!judgement_.within_slack || !judgement_.complete || result_.answer != Answer::collision)
       return;
@@ -179,7 +179,7 @@ struct Comparison {
   }
 };
 
-// The place of a finite double among all of them. -0 and 0 have the same place.
+// Returns the place of a finite double among all of them. -0 and 0 have the same place.
 std::int64_t ordinal(double x) {
   const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
   return x < 0 ? -bits : bits;

@@ -72,9 +72,9 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 // if it begins after that time, or ends before it, each by more than the contract's tolerance
 // (compared in doubles: a tolerance of 0 exactly, another to 1e-16).
 //
-// A missing pair is excused if all-pairs is not claimed and one of two things holds: the pair is
-// first in contact after t*, or its part of the contact graph at t* (triangles as nodes, pairs in
-// contact at t* as edges) holds a reported pair.
+// Without the claim all-pairs a missing pair is excused in two cases: it is first in contact after
+// t*, or its connected part of the contact graph at t* holds a reported pair. That graph has
+// triangles as nodes, and pairs in contact at t* as edges.
 //
 // If the contract has a margin, first-time is not judged, and no-spurious is judged by the pairs
 // that come within separation + margin (StepJudgement::within_slack); without these pairs it is not
@@ -103,8 +103,8 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
                             const PositionsView& x_t1, TrianglePair pair, Options options = {});
 
-// A step that is judged, and by what. `options` say which pairs count and are tested; a limiter's
-// way is judged by them. REQUIRES a judgement by judge_under.
+// A step that is judged, with all that its judgement needs. `options` say which pairs count and are
+// tested; a limiter's way is judged by them. REQUIRES a judgement by judge_under.
 struct JudgedStep {
   SteppedMesh motion;
   TrianglesView triangles;
@@ -136,10 +136,10 @@ StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& ste
 //
 // Here t* is the first contact time of the whole step, or 1 if there is none. The share is too
 // short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding
-// cannot if that part of the step moves some vertex by 2^10 units in its last place or more, the
-// gaps at the start, beyond the separation, are 2^6 units of the largest coordinate or more, and
-// the oracle finds the way free to each of eight equally spaced places from that share to t*,
-// rounded. Else the share is only counted.
+// cannot be the reason if three things hold: that part of the step moves some vertex by 2^10 units
+// in its last place or more; the gaps at the start, beyond the separation, are 2^6 units of the
+// largest coordinate or more; and the oracle finds the way free to each of eight places from that
+// share to t*, equally spaced and rounded. Else the share is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff);
 
 }  // namespace assay::properties

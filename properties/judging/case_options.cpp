@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char *limits = "limits", *asked = "asked";
 
-// False for a name or a word that is none; the options then stay as they are.
+// Sets the option. Returns false for an unknown name or word; the options then stay as they are.
 bool set_option(Options& options, std::string_view name, std::string_view word) {
   if (name == "separation") {
     double distance = 0;

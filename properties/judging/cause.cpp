@@ -30,8 +30,8 @@ bool has_no_area_by(const TrianglesView& triangles, std::int32_t triangle, const
   return is_zero_cross(u, v);
 }
 
-// The words of a cause. Each list goes from the most ordinary to the oddest, and what is not worth
-// a word is empty.
+// The words of a cause. Each list goes from the most ordinary to the oddest. An empty word stands
+// for something not worth a word.
 constexpr const char *inside = "t inside", *at_1 = "t at 1", *near_0 = "t near 0", *at_0 = "t at 0";
 constexpr const char* time_words[] = {inside, at_1, near_0, at_0};
 
@@ -60,8 +60,7 @@ const char* time_of(const TimeEnclosure& t) {
   return t.hi <= thousandth ? near_0 : inside;
 }
 
-// A share of the extent at t = 0, as a distance: of the longest side of the box around all
-// vertices.
+// Returns a share of the extent at t = 0, which is the longest side of the box around all vertices.
 double share_of_extent(const PositionsView& x, double share) {
   double half = 0;  // so that the difference of two doubles does not overflow
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,8 +78,8 @@ const char* word_of(oracle::ContactShape shape) {
 // The two triangles of a pair during a step.
 class PairOfStep {
  public:
-  // `query`: the pair holds the two features of a query. Of its vertices these alone count, and of
-  // its triangles the face alone.
+  // `query`: the pair holds the two features of a query. Then only their vertices count, and of the
+  // triangles only the face.
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, TrianglePair pair,
              const std::optional<Feature>& query)
       : triangles_(triangles), motion_(motion), pair_(pair), query_(query) {
@@ -151,7 +150,7 @@ class PairOfStep {
     return false;
   }
 
-  // Tells what is special about the contact of these two features.
+  // Tells the special properties of the contact of these two features.
   const char* shape(const PairContact& contact, bool of_distance) const {
     if (is_without_area(contact.time)) return without_area;
     return of_distance ? shape_of_distance(contact)
@@ -236,8 +235,7 @@ std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion, 
 }
 
 int oddity_of(std::string_view signature) {
-  // The order goes by the numbers first, then by a near start, then by what is shared, then by what
-  // is at rest, then by the shape, then by the time.
+  // The order is by numbers first, then near start, shared vertices, rest, shape, and time.
   const auto place_of = [&](const auto& words) {
     int place = 0;
     for (std::size_t i = 0; i < std::size(words); ++i) {

@@ -14,8 +14,8 @@ namespace assay::properties {
 
 namespace {
 
-// Returns a pair of triangles because of which the contract does not take a step that starts with
-// the mesh at x. Only pairs that count, and that the detector tests, are looked at.
+// Returns a pair of triangles that is too near for the contract when a step starts with the mesh at
+// x. Only pairs that count, and that the detector tests, are looked at.
 std::optional<TrianglePair> pair_too_near(const PositionsView& x, const Case& c,
                                           const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
@@ -24,9 +24,9 @@ std::optional<TrianglePair> pair_too_near(const PositionsView& x, const Case& c,
                                  counted_under(contract, c.triangles, {&own, counted_of(c)}));
 }
 
-// The relation as the detector sees it: as coarse as its coordinates. If it can be told none, every
-// pair counts, and what is left are the bodies, because they name triangles. Returns whether it can
-// be so.
+// Makes the relation one that the detector can see: as coarse as its coordinates. If the detector
+// takes no relation, every pair counts, and only the bodies are left, because they name triangles.
+// Returns whether this is possible.
 bool contract_relation(Case& c, const Contract& contract) {
   if (c.counted && !contract.takes_relations) {
     CountedPairs names;
@@ -46,24 +46,26 @@ bool contract_relation(Case& c, const Contract& contract) {
   return is_finite;
 }
 
-// Why the contract does not take the mesh at these places, rounded already; empty if it does.
+// Returns why the contract does not take the mesh at these places, which are rounded already; empty
+// if it does.
 std::string why_no_frame(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract) {
   if (!x.allFinite()) return "a coordinate has no float32";
   return beyond_range(x, edges, contract);
 }
 
-// The exact end of a displacement; nothing if it is no double.
+// Returns the exact end of a displacement; nothing if it is no double.
 std::optional<Positions> exact_end(const Positions& x, const Positions& to) {
   const Positions way = displacement(x, to), end = x + way;
-  // What is rounded is not the same when either part is taken away again.
+  // If the sum is rounded, it does not give back both parts when the other part is subtracted.
   if (!end.allFinite() || end - x != way || end - way != x) return std::nullopt;
   return end;
 }
 
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
 // displacement that leads nearest to the end in `original`. Steps whose sum is no double are
-// left out. False if all are. A mesh at rest stays the first frame where the contract goes by it.
+// left out. Returns false if all are. A mesh at rest stays the first frame, if the contract depends
+// on it.
 bool hold_displacements(Case& c, Case original, const Contract& contract) {
   std::vector<std::size_t> exact;
   auto steps = steps_of(c);
@@ -97,8 +99,8 @@ bool hold_displacements(Case& c, Case original, const Contract& contract) {
   return true;
 }
 
-// Whether who stops at x_t0 + share (x_t1 - x_t0) can: each way of each step is a number of the
-// contract's coordinates.
+// Returns whether a caller can stop at x_t0 + share (x_t1 - x_t0): each x_t1 - x_t0 is a number of
+// the contract's coordinates.
 bool ways_are_finite(const Case& c, const Contract& contract) {
   const auto steps = steps_of(c);
   return std::ranges::all_of(steps, [&](const CaseStep& step) {
@@ -153,7 +155,7 @@ std::optional<Case> contract_case(const Case& c, const Contract& contract) {
   if (!contract_relation(out, contract)) return std::nullopt;
   for (auto& frame : out.frames) {
     Positions positions = round_to(frame, contract.coordinates);
-    // Facts about other coordinates are none about these.
+    // Facts about other coordinates need not hold for these.
     if (positions != frame && out.expected.answer != Answer::error) {
       out.expected = {};
       if (out.counted) out.counted->steps.clear();

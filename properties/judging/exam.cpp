@@ -27,7 +27,7 @@ bool has_an_answer(const CaseResults& results) {
   return std::ranges::any_of(results.runs, [](const CaseRun& run) { return !run.steps.empty(); });
 }
 
-// The worse of two outcomes.
+// Returns the worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
   // A case with a refused step says nothing, even if its other steps hold.
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::refused, Outcome::undecided,

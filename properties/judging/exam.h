@@ -50,15 +50,15 @@ struct Exam {
   bool needs_an_answer = false;
 };
 
-// A case is examined in three parts: it is run, it is run again, and both runs are judged. All of
-// them REQUIRE a contracted case. The oracle is not asked again for judgements that are there.
+// Examine a case in three parts: run it, run it again, and judge both runs. All parts REQUIRE a
+// contracted case. The oracle is not asked again for judgements that are there.
 void run_first(const Exam& exam, CaseResults& results);
 void run_again(const Exam& exam, CaseResults& results);
 void judge(const Exam& exam, CaseResults& results);
 
 CaseResults examine(const Exam& exam, Case c);
-// Examines cases, in order. They go to the worker together, and to the second worker together, from
-// the last to the first. Their outputs and times are not told apart.
+// Examines cases, in order. The worker gets all of them at once; so does the second worker, from
+// the last to the first. The outputs and times of single cases are not told apart.
 std::vector<CaseResults> examine(const Exam& exam, std::vector<Case> cases);
 
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
@@ -70,8 +70,8 @@ std::vector<StepJudgement> judge_case(const Case& c);
 // REQUIRES a contracted case.
 std::vector<StepJudgement> judge_case(const Case& c, const Contract& contract, int jobs = 1);
 
-// Returns the oracle's facts about a step of this case under the contract. Adjacency leaves nothing
-// out of a query (query_case.h).
+// Returns the oracle's facts about a step of this case under the contract. For a query
+// (query_case.h), adjacency leaves nothing out.
 StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract& contract);
 
 // Judges a run. The way in which the run ended decides first:

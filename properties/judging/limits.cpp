@@ -9,10 +9,10 @@
 namespace assay::properties {
 namespace {
 
-// What a limiter that promises no progress is compared with.
+// The progress that is asked of a limiter that promises none.
 constexpr double usual_progress = 0.9;
-// A limiter stalls if it stays although a vertex could move by so many units in its last place
-// (L17).
+// A limiter stalls if the mesh stays although a vertex could move by so many units in its last
+// place (L17).
 constexpr double ulps_of_a_stall = 16;
 // If the way is shorter than this, or the gap ahead is narrower, rounding may keep a limiter from
 // its progress, and no claim is broken.
@@ -32,7 +32,8 @@ double ulp(double x, Coordinates coordinates) {
                                              : unit_in_last_place<double>(x);
 }
 
-// Whether the share is below the time. A time between two adjacent doubles is above the lower one.
+// Returns whether the share is below the time. A time between two adjacent doubles is above the
+// lower one.
 bool is_before(double share, const TimeEnclosure& time) {
   return time.lo == time.hi ? share < time.lo : share <= time.lo;
 }
@@ -55,7 +56,7 @@ struct LimitComparison {
     limit.share = answer_.share;
     if (first) limit.ahead = first->time;
     const double possible = first ? first->time.lo : 1;
-    // A share counts only as far as the positions beside it go, each rounded by an ulp at most.
+    // The way ends at the given positions, or an ulp farther, even if the share is larger.
     limit.way =
         answer_.share >= 0 && !stays ? std::min(answer_.share, share_gone(1)) : share_gone(0);
     limit.is_cut = !first && !is_whole;
@@ -67,7 +68,7 @@ struct LimitComparison {
     const double progress = contract_.progress > 0 ? contract_.progress : usual_progress;
     if (stays && could_move(progress * possible, ulps_of_a_stall)) limit.stall = cause_of_stall();
     limit.too_far = answer_.share >= 0 && first && !is_before(answer_.share, first->time);
-    // The sign of this is exact but for the least of all doubles.
+    // The sign of this is exact, except among the least doubles.
     const bool is_short = answer_.share >= 0 && std::fma(progress, possible, -limit.way) > 0;
     if (is_short && step_.claims.has(Claim::progress)) {
       limit.too_short = is_owed(progress * possible, possible);
@@ -83,16 +84,16 @@ struct LimitComparison {
  private:
   std::optional<PairContact> first_on_the_way_to(const Positions& place) {
     Contract of_way = contract_;
-    of_way.margin = 0;  // what comes within a slack is no contact
+    of_way.margin = 0;  // coming within a slack is no contact
     const auto judgement =
         judge_under(of_way, {step_.motion.vertices_t0, place}, step_.triangles, step_.options);
     was_stopped_ |= !judgement.complete;
     return truth_of(judgement, of_way, step_.triangles).first;
   }
 
-  // Returns whether rounding cannot explain a way shorter than this share: there is room, and the
-  // way is free to each of some equally spaced places from there to the contact, rounded as by the
-  // caller.
+  // Returns whether rounding is no excuse for a way shorter than this share: there is room, and the
+  // way is free to each of some places from this share on to the contact, equally spaced and
+  // rounded as by the caller.
   bool is_owed(double share, double possible) {
     if (!has_room(share)) return false;
     for (int i = 0; i < owed_places && truth_.first; ++i) {
@@ -111,8 +112,8 @@ struct LimitComparison {
     return stop ? std::optional(stop.value().positions) : std::nullopt;
   }
 
-  // The length of the caller's way, divided by the length of the whole step, both over all vertices
-  // together. Each coordinate may have gone `ulps` units in its last place farther.
+  // Returns the length of the caller's way, divided by the length of the whole step, both over all
+  // vertices together. Each coordinate may have moved by `ulps` units in its last place more.
   double share_gone(double ulps) const {
     const Positions from = step_.motion.vertices_t0, to = step_.motion.vertices_t1;
     const Positions whole = to - from;
@@ -126,7 +127,8 @@ struct LimitComparison {
     return length > 0 ? (way / unit).norm() / length : 1;
   }
 
-  // Whether this share of the step moves some coordinate by so many units in its last place.
+  // Returns whether this share of the step moves some coordinate by so many units in its last
+  // place.
   bool could_move(double share, double ulps) const {
     const Positions from = step_.motion.vertices_t0,
                     way = share * (step_.motion.vertices_t1 - from);

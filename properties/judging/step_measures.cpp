@@ -138,7 +138,7 @@ double risk_of_each(std::uint64_t bounds) {
 
 namespace {
 
-// `squared` is the sum over trials of the squares of their numbers of steps.
+// Returns the rate. `squared` is the sum over trials of the squares of their numbers of steps.
 Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
   const auto all = static_cast<double>(in);
   const double independent = squared ? all * all / static_cast<double>(squared) : 0;

@@ -134,7 +134,7 @@ struct StepMeasures {
   // For each trial, the square of its number of free steps, and of steps with a contact; summed
   // over trials. They show how much the steps of one trial depend on each other.
   std::uint64_t free_squared = 0, contact_squared = 0;
-  std::uint64_t without_time = 0;      // of the collisions: with a wider interval
+  std::uint64_t without_time = 0;      // collisions answered with a wider interval
   std::uint64_t unanswered = 0;        // steps with a contact and without an answer to judge
   std::uint64_t candidate_steps = 0;   // steps for which candidates were given
   std::uint64_t candidates = 0;        // given in these steps
@@ -171,8 +171,8 @@ struct Rate {
 
 // Returns the share of the free steps that were answered collision. Steps of one trial depend on
 // each other. So the interval counts only (sum of n)^2 / (sum of n^2) steps, where n is the number
-// of free steps of a trial; if n is the same for all trials, this is the number of trials (Kish,
-// Survey Sampling, 1965, 11.7).
+// of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same for all trials,
+// this is the number of trials.
 Rate false_alarm_rate(const StepMeasures& measures);
 // Returns the share of steps answered free among the steps with a contact that counts. Its interval
 // is made in the same way.

@@ -42,8 +42,8 @@ void find_stage(Failure& failure, const Case& c, const CaseStep& step, const Ste
         stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair, options);
 }
 
-// Does the same for a plug-in. Nobody knows its stages, so it adds what is special about the
-// contact.
+// Does the same for a plug-in. The stages of a plug-in are unknown, so this adds the special
+// properties of the contact.
 void find_cause(Failure& failure, const Case& c, const CaseStep& step, const StepJudgement& truth,
                 const Contract& contract) {
   if (!failure.pair) return;
@@ -127,7 +127,7 @@ std::string answer_text(Answer answer, const TimeEnclosure& first) {
                                      : name_of(answer);
 }
 
-// What the contract asks of two triangles: to "meet", or to "come within 0.5"; with the slack
+// Returns the contract's question about two triangles: "meet", or "come within 0.5"; with the slack
 // "within 0.5 + 0.125".
 std::string asked_text(const Contract& contract, double slack = 0) {
   if (contract.separation == 0 && slack == 0) return "meet";
@@ -135,7 +135,8 @@ std::string asked_text(const Contract& contract, double slack = 0) {
                      slack > 0 ? fmt::format(" + {}", slack) : "");
 }
 
-// If t* lies between two adjacent doubles, an interval may miss it by less than an ulp.
+// Returns the share in words. If t* lies between two adjacent doubles, an interval may miss it by
+// less than an ulp.
 std::string share_text(double share) {
   return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
 }
@@ -207,7 +208,7 @@ class FailureOfStep {
                        of(load.candidates, "candidates", contract_.capacity_candidates));
   }
 
-  // How far the limiter goes, and how far it might.
+  // Returns how far the limiter goes, and how far it might.
   std::string how_far() const {
     const auto& limit = *diff_.limit;
     std::string text = limit.share >= 0 ? fmt::format("; allowed a share of {}", limit.share)

@@ -37,7 +37,7 @@ class BodyNames {
   std::vector<BodyTriangle> by_triangle_;
 };
 
-// A defect of a trial, described by what distinguishes it from other defects.
+// A defect of a trial, described by the facts that distinguish it from other defects.
 struct Failure {
   Claim claim = Claim::total;
   // How the claim is broken: by a step (ClaimRow::symptom_of), or else "two runs differ", "crashed"

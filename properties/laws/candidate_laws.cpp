@@ -31,7 +31,7 @@ Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// Looks only at contacts inside a component, because pairs of two components are all in K and make
+// Looks only at contacts inside a component, because all pairs of two components are in K and make
 // nothing dirty (L10).
 Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
@@ -127,8 +127,8 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
 
 constexpr Law pair_set_law_table[] = {
     {"L7_ClosureIsThePairSet", "L7",
-     "K closed over what it finds is the complete pair set of the step: the oracle's pairs, and "
-     "each first time in every bit.",
+     "K, closed over the contacts that it finds, is the complete pair set of the step: the "
+     "oracle's pairs, and each first time in every bit.",
      "pair set", each_step<closure_is_the_pair_set>},
     {"Claim_FreeSound", "claim", "Free is never answered when there is a contact.", "pair set",
      each_step<claim_holds<Claim::free_sound>>},
@@ -156,7 +156,7 @@ std::span<const Law> pair_set_laws() { return pair_set_law_table; }
 
 namespace {
 
-// Whether the step is judged and some patch of two triangles or more is certified.
+// Returns whether the step is judged and some patch of two triangles or more is certified.
 bool has_certified_patch(CaseFacts& facts, std::size_t s) {
   return facts.is_judged(s) && facts.traditional_scheme() && facts.certified_patches(s).largest > 1;
 }
@@ -175,8 +175,9 @@ Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// This asks more than the claim of all pairs, because a pair that the search leaves out may still
-// be found by a feature that another pair of triangles shares.
+// Observes that every contact is a candidate. This asks more than the claim of all pairs, because a
+// pair that the search leaves out may still be found by a feature that another pair of triangles
+// shares.
 Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
   const auto candidates = facts.traditional_scheme()->candidates({facts.x_t0(s), facts.x_t1(s)});
@@ -188,8 +189,8 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The search of a detector, made to ask for proofs wherever they are not hopeless. The law is
-// about what the proofs leave out, and not about when they pay.
+// The search of a detector, made to ask for proofs wherever they are not hopeless. The law is about
+// the pairs that proofs leave out, and not about when proofs pay.
 class EagerMeshSearch : public detector::MeshSearch {
  public:
   EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
@@ -266,8 +267,8 @@ constexpr Law normal_cone_law_table[] = {
      "face one direction and its contour, projected along it, stays a simple polygon.",
      "pair set", each_step<certified_patches_are_free, is_nearly_edge_on>},
     {"L13_EveryContactIsACandidate", "L13",
-     "In a step with such a patch the search by normal cones, which leaves patches out, still "
-     "comes to every pair in contact.",
+     "In a step with a patch as in L13 the search by normal cones, which leaves patches out, still "
+     "finds every pair in contact.",
      "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
     {"L14_NoContactIsAmongWhatIsProved", "L14",
      "In a step of culling auto that leaves out what normal cones and contours prove apart, with "

@@ -13,7 +13,7 @@ namespace assay::properties {
 
 namespace {
 
-// Whether signs and doubts would leave the pair out of K if it were inside one component.
+// Returns whether signs and doubts would leave the pair out of K if it were inside one component.
 bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const TrianglePair& pair) {
   const auto sign = [&](std::int32_t t) { return facts.signs(s)[at(t)]; };
   return !facts.in_doubt(s, pair.a) && !facts.in_doubt(s, pair.b) &&
@@ -63,7 +63,7 @@ bool boxes_meet(const CaseFacts& facts, std::size_t s) {
   return false;
 }
 
-// The oracle's layers of one component if everything else is taken away.
+// Returns the oracle's layers of one component if everything else is taken away.
 oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t component) {
   const auto& surface = facts.surface();
   std::vector<std::array<std::int32_t, 3>> own, ghosts;
@@ -119,9 +119,9 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
   return next == alone.pairs.end() ? "" : "more contacts alone";
 }
 
-// A component by itself behaves as it does among others. One component is checked, chosen by the
-// case's id, if there are two or more and all pairs are asked for (a collision of which only the
-// first contacts are known makes all components dirty, L8).
+// Checks that a component by itself behaves as it does among others. One component is checked,
+// chosen by the case's id, if there are two or more and all pairs are asked for (after a collision
+// whose later contacts are unknown all components are dirty, L8).
 void check_component_alone(CaseFacts& facts, LawTally& tally) {
   const auto components = facts.surface().mesh.components.size();
   if (components < 2 || facts.options().pairs != detector::Pairs::all) return;
@@ -147,8 +147,8 @@ constexpr Law component_law_table[] = {
      "clean and of one strict sign.",
      "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
     {"L10_ComponentsAreCleanByThemselves", "L10",
-     "At a new start with components in each other's boxes (nested, or interpenetrating) dirty is "
-     "what would be if each were alone: layers count the own component.",
+     "At a new start with components in each other's boxes (nested, or interpenetrating) the same "
+     "triangles are dirty as if each were alone: layers count the own component.",
      "layers of each component alone", each_step<components_are_clean_by_themselves>},
     {"L10_EachComponentAsIfAlone", "L10",
      "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "

@@ -22,7 +22,7 @@ using detector::InputError;
 
 // Doubtful input (L12) is no surface of a body, and is answered nevertheless.
 
-// Two vertices of triangles are at one place at the start of the step.
+// Returns whether two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   std::vector<Point> places;
   for (const auto& component : facts.surface().mesh.components) {
@@ -32,10 +32,10 @@ bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
   return std::ranges::adjacent_find(places) != places.end();
 }
 
-// Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
-// of two products has an error of 3 units of 2^-53 (two differences and one product), and their
-// difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
-// false if the vector is nearer to 0, or if a product overflowed or vanished.
+// Returns whether the area vector, computed in doubles, is farther from 0 than its rounding errors.
+// Each of two products has an error of 3 units of 2^-53 (two differences and one product), and
+// their difference has 2 more. The bound is twice that, to cover errors of second order. The answer
+// is false if the vector is nearer to 0, or if a product overflowed or vanished.
 bool surely_has_area(const Positions& x, const std::array<std::int32_t, 3>& v) {
   constexpr double error = 16 * 0x1p-53;
   const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
@@ -43,7 +43,7 @@ bool surely_has_area(const Positions& x, const std::array<std::int32_t, 3>& v) {
   return product > 0x1p-900 && a.cross(b).cwiseAbs().maxCoeff() > error * product;
 }
 
-// The triangle is a segment or a point at one end of the step or at both. Decided exactly.
+// Returns whether the triangle is a segment or a point at one end of the step or at both. Exact.
 bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle) {
   const auto& v = facts.surface().mesh.triangles[at(triangle)];
   for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
@@ -54,8 +54,8 @@ bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle)
   return false;
 }
 
-// Untouched triangles of one component lie on different layers: nested shells, parts turned inside
-// out.
+// Returns whether untouched triangles of one component lie on different layers: nested shells,
+// parts turned inside out.
 bool has_several_layers(CaseFacts& facts, std::size_t s) {
   const auto& layers = facts.layers_at_start(s);
   std::map<std::int32_t, oracle::Layer> of_component;
@@ -171,7 +171,7 @@ std::string step_wrongly(Detector& detector, const CaseFacts& facts, std::size_t
   return {};
 }
 
-// Input that must be refused by name: repeats the case's own run, with every kind of bad call
+// Checks that bad input is refused by name: repeats the case's own run, with every kind of bad call
 // before each step.
 void check_bad_input(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
@@ -193,23 +193,23 @@ void check_bad_input(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law doubtful_input_law_table[] = {
     {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
-     "A mesh with edges of three or more triangles, or used twice in one direction, is answered "
-     "free only when it is.",
+     "With edges of three or more triangles, or used twice in one direction, a mesh is answered "
+     "free only if it is free.",
      "pair set", each_step<broken_edges>},
     {"L12_NeverFreeOnAGuess_Collapsed", "L12",
-     "A mesh with triangles of no area or vertices at one place is answered free only when it is.",
+     "With triangles of no area or vertices at one place, a mesh is answered free only if it is.",
      "pair set", each_step<collapsed>},
     {"L12_NeverFreeOnAGuess_SeveralLayers", "L12",
-     "A mesh with untouched triangles of one component on several layers is answered free only "
-     "when it is.",
+     "With untouched triangles of one component on several layers, a mesh is answered free only if "
+     "it is.",
      "pair set, layers", each_step<several_layers>},
     {"L12_ZeroAreaStaysInV0", "L12",
      "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",
      each_step<zero_area_stays_in_v0>},
     {"L12_BadInputIsNamedAndChangesNothing", "L12",
-     "An index out of range or repeated, three vertices used twice, a frame of another size, a "
-     "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
-     "refused by name, and the next valid step is answered as if they had not been.",
+     "Bad input is refused by name (an index out of range or repeated, three vertices used twice, "
+     "a frame of another size, a coordinate that is not finite, a wrong number of primitives, a "
+     "commit of no step), and the next valid step is answered as if it had not been given.",
      "nothing", check_bad_input, one_case_in_16},
 };
 

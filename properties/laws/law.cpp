@@ -74,7 +74,7 @@ bool same_lists(const List& a, const List& b) {
   return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same(x, y); });
 }
 
-// The counts that are compared. Counts of marking depend on earlier steps, too
+// Returns the counts that are compared. Counts of marking depend on earlier steps, too
 // (detector/search/pair_rule.h), and so may the other counts that are set to 0 here.
 detector::StepCounts of_this_step(detector::StepCounts counts) {
   counts.marking = {};

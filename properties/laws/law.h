@@ -37,7 +37,7 @@ struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
   std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
   std::string_view statement;  // the law in one or two sentences
-  std::string_view needs;      // what the law needs from the oracle
+  std::string_view needs;      // the law's demands on the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds its tally of this case
   // The law is checked on one case in this many, because laws that run the case again are slow.
   int one_in = 1;

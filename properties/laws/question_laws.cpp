@@ -18,14 +18,15 @@ namespace {
 // The oracle takes long for distances among many triangles.
 constexpr std::size_t most_triangles_apart = 40;
 
-// A power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without extent.
+// Returns a power of two, from an eighth of the mesh down to its 2^-20; 0 for a mesh without
+// extent.
 double drawn_distance(const CaseFacts& facts, Random& random) {
   const double extent = extent_of(facts.source());
   if (!(extent > 0) || !std::isfinite(extent)) return 0;
   return std::ldexp(1, std::ilogb(extent) - random.between(3, random.one_in(4) ? 20 : 8));
 }
 
-// The same under every culling of the case, so one of them will do.
+// Checks under one culling, because distances are the same under every culling of the case.
 void check_distance(CaseFacts& facts, LawTally& tally) {
   if (!facts.stages_of() || facts.options().culling != Culling::view_line ||
       facts.surface().mesh.triangles.size() > most_triangles_apart)
@@ -118,12 +119,12 @@ constexpr int one_case_in_64 = 64;
 
 constexpr Law question_law_table[] = {
     {"L16_WithinADistanceIsWhatTheOracleFinds", "L16",
-     "Asked what comes within a distance, without views, a detector finds the pairs of the oracle, "
-     "each at its time.",
+     "A detector without views that is asked what comes within a distance finds the oracle's "
+     "pairs, each at its time.",
      "what comes within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
-     "The way to where a step may be gone is free, it is nine tenths of what is possible or more "
-     "where rounding lets it, a free step is gone to its end, and the state stays as it is.",
+     "The way that a limit allows is free, and nine tenths or more of the possible one where "
+     "rounding lets it; a free step is taken whole; the state stays as it is.",
      "contacts, and those of the way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
      "A step that is stopped is undecided and cannot be committed; evaluated whole it then gives "

@@ -124,29 +124,28 @@ Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) 
 
 constexpr Law state_law_table[] = {
     {"L8_CarriedCleanIsClean", "L8",
-     "What a step that continues from a committed one starts with as clean touches nothing of S "
-     "then, and is of one layer in each component.",
+     "The triangles that are clean at the start of a step that continues from a committed one "
+     "touch nothing of S there, and have one layer in each component.",
      "layers", each_step<carried_clean_is_clean>, 1, PremiseScope::each_culling},
     {"L8_WhatIsNotCleanStaysDirty", "L8",
-     "What was in contact with its own component, touched by a ghost, or dirty, and is not clean "
-     "at the end, is dirty in the next step.",
+     "A triangle that was dirty, in contact with its own component or touched by a ghost, and is "
+     "not clean at the end, is dirty in the next step.",
      "pair set, triangles touched by ghosts, layers", each_step<what_is_not_clean_stays_dirty>, 1,
      PremiseScope::each_culling},
     {"L8_CleanAndUntouchedStaysClean", "L8",
-     "What is clean at the start, in no contact with its own component and touched by no ghost, is "
-     "untouched and of one layer at the end, and starts the next step as clean.",
+     "Triangles that are clean at the start, in no contact with their own component and touched by "
+     "no ghost, are untouched and of one layer at the end, and clean in the next step.",
      "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>, 1,
      PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
-     "What a step that continues from a committed one starts with as dirty is exactly what was "
-     "dirty, touched by a ghost or in contact with its own component until then, and is not "
-     "untouched and of the common layer of its component now.",
+     "The dirty triangles at the start of a step that continues from a committed one are exactly "
+     "those that were dirty, touched by a ghost or in contact with their own component until then, "
+     "and are not untouched and of the common layer of their component now.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
-     "At a new start that is verified, dirty is what touches something of S or is not of the "
-     "common layer of its component; under view-auto, which looks and asks for no layers, all of "
-     "that is dirty.",
+     "At a verified new start the dirty triangles are those that touch something of S or are not "
+     "of the common layer of their component; under view-auto, without layers, at least these.",
      "layers", each_step<new_start_is_the_oracles_layers>, 1, PremiseScope::each_culling},
     {"L9_AllPositiveAtTheStartReleases", "L9",
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
@@ -154,9 +153,9 @@ constexpr Law state_law_table[] = {
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
      PremiseScope::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
-     "What starts as dirty after a step without views is what that step left in doubt, less what "
-     "is untouched and of the common layer now: after a first step of closed components what is "
-     "dirty by L9 at a verified start; of components with ghosts, all were in doubt.",
+     "After a step without views, the dirty triangles are those that it left in doubt and that are "
+     "not now untouched and of the common layer. Of components with ghosts all were in doubt; of "
+     "closed ones, after a first step, those that are dirty by L9 at a verified start.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };
@@ -182,8 +181,8 @@ Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The triangles that ghosts have touched since the last new start, up to the end of step s, and
-// that the oracle did not find clean at the start of any step since. This is computed from the
+// Returns the triangles that ghosts have touched since the last new start, up to the end of step s,
+// and that the oracle did not find clean at the start of any step since. This is computed from the
 // oracle alone.
 TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   TriangleFlags is_held = facts.touched(s);
@@ -195,8 +194,8 @@ TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   return is_held;
 }
 
-// An apex must not jump between two steps. If both steps had views, both have apexes; otherwise
-// the premise does not hold.
+// Observes whether apexes go on: an apex must not jump between two steps. If both steps had views,
+// both have apexes; otherwise the premise does not hold.
 Observation apexes_go_on(CaseFacts& facts, std::size_t s) {
   const auto& before = facts.known_from(s);
   if (!before) return not_met();
@@ -226,8 +225,8 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
 
 constexpr Law boundary_law_table[] = {
     {"L11_ViolatedIsWhatGhostsTouch", "L11",
-     "Violated are exactly the triangles that a ghost of their component touches at any time of "
-     "the step (at a new start also those that it pierces at t=0).",
+     "The violated triangles are exactly those that a ghost of their component touches at any time "
+     "of the step (at a new start also those that it pierces at t=0).",
      "triangles touched by ghosts", each_step<violated_is_what_ghosts_touch>},
     {"L11_VvHoldsWhatWasTouchedUntilClean", "L11",
      "A triangle that a ghost touched in a committed step is in Vv of the following ones until it "

@@ -24,7 +24,7 @@ std::span<const Law> normal_cone_laws();     // L13
 std::span<const Law> change_laws();          // L18; metamorphic: the mesh in another form
 std::span<const Law> repetition_laws();      // metamorphic: the same steps in another way
 std::span<const Law> question_laws();        // L16, L17, stops
-std::span<const Law> option_laws();          // options, states and sizes in pairs
+std::span<const Law> option_laws();          // pairs of options, states, sizes
 
 // The observation of a law in a step: nothing if its premise does not hold; else a text that says
 // how the law is broken, empty if it holds.

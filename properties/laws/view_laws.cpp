@@ -73,8 +73,8 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
   });
 }
 
-// The signs come from the detector. So this law ties what the detector says to the function that
-// L1 speaks of.
+// Observes the detector's signs. So this law ties the detector's answers to the view function of
+// L1.
 Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
   return each_sample(
       facts, s, [](const ExactView& view, ViewSign sign, Random& random) -> std::string {
@@ -92,7 +92,7 @@ Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
       });
 }
 
-// L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
+// L2: the signs over a step. And: the view sets are disjoint, and together are all triangles.
 
 // Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
 // components whose primitive is a point, or only at those whose primitive is not.
@@ -170,7 +170,7 @@ constexpr Law view_law_table[] = {
      "one: positive at all times, negative at all times, or zero.",
      "view signs", each_step<mesh_signs<true>>},
     {"L2_SignsAreTheOracles_Line", "L2",
-     "The same seen from a segment, fixed, translating, or with ends that move apart.",
+     "Seen from a segment, at rest or moving, the sign of each triangle over the step is exact.",
      "view signs", each_step<mesh_signs<false>>},
     {"L2_GhostSignsAreTheOracles_Point", "L2",
      "Seen from a point, the sign of each ghost over the step is the exact one.", "view signs",
@@ -281,14 +281,16 @@ constexpr Law one_sign_law_table[] = {
     {"L4_AllPositiveIsCollisionFree_Point", "L4",
      "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
      "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
-    {"L4_AllPositiveIsCollisionFree_Line", "L4", "The same seen from a segment that stands still.",
+    {"L4_AllPositiveIsCollisionFree_Line", "L4",
+     "A component with V-, V0 and Vv empty, seen from a segment at rest, has no contact.",
      "pair set, view signs",
      each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
     {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
-     "The same seen from a segment whose ends move.", "pair set, view signs",
+     "A component with V-, V0 and Vv empty, seen from a moving segment, has no contact.",
+     "pair set, view signs",
      each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
     {"L4_AllNegativeIsCollisionFree", "L4",
-     "The mirror: a component whose V+, V0 and Vv are empty has no contact in the step.",
+     "A component whose V+, V0 and Vv are empty has no contact in the step.",
      "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::negative, is_any>>},
     {"L5_AllPositiveAndWindingOneIsFree_Closed", "L5",
      "A closed component that is positive over the step and has winding number 1 at its primitive "
@@ -296,8 +298,7 @@ constexpr Law one_sign_law_table[] = {
      "(1,0).",
      "pair set, view signs, winding number, layers", each_step<all_positive_is_free<true>>},
     {"L5_AllPositiveAndWindingOneIsFree_Unclosed", "L5",
-     "The same for a component with holes when its ghosts are positive too; then no ghost touches "
-     "anything.",
+     "Likewise a component with holes, if its ghosts are positive too; no ghost touches it.",
      "pair set, view signs, winding number, layers, triangles touched by ghosts",
      each_step<all_positive_is_free<false>>},
     {"L5_TheFreePathIsTaken", "L5",

@@ -12,7 +12,7 @@ namespace assay::properties {
 namespace {
 using detector::Separation;
 
-// The query of a family of contacts, asked for a distance.
+// Returns the query of a family of contacts, asked for a distance.
 QueryTask asked_of(const std::string& family, std::uint64_t seed, std::uint64_t index,
                    const Separation& distance = {}) {
   return {find_family("query-" + family)->query(seed, index).query, {}, distance};
@@ -72,14 +72,15 @@ class Touch {
     }
   }
 
-  // The time of the touch.
+  // Sets the time of the touch.
   void at(double time) { time_ = time; }
 
-  // Each point has a velocity of its own.
+  // Makes a query in which each point has a velocity of its own.
   QueryTask moving_freely(int reach) {
     return with_motion([&](std::size_t) { return integer_point(random_, reach); });
   }
-  // The groups go towards each other, and each point also moves along the planes of the slab.
+  // Makes a query in which the groups go towards each other, and each point also moves along the
+  // planes of the slab.
   QueryTask approaching() {
     const double speed = random_.between(1, 3);
     return with_motion([&](std::size_t i) {
@@ -88,8 +89,8 @@ class Touch {
       return (random_.one_in(2) ? tangent() : Point{}) + (is_first ? 1 : -1) * toward;
     });
   }
-  // The distance does not change at the time of the touch, to first order. If `rigid`, each group
-  // keeps its shape.
+  // Makes a query in which the distance does not change at the time of the touch, to first order.
+  // If `rigid`, each group keeps its shape.
   QueryTask sliding(bool rigid) {
     const Point drift = integer_point(random_, 3);
     const std::array<Point, 2> own = {tangent(), tangent()};
@@ -104,7 +105,7 @@ class Touch {
 
  private:
   Point tangent() { return cross(across_.w, integer_point(random_, 2)); }
-  // A random offset, not to the inner side of its plane; side 1 is that of the second feature.
+  // Returns a random offset that does not lead into the slab; side 1 is the second feature's.
   Point outward(double side) {
     const Point p = integer_point(random_, 6);
     return Point{} + (dot(p, across_.w) * side < 0 ? -1 : 1) * p;
@@ -166,7 +167,7 @@ QueryTask any_touch(Random& random, std::uint64_t index) {
   return kind == 2 ? touch.sliding(random.one_in(2)) : touch.at_rest();
 }
 
-// Multiples of 2^-30.
+// Makes a query of multiples of 2^-30.
 QueryTask in_a_cube(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   const int halvings = random.below(8);
@@ -187,8 +188,8 @@ QueryTask of_small_integers(std::uint64_t seed, std::uint64_t index) {
   return asked_of("small-int", seed, index, small_distance(random));
 }
 
-// Parallel at one end of the step, at both, or throughout, at any distance; the ends of half of
-// them come close.
+// Makes edges that are parallel at one end of the step, at both, or throughout, at any distance.
+// The ends of half of them come close.
 QueryTask parallel_edges(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   QueryTask q;
@@ -212,7 +213,7 @@ QueryTask feet_at_ends(std::uint64_t seed, std::uint64_t index) {
   return random.one_in(2) ? touch.approaching() : touch.moving_freely(6);
 }
 
-// An edge or a face that is a segment or a point at one time of the step, or throughout.
+// Returns an edge or a face that is a segment or a point at one time of the step, or throughout.
 QueryTask collapsing(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   QueryTask q = asked_of("small-int", seed, index, small_distance(random));
@@ -230,8 +231,8 @@ QueryTask collapsing(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-// The cross product of two edges vanishes when the distance is d for the first time, or nearly
-// then.
+// Makes a query in which the cross product of two edges vanishes when the distance is d for the
+// first time, or nearly then.
 QueryTask no_normal(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::of_collapsed);
@@ -270,7 +271,7 @@ QueryTask huge_distance(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-// The smallest numbers: in the coordinates and d, or in one of them.
+// Makes a query of the smallest numbers: in the coordinates and d, or in one of them.
 QueryTask of_denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   constexpr int least_exponent = -1074;
@@ -303,7 +304,7 @@ QueryTask all_doubles(std::uint64_t seed, std::uint64_t index) {
   return asked_of(family, seed, index, {any(), random.one_in(3) ? any() : 0});
 }
 
-// An exact touch, with d or one coordinate changed by a few units in the last place.
+// Makes an exact touch, and changes d or one coordinate by a few units in the last place.
 QueryTask beside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   QueryTask q = any_touch(random, index);
@@ -321,7 +322,7 @@ QueryTask beside(std::uint64_t seed, std::uint64_t index) {
   return q;
 }
 
-// The features are within d for a short time only.
+// Makes features that are within d for a short time only.
 QueryTask just_inside(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Touch touch(random, index, Touch::Feet::anywhere);

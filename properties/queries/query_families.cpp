@@ -54,8 +54,8 @@ Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& dire
   return shadow;
 }
 
-// Small integers, within a reach of 1 to 4. A fifth of the queries is planar and a tenth lies on
-// one line. The motions range from none to every point moving on its own.
+// Makes a query of small integers, within a reach of 1 to 4. A fifth of the queries is planar and a
+// tenth lies on one line. The motions range from none to every point moving on its own.
 Query small_integers(Random& random, std::uint64_t index) {
   Query q = empty_query(index);
   const int reach = random.between(1, 4);
@@ -218,9 +218,9 @@ QueryTask generic(std::uint64_t seed, std::uint64_t index) {
   return {q};
 }
 
-// The first group lands on the second one at the end of the step: level or at any angle, exactly or
-// some units of the last place beyond or short of it. Some pass within the step, and some leave.
-// One in six is generic.
+// Lets the first group land on the second one at the end of the step: level or at any angle,
+// exactly or some units of the last place beyond or short of it. Some pass within the step, and
+// some leave. One in six is generic.
 QueryTask everyday(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
@@ -325,7 +325,7 @@ class ExtremeNumbers {
     for (int& e : scales_) e = any_exponent(random);
   }
 
-  // An exponent is drawn before its mantissa.
+  // Draws a number, the exponent before the mantissa.
   double next() {
     switch (kind_) {
       case 0: {  // anything
@@ -388,8 +388,8 @@ void degenerate(Random& random, std::span<MovingPoint> points) {
   }
 }
 
-// p = (0,-a,0) -> (0,0,-e) and (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0). These points are coplanar
-// throughout, and the dependencies have roots at 1 - e/a and 1 - e/c.
+// Makes p = (0,-a,0) -> (0,0,-e) and (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0). These points are
+// coplanar throughout, and the dependencies have roots at 1 - e/a and 1 - e/c.
 void roots_next_to_one(Random& random, std::span<MovingPoint> points) {
   const auto power = [&](int lo, int hi) { return std::ldexp(1, random.between(lo, hi)); };
   const double a = power(0, greatest_exponent), c = a * random.between(1, 9);

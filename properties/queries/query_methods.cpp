@@ -47,14 +47,14 @@ MethodAnswer detector_integers(const QueryTask& task) {
   return answer_of(answer.contact, answer.time, answer.rung, Want::first_time);
 }
 
-// Of a distance no time is asked for, so that any bracket of it will do.
+// Asks the referee. For a distance no time is asked for, so any bracket of it will do.
 MethodAnswer referee(const QueryTask& task) {
   if (!task.within) return {oracle::referee(task.query)};
   return {oracle::distance_referee(task.query, *task.within, {.bits = 0}).within};
 }
 
-// The limits are small, because a query that is not settled soon is mostly a touch, which no
-// amount of work settles.
+// Asks the second referee, with small limits: a query that is not settled soon is mostly a touch,
+// which no amount of work settles.
 MethodAnswer second_referee(const QueryTask& task) {
   return {oracle::referee(task.query, {60, 100})};
 }
@@ -64,13 +64,13 @@ MethodAnswer distance_referee(const QueryTask& task) {
   return {.decision = verdict.within, .proof = verdict};
 }
 
-// What comes within 0 is in contact.
+// Asks for contact, because features that come within 0 are in contact.
 MethodAnswer contact_at_no_distance(const QueryTask& task) {
   if (task.within->first != -task.within->second) return {};
   return oracle_answer({task.query}, Want::first_time);
 }
 
-// The least distance is the least double that the features come within.
+// Asks for the least distance: the least double that the features come within.
 MethodAnswer least_distance(const QueryTask& task) {
   const double least = oracle::least_distance(task.query);
   const auto is_within = [&](double distance) {
@@ -163,13 +163,13 @@ std::string text(const MethodAnswer& answer, const QueryTask& task) {
   return answer.first ? relation + " at " + text(*answer.first) : relation;
 }
 
-// Whether the first time is 0, as the referee has proved.
+// Returns whether the first time is 0, as the referee has proved.
 bool is_at_start(const oracle::DistanceVerdict& proof) {
   return proof.within == Decision::yes && proof.by.numerator == 0;
 }
 
-// Whether the enclosed time, lo itself or one strictly between lo and hi, surely lies outside of
-// what is proved.
+// Returns whether the enclosed time, lo itself or one strictly between lo and hi, surely lies
+// outside of the proved times.
 bool is_outside(const TimeEnclosure& time, const oracle::DistanceVerdict& proof) {
   const int end = oracle::compare(proof.by, time.lo);
   const bool is_after =

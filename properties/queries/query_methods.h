@@ -59,12 +59,12 @@ struct QueryMethod {
 // Returns the oracle's answer, with the first time if that is wanted.
 MethodAnswer oracle_answer(const QueryTask& task, Want want);
 
-// Returns all methods. The self-test compares with the oracle's timed answer: the oracle asked for
-// yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,
-// and timed), the detector's integers alone, and the second referee, which has no times and leaves
-// touches open. For queries of distance it compares the distance referee, the oracle's contacts if
-// the distance is 0, and the oracle's least distance, which must be at most the distance if the
-// answer is yes.
+// Returns all methods. The self-test compares these with the oracle's timed answer: the oracle
+// asked for yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder
+// (yes or no, and timed), the detector's integers alone, and the second referee. The second referee
+// has no times, and leaves touches open. For queries of distance it compares the distance referee,
+// the oracle's contacts if the distance is 0, and the oracle's least distance, which must be at
+// most the distance if the answer is yes.
 std::span<const QueryMethod> query_methods();
 
 // Returns the method that a user may ask by this word, for yes or no: the oracle, its referee with

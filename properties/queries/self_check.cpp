@@ -134,7 +134,7 @@ std::string step_text(const SmallStep& step) {
   return out + pairs_text("oracle", judge(step).pairs) + pairs_text("detector", detect(step).pairs);
 }
 
-// The first step of a small mesh with everyday numbers.
+// Returns the first step of a small mesh with everyday numbers.
 SmallStep everyday_step(std::uint64_t seed, std::uint64_t index) {
   const auto name = index % 2 == 0 ? "closed-everyday" : "unclosed-everyday";
   const auto c = make_case(*find_family(name), fmt::format("steps:{}:{}:{}", seed, name, index)).c;
@@ -245,8 +245,8 @@ namespace {
 
 using Paths = SmallWorld::Paths;
 
-// The least arrangement of the points of a query: they are sorted within each group, and the
-// lesser edge stands first.
+// Returns the least arrangement of the points of a query: they are sorted within each group, and
+// the lesser edge stands first.
 Paths sort_paths(Paths p, int first_group) {
   std::sort(p.begin() + first_group, p.end());
   if (first_group == 2) {

@@ -16,14 +16,14 @@ namespace assay::properties {
 namespace {
 using Corners = std::array<std::int32_t, 3>;
 
-// +1 if the corners are an even permutation of their ascending order, else -1.
+// Returns +1 if the corners are an even permutation of their ascending order, else -1.
 int orientation(const Corners& c) {
   return ((c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0])) == 2 ? 1 : -1;
 }
 
-// The ghosts of a case for a changed mesh: fans over the unmatched edges of `triangles`, which name
-// vertices of `before`. A fan takes the apex of the first old ghost with which it shares a vertex,
-// or else the mean of its loop. Vertex v of the old ghosts has become target[v]. REQUIRES
+// Returns the ghosts of a case for a changed mesh: fans over the unmatched edges of `triangles`,
+// which name vertices of `before`. A fan takes the apex of the first old ghost with which it shares
+// a vertex, or else the mean of its loop. Vertex v of the old ghosts has become target[v]. REQUIRES
 // before.ghosts.
 corpus::CaseGhosts renewed_ghosts(const Case& before, const Triangles& triangles,
                                   const std::vector<std::int32_t>& target) {

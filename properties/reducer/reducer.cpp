@@ -70,16 +70,16 @@ bool run(std::span<const Pass> passes, ReductionSearch& search) {
   return search.size() < before;
 }
 
-// Whether a case has few numbers. If it does, simple numbers help the passes that shorten. If it
-// has many, the mesh is stuck at a large size, and simplifying the numbers would take all the
+// Returns whether a case has few numbers. If it does, simple numbers help the passes that shorten.
+// If it has many, the mesh is stuck at a large size, and simplifying the numbers would take all the
 // time.
 bool has_few_numbers(const ReductionSearch& search) {
   constexpr std::size_t few = 300;
   return 3 * search.size().vertices * search.size().frames <= few;
 }
 
-// If a pass of a later list made the case smaller, the earlier lists may succeed again, so they
-// are run from the start.
+// Runs all lists. If a pass of a later list makes the case smaller, the earlier lists may succeed
+// again, so they run again from the start.
 void run_all(ReductionSearch& search) {
   bool smaller = true;
   while (smaller) {
@@ -210,7 +210,7 @@ std::string size_text(const Case& before, const Case& after) {
 
 namespace {
 
-// place(frame, axis) gives the address of a coordinate.
+// Appends groups. place(frame, axis) gives the address of a coordinate.
 template <class Place>
 void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place place) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -164,7 +164,7 @@ SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 // step_passes.cpp: puts moving vertices to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
-// step_passes.cpp: makes the relation state less.
+// step_passes.cpp: simplifies the relation.
 void simplify_relation(ReductionSearch& search);  // dropped, in part, or at rest in frame 0
 
 // step_passes.cpp: passes on the view primitive that the case states.

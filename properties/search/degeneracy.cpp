@@ -31,13 +31,13 @@ struct Differences {
     for (std::size_t j = 0; j < 3; ++j) u[j] = place(q, j + 1, t) - origin;
   }
   double coplanarity() const { return u[0].dot(u[1].cross(u[2])); }
-  // The dependency of the four points projected along an axis.
+  // Returns the dependency of the four points projected along an axis.
   double side(int i, int axis) const {
     const double l1 = u[1].cross(u[2])[axis], l2 = u[2].cross(u[0])[axis],
                  l3 = u[0].cross(u[1])[axis];
     return i == 0 ? -(l1 + l2 + l3) : i == 1 ? l1 : i == 2 ? l2 : l3;
   }
-  // The normal of the face, or of the two edges.
+  // Returns the normal of the face, or of the two edges.
   Vec normal(int first_group) const {
     return first_group == 1 ? Vec((u[1] - u[0]).cross(u[2] - u[0])) : Vec(u[0].cross(u[2] - u[1]));
   }
@@ -49,7 +49,7 @@ int greatest_axis(const Vec& v) {
   return static_cast<int>(axis);
 }
 
-// The Bernstein coefficients of F, each times the number of its terms.
+// Returns the Bernstein coefficients of F, each times the number of its terms.
 std::array<double, 4> bernstein(const FourPoints& q) {
   std::array<double, 4> sum{};
   const Differences at_0(q, 0), at_1(q, 1);

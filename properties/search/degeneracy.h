@@ -45,8 +45,8 @@ struct Gap {
 // which they are examined. `separation` is the query's distance, 0 for a contact. About 10 us.
 Gap gap_of(const FourPoints& query, double time, double separation = 0);
 
-// Returns one number by which queries are compared: the bits of the smallest share, and half of
-// those of the next. From 0 to 96; a share of 0 counts as 64 bits.
+// Returns one number by which queries are compared, from 0 to 96: the bits of the smallest share,
+// plus half of the bits of the next smallest. A share of 0 counts as 64 bits.
 double nearness(const Gap& gap);
 
 // Moves a query onto degeneracies by Newton steps: the points move as little as possible, until
@@ -68,8 +68,8 @@ struct DegeneracyAt {
 };
 
 // Returns the moved query; nothing if the steps do not come near the goals, or if a number
-// overflows on the way. The bits of `moving` say what moves: bit i is point i at t = 0, bit 4 + i
-// is point i at t = 1. About 20 us.
+// overflows on the way. The bits of `moving` name the ends that move: bit i is point i at t = 0,
+// bit 4 + i is point i at t = 1. About 20 us.
 inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);

@@ -14,7 +14,7 @@
 namespace assay::properties {
 namespace {
 
-// Times at which things are made to happen: the ends, powers of two, and next to the ends.
+// Returns a time at which something is made to happen: an end, a power of two, or next to an end.
 double menu_time(Random& random, const FourPoints& q) {
   constexpr double fixed[] = {0, 1, 1, 0.5, 0.5, 0.25, 0.125, 0.75};
   switch (random.below(4)) {
@@ -31,7 +31,7 @@ double menu_time(Random& random, const FourPoints& q) {
   }
 }
 
-// Which ends may move: all, those at t = 1, one point, or one point's end.
+// Returns which ends may move: all, those at t = 1, one point, or one point's end.
 unsigned menu_of_ends(Random& random) {
   const unsigned point = static_cast<unsigned>(random.below(4));
   switch (random.below(4)) {
@@ -191,7 +191,7 @@ void near_a_plane(Random& random, FourPoints& q, const Focus&, const MoveContext
   }
 }
 
-// The points with few bits, so that the sums and products below are exact.
+// Returns the points with few bits, so that the sums and products below are exact.
 FourPoints of_few_bits(FourPoints q) {
   double size = 0;
   for (const auto& p : q.points) {
@@ -203,7 +203,8 @@ FourPoints of_few_bits(FourPoints q) {
   return q;
 }
 
-// Vertex and face touch without crossing, at t = s: an exact double root, as in generators/aims.
+// Lets vertex and face touch without crossing, at t = s: an exact double root, as in
+// generators/aims.
 void graze(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   if (q.first_group != 1) return;
   q = of_few_bits(q);
@@ -218,7 +219,7 @@ void graze(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   vertex.t1 = middle + (2 * s - 1) * e + s * s * share * w;
 }
 
-// Two edges become parallel, or a face a segment: throughout, or at one end of the step.
+// Makes two edges parallel, or a face a segment: throughout, or at one end of the step.
 void align(Random& random, FourPoints& q, const Focus&, const MoveContext&) {
   q = of_few_bits(q);
   auto& [p0, p1, p2, p3] = q.points;

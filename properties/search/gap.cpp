@@ -38,7 +38,7 @@ Scaled scaled(const IntegerPolynomial& p) {
   return out;
 }
 
-// |x| / 2^exponent, at most 1.
+// Returns |x| / 2^exponent, at most 1.
 double share_of(const Integer& x, long exponent) {
   long own = 0;
   const double mantissa = std::abs(mantissa_of(x, own));
@@ -99,7 +99,7 @@ class Sides {
   long greatest_ = 0;
 };
 
-// The unit of the error bounds of the filters: the product over the axes of the greatest
+// Returns the unit of the error bounds of the filters: the product over the axes of the greatest
 // |coordinate| of the u_j.
 double log2_of_bound(const FourPoints& q) {
   double sum = 0;
@@ -120,7 +120,7 @@ double log2_of(const Integer& x) {
   return std::log2(mantissa) + static_cast<double>(exponent);
 }
 
-// The times at which a cubic may have a double root.
+// Returns the times at which a cubic may have a double root.
 std::array<double, 2> critical_times(const Scaled& f) {
   const double a = 3 * f.c[3], b = f.c[2], c = f.c[1];  // a t^2 + 2 b t + c
   if (a == 0) return {b == 0 ? -1 : -c / (2 * b), -1};
@@ -128,8 +128,8 @@ std::array<double, 2> critical_times(const Scaled& f) {
   return {(-b - root) / a, (-b + root) / a};
 }
 
-// How far the distance at this time is from the one asked about, over the greater of the two and,
-// for a contact, the extent. 1 if a contact is asked for and there is one.
+// Returns how far the distance at this time is from the asked one, divided by the greater of the
+// two and, for a contact, the extent. 1 if a contact is asked for and there is one.
 double share_of_distance(const FourPoints& query, double time, double separation) {
   const double distance = std::sqrt(oracle::closest_places(query, time).squared);
   if (!(distance < 1e300) || (separation == 0 && distance == 0)) return 1;

@@ -17,10 +17,10 @@ namespace {
 
 using Row = Eigen::RowVector3d;
 
-// Whether the mesh may be changed: a relation and ghosts speak of its numbers.
+// Returns whether the mesh may be changed: a relation and ghosts speak of its numbers.
 bool is_plain(const Case& c) { return !c.counted && !c.ghosts; }
 
-// A triangle becomes another one, a corner at a time; or is doubled in its place, flipped, dropped.
+// Edits a triangle: changes a corner, doubles it in its place, flips it, or drops it.
 void edit_mesh(Random& random, Candidate& child, const MoveContext&) {
   if (!is_plain(child.c)) return;
   auto triangles = triangles_of(child.c);

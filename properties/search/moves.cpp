@@ -61,8 +61,8 @@ class NearestFeatures {
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
-// The places in FourPoints of the vertices of a feature: an edge that pierces a face gives its
-// first end.
+// Sets the vertices of the feature at their places in FourPoints. An edge that pierces a face gives
+// its first end.
 void set_feature(Focus& focus, const Feature& feature) {
   const auto& v = feature.vertices;
   const bool is_piercing = feature.kind == FeatureKind::piercing;
@@ -78,9 +78,9 @@ Row row_at(const MovingPoint& p, double t) {
   return row_of(p.t0) + t * (row_of(p.t1) - row_of(p.t0));
 }
 
-// How far a triangle is positive, and how far negative, each from 0 to 1: a quarter is the share of
-// times and corners with this sign, three quarters are the share of times of the corner that has
-// the sign most often.
+// How far a triangle is positive, and how far it is negative, from 0 to 1. Each number is a
+// weighted mean of two shares: a quarter is the share of times and corners with this sign, and the
+// rest the share of times at which one corner has it, the corner that has it most often.
 struct Shares {
   double positive = 0, negative = 0;
 };

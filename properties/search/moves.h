@@ -52,10 +52,10 @@ bool is_within_a_component(const Case& c, const Focus& focus);
 // exact view test. Example: two layers of a roll, seen from its axis; the inner one goes through
 // the outer one.
 //
-// The result is from 0 to 1: how far a pair's two triangles have one sign, at a few times, in
-// doubles, for the least alike pair of the first contacts. It is 1 if all pairs have one sign, and
-// 0 without a contact or a view primitive. It is meaningless if two components meet, because such
-// pairs are never left out (L10). About 2 us for a pair.
+// The result tells, from 0 to 1, how far the two triangles of a pair have one sign, at a few times,
+// in doubles; it is that of the least alike pair of the first contacts. It is 1 if all pairs have
+// one sign, and 0 without a contact or a view primitive. It is meaningless if two components meet,
+// because such pairs are never left out (L10). About 2 us for a pair.
 double seen_alike(const Case& c, const Focus& focus);
 
 // A case in the making. A move that changes which triangles or vertices are in focus drops the
@@ -91,7 +91,7 @@ struct Move {
 // Returns all moves. The first lets the features meet, the second changes the size.
 std::span<const Move> moves();
 
-// Return the lists of which moves() is made.
+// Return the lists that moves() joins.
 std::span<const Move> feature_moves();
 std::span<const Move> step_moves();
 std::span<const Move> mesh_moves();

@@ -48,8 +48,8 @@ void choose_moves(Random& random, const SearchSpace& space, Swarm& swarm) {
 void choose_sizes(Random& random, const SearchSpace& space, Swarm& swarm) {
   constexpr std::size_t any_frames = 9;
   if (swarm.theme == Theme::fresh) {
-    // Larger cases take three quarters of the time of trials, and find least in it. Without views
-    // a pair of triangles shows most of what a mesh shows.
+    // Larger cases take three quarters of the time of trials, and find least in it. Without views a
+    // pair of triangles shows most faults that a mesh shows.
     constexpr Eigen::Index sizes[] = {12, 24, 24, 40}, of_features[] = {4, 4, 8, 12, 24, 40};
     swarm.most_triangles = space.gives_views ? one_of(random, sizes) : one_of(random, of_features);
     swarm.most_frames = any_frames;
@@ -87,7 +87,7 @@ Swarm::Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t be
 }
 namespace {
 
-// How far the detector is off, in bits. Deviations that its contract allows count, too.
+// Returns how far the detector is off, in bits. Deviations that its contract allows count, too.
 double error_bits(const CaseResults& results) {
   constexpr double alarm = 8, no_answer = 8, disagreement = 16, bits_of_a_double = 53;
   double bits = 0;
@@ -108,8 +108,8 @@ double error_bits(const CaseResults& results) {
   return bits;
 }
 
-// What the detector did in its first configuration, in a few letters, which distinguish cases of
-// one cause that go different ways through the detector.
+// Returns, in a few letters, the way that a case took through the detector in its first
+// configuration. It distinguishes cases of one cause that go different ways.
 std::string ways_of(const CaseResults& results) {
   std::string ways;
   if (results.runs.empty()) return ways;
@@ -136,7 +136,7 @@ struct Entry {
   std::string cause, cell;
   double score = 0;
   bool is_within_a_component = false;
-  double alike = 0;  // what meets first (seen_alike)
+  double alike = 0;  // the pairs that meet first (seen_alike)
 };
 
 std::string word_of_hardest(const Gap& gap) {
@@ -172,7 +172,7 @@ std::optional<Entry> entry_of(const CaseResults& one, const SearchSpace& space, 
 // of the detector (ways_of), and how a culling sees the case.
 class Archive {
  public:
-  // The later of two equally good cases stays, so that the search drifts.
+  // Offers a case. The later of two equally good cases stays, so that the search drifts.
   void offer(Entry&& one) {
     causes_.insert(one.cause);
     const auto [place, is_new] = cells_.try_emplace(one.cell, cases_.size());
@@ -184,7 +184,7 @@ class Archive {
       cases_[place->second] = std::move(one);
     }
   }
-  // Null if there is none of this kind.
+  // Draws a case of this kind; null if there is none.
   const Candidate* draw(Random& random, Parents parents = Parents::any) const {
     if (parents == Parents::any) return cases_.empty() ? nullptr : &one_of(random, cases_).child;
     // Cases that are alike are rare, so half of the draws choose among them.
@@ -210,7 +210,7 @@ struct LaneSearch {
   std::uint64_t draws_ = 0;
   std::uint64_t of_swarm_ = 0;  // cases that were asked in this swarm
   bool renew_ = false;
-  std::uint64_t idle_ = 0;  // swarms in a row of which the contract took no case
+  std::uint64_t idle_ = 0;  // swarms in a row from which the contract took no case
   LaneResult result_ = {};
 
   LaneResult run(const ExamineCases& examine, const std::function<bool()>& stop) {
@@ -241,8 +241,8 @@ struct LaneSearch {
   }
 
  private:
-  // A case that the contract takes; nothing if many attempts in a row led to none. Each attempt
-  // draws by its own number.
+  // Returns a case that the contract takes; nothing if many attempts in a row led to none. Each
+  // attempt draws by its own number.
   std::optional<Case> next_case() {
     constexpr int most_attempts = 200;
     for (int attempts = 0; attempts < most_attempts; ++attempts) {

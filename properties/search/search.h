@@ -42,8 +42,8 @@ struct SearchSpace {
 // A part of a search that depends only on its name: it begins with an empty archive. For some cases
 // at a time it has a theme (Swarm), with its own size of meshes, because a theme that finds one
 // fault hides others. Some themes only draw fresh cases. Others move small meshes onto
-// degeneracies, or, for a detector that is given views, seek contacts that no view finds: within a
-// sheet or between nested shells that are seen from one side, and after other past steps.
+// degeneracies. For a detector that is given views, others seek contacts that no view finds: within
+// a sheet or between nested shells that are seen from one side, and after other past steps.
 struct SearchLane {
   std::string id;           // the ids of its cases begin with it
   std::uint64_t cases = 0;  // the number of cases to ask

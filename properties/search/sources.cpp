@@ -27,7 +27,7 @@ int weight_of_queries(std::string_view queries) {
   return is_dear_query_family(queries) ? 2 : weight_of_a_kind / 8;
 }
 
-// Far meshes take the oracle four times as long as others.
+// Returns the weight of a family. Far meshes take the oracle four times as long as others.
 int weight_of_family(std::string_view family) {
   return family.find("far") == std::string_view::npos ? weight_of_a_kind / 2
                                                       : weight_of_a_kind / 10;
@@ -94,7 +94,7 @@ class CuratedCases {
   }
 
  private:
-  // A case without frames is none that is taken.
+  // Returns a case; one without frames is not taken.
   Case at(std::size_t i) {
     const std::lock_guard lock(mutex_);
     const auto [place, is_new] = cases_.try_emplace(i);

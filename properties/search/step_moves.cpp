@@ -30,7 +30,7 @@ void insert_frame(Case& c, std::int32_t place, Positions x) {
   }
 }
 
-// The step of this number in two parts, or its second part alone.
+// Replaces the step of this number by its two parts, or by its second part alone.
 void split_step(Case& c, std::size_t place, double share, bool has_first_part) {
   const auto step = steps_of(c)[place];
   const auto& x0 = c.frames[detector::at(step.from)];
@@ -55,8 +55,8 @@ void split_step(Case& c, std::size_t place, double share, bool has_first_part) {
     c.script.insert(c.script.begin() + static_cast<std::ptrdiff_t>(place), {from, part, true});
 }
 
-// Another past of the step in focus: the same step, after other steps, from another place, in two
-// parts. What a detector carries from step to step is then different.
+// Changes the past of the step in focus: the same step comes after other steps, from another place,
+// or in two parts. The state that a detector carries from step to step is then different.
 constexpr std::size_t most_frames = 6, most_steps = 8;
 void past(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
@@ -68,7 +68,7 @@ void past(Random& random, Candidate& child, const MoveContext&) {
                          : static_cast<std::size_t>(random.below(static_cast<int>(script.size())));
   const auto step = script[place];
   const auto here = script.begin() + static_cast<std::ptrdiff_t>(place);
-  std::size_t before = 0;  // so many steps more stand before the one in focus
+  std::size_t before = 0;  // the number of further steps before the one in focus
   switch (random.below(8)) {
     case 0:  // a step at rest before it, taken or looked at
       script.insert(here, {step.from, step.from, random.one_in(2)});
@@ -133,7 +133,7 @@ void past(Random& random, Candidate& child, const MoveContext&) {
   if (child.focus) child.focus->step += before;
 }
 
-// One more step: on, or back.
+// Adds one more step: on, or back.
 void more_steps(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.frames.size() >= most_frames || c.counted || c.ghosts) return;

@@ -32,7 +32,7 @@ void see_from(Case& c, const Row& q0, const Row& q1, const Row& way, bool is_lin
   }
 }
 
-// A view primitive near the features, or the middle, or none.
+// Gives the case a view primitive near the features or in the middle, or none.
 void view(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   c.view.reset();
@@ -79,7 +79,7 @@ void look_aside(Random& random, Candidate& child, const MoveContext& context) {
   std::vector<DegeneracyAt> goals = {
       {random.one_in(2) ? Degeneracy::double_root : Degeneracy::coplanar, time, 0}};
   if (random.one_in(3)) goals.push_back({Degeneracy::coplanar, one_of(random, times), 0});
-  // The primitive, a corner, or both; what is at rest stays there in half of the cases.
+  // The primitive, a corner, or both; points at rest stay so in half of the cases.
   const unsigned masks[] = {0x01, 0x10, 0x11, 0xe0, 0xf0, 0x20, 0xff, 0xee};
   const auto points_moved = moved_onto(points, goals, one_of(random, masks));
   if (!points_moved) return;
@@ -122,10 +122,10 @@ std::optional<Row> place_behind(Random& random, const std::vector<Side>& sides) 
   return Row(middle - (least + one_of(random, farther) * size) * way);
 }
 
-// Sets a view primitive from which the pair in focus, all pairs that meet first, or the whole mesh
-// faces away, or which these face, at both ends of the step and at some places between. If the
-// primitive moves, this holds in each frame. Pairs then meet only because a triangle turns on the
-// way, or because a ghost is touched (L4, L11).
+// Sets a view primitive that the pair in focus, all pairs that meet first, or the whole mesh faces
+// or faces away from, at both ends of the step and at some places between. If the primitive moves,
+// this holds in each frame. Pairs then meet only because a triangle turns on the way, or because a
+// ghost is touched (L4, L11).
 void face_away(Random& random, Candidate& child, const MoveContext&) {
   auto& c = child.c;
   if (c.ghosts || !child.focus || c.triangles.rows() == 0) return;
@@ -224,8 +224,8 @@ std::optional<Ray> any_ray(Random& random, const Case& c, const Positions& x,
   return is_positive || is_negative ? std::optional(ray) : std::nullopt;
 }
 
-// Moves the view primitive into the plane of one of the triangles that meet first, at a time, as
-// doubles see it: the sign of the triangle is then one of rounding errors.
+// Moves the view primitive, at one time, into the plane of one of the triangles that meet first, as
+// computed in doubles: then only rounding errors decide the sign of the triangle.
 void put_into_a_plane(Random& random, Candidate& child) {
   auto& c = child.c;
   const auto step = steps_of(c)[child.focus->step];
@@ -290,7 +290,7 @@ constexpr Move of_views[] = {
     {"aside", "Newton steps of a view primitive and a triangle", MoveKind::view, 4, look_aside},
     {"away", "a view primitive from which the triangles in focus face away", MoveKind::view, 5,
      face_away},
-    {"gaze", "of some view primitives that from which what meets first looks most alike",
+    {"gaze", "of some view primitives, the one from which the first contacts look most alike",
      MoveKind::view, 5, gaze},
     {"ray", "a vertex goes through a triangle along a ray of a view-point", MoveKind::view, 5,
      pass_by_ray},

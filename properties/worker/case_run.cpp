@@ -79,7 +79,8 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return undecided;
 }
 
-// How far the caller may go in the step; nothing without an answer. The state stays as it is.
+// Returns how far the caller may go in the step; nothing without an answer. The state stays as it
+// is.
 std::optional<LimitAnswer> limit_of(CasePlayer& player, std::size_t s) try {
   auto limit = player.detector().limit(player.x_t0(s), player.x_t1(s));
   if (limit.answer != Answer::free && limit.answer != Answer::collision) return std::nullopt;
@@ -195,8 +196,8 @@ double processor_seconds_here() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// This does not use getrusage(), because its value outlives exec(), and so includes the memory of
-// the process that started this one.
+// Returns the peak memory. It does not use getrusage(), because that value outlives exec(), and so
+// includes the memory of the process that started this one.
 std::uint64_t peak_bytes_here() {
   constexpr std::uint64_t bytes_a_kilobyte = 1024;
   std::ifstream status("/proc/self/status");

@@ -122,7 +122,8 @@ void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Returns why step s has no answer; empty if no reason is known.
 std::string error_of(const CaseRun& run, std::size_t s);
 
-// Record, and return, whether step s was refused as beyond the capacity.
+// The first records that step s was refused as beyond the capacity; the second returns whether it
+// was.
 void note_capacity(CaseRun& run, std::size_t s);
 bool is_over_capacity(const CaseRun& run, std::size_t s);
 
@@ -140,7 +141,7 @@ class RunClock {
   explicit RunClock(bool is_on) : is_on_(is_on) { begin(); }
   void created() { times_.create = lap(); }
   void begin() { lap(); }  // a step begins
-  // The step that began last has its answer.
+  // Notes that the step that began last has its answer.
   void end_step() { times_.steps.push_back(lap()); }
   std::optional<RunTimes> take();
 

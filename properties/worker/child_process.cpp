@@ -141,7 +141,8 @@ void write_all(int descriptor, std::string_view text) {
   }
 }
 
-// A terminal's ctrl-C is for the host alone, which ends in its own way; the copy ends with it.
+// Lets the copy end with its host. A terminal's ctrl-C is for the host alone, which ends in its own
+// way.
 void live_with_the_host() {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -163,7 +164,7 @@ void live_with_the_host() {
   ::_exit(0);
 }
 
-// All that the copy has said.
+// Returns all that the copy has said.
 std::string said_in(int file) {
   std::string text;
   std::array<char, 4096> buffer;
@@ -259,7 +260,7 @@ std::optional<Row> read_row(const std::string& path) {
   return row;
 }
 
-// The rows of everything in a folder whose name is a number: the processes of /proc, or the
+// Returns the rows of everything in a folder whose name is a number: the processes of /proc, or the
 // threads of /proc/ID/task.
 std::vector<Row> rows_in(const std::string& folder) {
   std::vector<Row> rows;
@@ -324,13 +325,13 @@ namespace {
 
 constexpr double shortest_wait = 1e-3;  // seconds
 
-// The wait before the first look. The processor time that children of the worker used for the case
-// before that look is not counted, so the look comes early. Most cases are over by then, so it
-// costs them nothing.
+// Returns the wait before the first look. The processor time that children of the worker used for
+// the case before that look is not counted, so the look comes early. Most cases are over by then,
+// so it costs them nothing.
 double first_wait(double limit) { return std::clamp(limit / 10, shortest_wait, .05); }
 
-// The wait between two looks. It is long enough to tell sleep from a pause, and long enough that a
-// look costs nothing.
+// Returns the wait between two looks. It is long enough to tell sleep from a pause, and long enough
+// that a look costs nothing.
 double longest_wait(double limit) { return std::clamp(limit / 10, shortest_wait, 1.); }
 
 double seconds_between(std::chrono::steady_clock::time_point from,

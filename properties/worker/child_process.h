@@ -36,9 +36,9 @@ class Descriptor {
 // The descriptor of the child's end of the channel.
 inline constexpr int child_descriptor = 3;
 
-// An open file of this process, and its number in the child. REQUIRES that `here` is not the number
-// of another file in the child: numbers from least_passed_descriptor on never are, and the first of
-// a list may have any number.
+// An open file of this process, and its number in the child. REQUIRES that no earlier file of a
+// list has the number `here` in the child; no file has it if `here` is least_passed_descriptor or
+// more.
 struct PassedDescriptor {
   int here, there;
 };
@@ -48,7 +48,8 @@ struct ChildEnd {
   int signal = 0;        // the signal that killed it; 0: it exited
   int code = 0;          // the code that it exited with
   bool by_host = false;  // the host killed it, because it did not end in time
-  // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when by_host.
+  // The end in words: "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when
+  // by_host.
   std::string text;
 };
 
@@ -161,7 +162,7 @@ class ProcessorTime {
   double seconds() const;
   // Returns seconds(), and begins anew at that point.
   double lap();
-  // Also measures the started processes. About 5 us for each process of the machine.
+  // Measures the started processes too. About 5 us for each process of the machine.
   ProcessTree look();
 
  private:

@@ -117,13 +117,13 @@ namespace {
 // The number by which bwrap finds the filter of calls.
 constexpr int filter_descriptor = 5;
 
-// Calls that ask for a network, and calls that give memory which no limit counts. Programs work
-// without these, as on a system that does not have them.
+// System calls that are refused: those that ask for a network, and those that give memory that no
+// limit counts. Programs work without them, as on a system that lacks them.
 constexpr const char* refused_calls[] = {
     "socket", "io_uring_setup", "memfd_create", "memfd_secret", "shmget", "msgget", "mq_open",
 };
 
-// An open file in memory that holds the filter; negative if the system gives none.
+// Returns an open file in memory that holds the filter; negative if the system gives none.
 Descriptor open_filter() {
   const Descriptor file(::memfd_create("filter", MFD_CLOEXEC));
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ALLOW);

@@ -33,7 +33,7 @@ constexpr int exit_usage = 2;
 
 // The limits that this process sets for itself before it loads a plug-in.
 
-// A lower limit stays.
+// Sets a limit. A lower one that is set already stays.
 bool limit(__rlimit_resource resource, rlim_t most) {
   rlimit now = {};
   if (::getrlimit(resource, &now) != 0) return false;
@@ -52,7 +52,7 @@ void stop_being_root() {
 }
 
 // Limits the bytes of address space of this process and of each process that it starts; 0: no
-// limit. A lower limit that the user has set stays. False if the system refuses.
+// limit. A lower limit that the user has set stays. Returns false if the system refuses.
 bool limit_memory(std::uint64_t bytes) { return bytes == 0 || limit(RLIMIT_AS, bytes); }
 
 // Limits also the bytes of each file that this process writes, to the same number. A call that
@@ -73,10 +73,10 @@ bool limit_plugin(std::uint64_t bytes) {
          (bytes == 0 || limit(RLIMIT_FSIZE, bytes)) && limit_memory(bytes);
 }
 
-// If the machine itself runs out of memory, the system ends this process, and what it starts,
-// before any other. Many processes together may take more than the machine has, although each
-// keeps its limit. If the system has no such file, or keeps it closed, it chooses by itself which
-// process to end.
+// Lets the system end this process, and those that it starts, before any other if the machine
+// itself runs out of memory. Many processes together may take more than the machine has, although
+// each keeps its limit. If the system has no such file, or keeps it closed, it chooses by itself
+// which process to end.
 void end_first_without_memory() {
   constexpr std::string_view first_of_all = "1000";
   const Descriptor file(::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC));
@@ -156,10 +156,10 @@ int serve(Channel channel, const LoadedPlugin* library) {
 
 }  // namespace
 
-// The arguments are the descriptor of the channel, the process of the host (0 behind bwrap) and a
-// limit in bytes. For a plug-in these follow: the library, its scratch folder, how many threads it
-// may use, its name as the user calls it, which may be the word of a detector in Python, the number
-// by which this worker differs from others, and 1 where each step is evaluated twice, else 0.
+// Serves the host. The arguments are the descriptor of the channel, the process of the host (0
+// behind bwrap) and a limit in bytes. For a plug-in these follow: the library, its scratch folder,
+// its number of threads, the user's name for it (perhaps the word of a detector in Python), the
+// number by which this worker differs from others, and 1 if each step is evaluated twice, else 0.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   constexpr std::size_t built_in = 4, with_plugin = 10;
@@ -179,8 +179,8 @@ int main(int argc, char** argv) {
                                   *asks_twice != 0};
         if (const auto word = python_word_of(plugin.name))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
-        ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // what the host left open
-        if (*host == 0) ::setsid();                                  // bwrap's is out of its sight
+        ::close_range(static_cast<unsigned>(*channel) + 1, ~0U, 0);  // left open by the host
+        if (*host == 0) ::setsid();                                  // bwrap's cannot be seen here
         if (!limit_plugin(*bytes)) return exit_usage;
         // An exception that nobody catches ends the process as it would end any other.
         std::exit(serve(std::move(to_host), &plugin));

@@ -75,7 +75,8 @@ class Wire : public NamedFields<Wire<reads>> {
       fields(*this, item);
     }
   }
-  // A bool or an enum never gets a number that is no valid value of it.
+  // Passes a number up to `last`, so that a bool or an enum never gets a number that is no value of
+  // it.
   template <class T, class Number>
   void pass_up_to(T& item, Number last) {
     Number number = reads ? Number{0} : static_cast<Number>(item);
@@ -121,7 +122,7 @@ class Wire : public NamedFields<Wire<reads>> {
     }
     if (item) pass(*item);
   }
-  // Rows x 3.
+  // Passes a matrix of rows x 3.
   template <class T>
   void pass(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
     const auto count = pass_count(static_cast<std::size_t>(rows.size()), sizeof(T)) / 3 * 3;
@@ -157,8 +158,8 @@ class Wire : public NamedFields<Wire<reads>> {
 // The messages, field by field. A new field of a result or an option does not compile until it is
 // named here.
 
-// The relation of the options is not sent: the relation of the case counts, and is sent with the
-// case.
+// Lists the options. Their relation is not sent: the relation of the case counts, and is sent with
+// the case.
 template <class Archive>
 void fields(Archive& archive, Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
@@ -173,7 +174,7 @@ ASSAY_FIELDS(LimitAnswer, share, positions)
 
 template <class Archive>
 void fields(Archive& archive, CaseRun& run) {
-  // The host sets the last three.
+  // The last three members are set by the host.
   auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
          disturbances, processor_seconds, output] = run;
   archive("end", end, "explanation", explanation, "steps", steps, "candidates", candidates,
@@ -187,7 +188,7 @@ ASSAY_FIELDS(corpus::CaseGhosts, apexes, triangles)
 ASSAY_FIELDS(CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
-// Only facts that a detector may know are sent, never the expected facts.
+// Lists the relation. Only facts that a detector may know are sent, never the expected facts.
 template <class Archive>
 void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);
@@ -215,7 +216,7 @@ struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
   bool serves = true;
-  std::string refusal;  // why it does not
+  std::string refusal;  // why the worker cannot serve
 };
 ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 

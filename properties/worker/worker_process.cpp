@@ -26,7 +26,7 @@ constexpr int attempts = 3;
 std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
 
 std::string breach(const std::string& rule) {
-  return fmt::format("sent a reply that is none: {}", rule);
+  return fmt::format("sent an invalid reply: {}", rule);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ struct WorkerProcess::Parts {
       const ChildEnd end = child.finish(patience);
       return is_behind_bubblewrap ? end_behind_bubblewrap(end) : end;
     }
-    // Called again and again while the host waits for the worker.
+    // Is called again and again while the host waits for the worker.
     std::optional<std::chrono::milliseconds> wait(WorkerWatch& watch) {
       if (output) output->keep_short();
       return watch.patience();
@@ -71,7 +71,8 @@ struct WorkerProcess::Parts {
 
   // Makes sure that there is a live worker, and starts a new one if need be.
   Expected<void> ensure() {
-    // Behind bwrap, the worker outlives it by a moment.
+    // The child may be bwrap, which the worker outlives by a moment, so the channel is looked at
+    // too.
     if (live && (live->channel.is_closed() || live->child.has_ended())) bury();
     for (int killed = 0; !live; ++killed) {
       end_of_loading = RunEnd::not_run;
@@ -126,7 +127,7 @@ struct WorkerProcess::Parts {
                       "--isolation limits",
                       who(), fault)};
     isolation = fault.empty() ? Isolation::bubblewrap : Isolation::limits;
-    // A new one, so that no process finds what another one has left.
+    // A new one, so that no process finds the files of another one.
     BOOST_OUTCOME_TRY(folder, ScratchFolder::make());
     scratch.emplace(std::move(folder));
     if (names_python(who())) {
@@ -147,7 +148,7 @@ struct WorkerProcess::Parts {
                 std::move(output));
   }
 
-  // Why the worker is not started behind bubblewrap; empty if it is.
+  // Returns why the worker is not started behind bubblewrap; empty if it is.
   std::string fault_of_isolation() const {
     if (limits.isolation == Isolation::limits) return "not asked for";
     std::error_code ignored;
@@ -202,7 +203,7 @@ struct WorkerProcess::Parts {
 
   Problem broken_hello() const { return {fmt::format("{}: {}", who(), breach("no description"))}; }
 
-  // Sends what is left to do and appends the answers, until a run ends the worker.
+  // Sends the remaining cases and appends the answers, until a run ends the worker.
   void run_rest(std::span<const Case> cases, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // These are the fields of a RunRequest, without a copy of the cases.
@@ -246,7 +247,7 @@ struct WorkerProcess::Parts {
     }
     const std::string rule = transfer == Transfer::too_long ? "longer than any reply to this case"
                              : decode(message, reply)       ? rule_of()
-                                                            : "bytes that are none";
+                                                            : "malformed bytes";
     if (rule.empty()) return true;
     // The plug-in sent something that is no reply, so it counts as one that crashed.
     CaseRun run;
@@ -265,7 +266,7 @@ struct WorkerProcess::Parts {
     return end;
   }
 
-  // The worker fell silent.
+  // Ends a worker that fell silent.
   void end_silent_worker(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = is_hung ? RunEnd::hung : RunEnd::crashed;

@@ -45,8 +45,8 @@ struct WorkerLimits {
 // instance for each thread: the worker dies with the thread that started it.
 class WorkerProcess {
  public:
-  // `program` is the executable assay-worker. With a plug-in, the plug-in runs every
-  // configuration.
+  // Keeps the words for starting a worker. `program` is the executable assay-worker. With a
+  // plug-in, the plug-in runs every configuration.
   WorkerProcess(std::filesystem::path program, std::optional<std::filesystem::path> plugin_library,
                 WorkerLimits limits = {});
   WorkerProcess(WorkerProcess&&) noexcept;
@@ -71,8 +71,8 @@ class WorkerProcess {
   std::vector<CaseRun> run(const Case& c, std::span<const Configuration> configurations) {
     return run({&c, 1}, configurations);
   }
-  // The same for many small cases, which go to the worker together. Returns the runs of the first
-  // case, then those of the next. Output and processor time are not told apart.
+  // Does the same for many small cases, which go to the worker together. Returns the runs of the
+  // first case, then those of the next. Output and processor time are not told apart.
   std::vector<CaseRun> run(std::span<const Case> cases,
                            std::span<const Configuration> configurations);
 

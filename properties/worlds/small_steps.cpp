@@ -64,8 +64,8 @@ const std::vector<MeshFamily>& families() {
   return all;
 }
 
-// One of four motions: nothing moves, one vertex moves, all vertices translate, or every vertex
-// goes its own way.
+// Draws one of four motions: nothing moves, one vertex moves, all vertices translate, or every
+// vertex goes its own way.
 void move(Random& random, int reach, const Positions& x_t0, Positions& x_t1) {
   x_t1 = x_t0;
   const auto n = static_cast<int>(x_t0.rows());

@@ -33,7 +33,7 @@ bool next_ascending(std::span<int> list, int end) {
   return false;
 }
 
-// The number of different orders of four sorted items.
+// Returns the number of different orders of four sorted items.
 std::uint64_t orders(const std::array<int, 4>& ascending) {
   std::uint64_t all = 24, run = 1;
   for (std::size_t i = 1; i < 4; ++i) {
@@ -278,7 +278,7 @@ class Check {
     return compare(result, judgement_, claims_of({.pairs = pairs})).outcome != Outcome::holds;
   }
 
-  // The law that does not hold, or null if all hold.
+  // Returns the law that does not hold, or null if all hold.
   const char* check_laws(std::size_t orientation, const ViewPrimitive& q) {
     const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[orientation], {&q, 1});
     const auto all = [&](ViewSign sign) {

@@ -124,7 +124,7 @@ std::string quoted(const std::string& words) {
   return text + '"';
 }
 
-// Words stand in quotes only if they have to.
+// Returns a field of the CSV. Words stand in quotes only if they have to.
 std::string csv_field(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());

@@ -52,7 +52,7 @@ corpus::Sequence bench_scene(const std::string& name, int triangles, int frames)
 std::optional<corpus::Sequence> step_at_first_contact(const std::string& scene, int triangles);
 
 // Returns the steps of a sequence that are worth judging: up to three before the first contact and
-// two from there on. If there is no contact: the first five.
+// two from there on; without a contact the first five.
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence);
 
 // A case, and the knowledge about its start.

@@ -90,10 +90,10 @@ std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject
 // the bootstrap. All results are deterministic.
 
 // A median with a rank interval. The ends are order statistics of the samples: the closest pair
-// x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more, whatever the
-// distribution: 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than six samples cannot reach 95 %:
-// the ends are then the least and the largest sample, which hold the median with probability 1 -
-// 2^(1-n).
+// x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more. Whatever the
+// distribution, that probability is 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than six samples
+// cannot reach 95 %: the ends are then the least and the largest sample, which hold the median with
+// probability 1 - 2^(1-n).
 struct Estimate {
   double value = 0, lo = 0, hi = 0;
   std::vector<double> samples;  // raw, in the order in which they were taken

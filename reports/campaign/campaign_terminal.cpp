@@ -57,7 +57,7 @@ class CampaignTerminal : public properties::CampaignObserver {
                before ? fmt::format(" ({} are stored, {} to do)", before, trials - before) : "",
                request_.detector.configurations.size() + request_.detector.of_questions.size());
     if (request_.power) {
-      fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
+      fmt::print("; planted faults were found by campaign {}, seed {}, of this build",
                  request_.power->source.campaign, request_.power->source.seed);
     } else if (plan.fault_cases > 0) {
       fmt::print("; {} planted faults", properties::planted_count());
@@ -124,9 +124,10 @@ class CampaignTerminal : public properties::CampaignObserver {
   const Expected<void>& status() const { return status_; }
 
  private:
-  // If much of a campaign is undecided, most of its time is the wait for those cases.
+  // Returns advice if much of a campaign is undecided: most of its time is the wait for those
+  // cases.
   std::string advice(const properties::TrialProgress& state) const {
-    constexpr std::uint64_t share = 50;  // one in so many
+    constexpr std::uint64_t share = 50;  // one trial in this many
     constexpr double short_limit = 1;
     const bool waits = state.undecided > 1 && state.undecided * share > state.done_trials &&
                        request_.plan.case_seconds > short_limit;
@@ -148,26 +149,26 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
   add(verb, "--campaign NAME|FILE", words.campaign,
       "smoke, quick, nightly, release, or a campaign file (.json)")
       ->capture_default_str();
-  add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
+  add_seed(verb, words.seed, "Seed of all random cases; use a fresh one each night");
   add(verb, "--time SECONDS", words.time_limit,
-      "Seconds by the clock for the campaign, in place of its own limit; what is left "
-      "over then is incomplete")
+      "Seconds by the clock, in place of the campaign's own limit; trials not run by then are "
+      "missing")
       ->check(positive())
       ->group(OptionGroup::limits);
   add(verb, "--case-seconds SECONDS", words.case_seconds,
-      "Processor time of one case, in place of the campaign's own (10); then it is undecided")
+      "Processor time of one case, in place of the campaign's own (10); beyond it the case is "
+      "undecided")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, alone or with K, M or G",
              memory_size,
              "Address space of the process that runs a case, such as 6GB or 512MB, in place of the "
-             "campaign's own (4GB); then memory fails there")
+             "campaign's own (4GB); beyond it allocations fail")
       ->group(OptionGroup::limits);
   add(verb, "--power DIR", words.power,
-      "Folder of a run or certificate of this build: planted faults are proved by it, "
-      "not again");
+      "Folder of a run or certificate of this build that has found the planted faults");
   add(verb, "--corpus DIR", words.own_cases,
-      "Folder of case files of your own (assay-case/1), judged beside what is shipped");
+      "Folder of case files of your own (assay-case/1), judged beside the shipped ones");
   add(verb, "--data DIR", words.data,
       "Folder of the public data: a plug-in that claims to be deterministic is run again and "
       "again on its sequences too");
@@ -219,7 +220,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   if (!detector.built_in &&
       judged_claims(detector.claims, detector.contract, detector.of_queries).empty())
     return Problem{fmt::format(
-        "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
+        "{}: its contract leaves none of its claims to be judged; there is nothing to certify",
         words.detector.library)};
   const auto& plans = properties::named_plans();
   const bool is_named = std::any_of(plans.begin(), plans.end(),
@@ -235,8 +236,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   } else if (with_query) {
     request.plan = properties::with_queries(std::move(request.plan));
   } else if (asks_queries(request.plan)) {
-    return Problem{fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
-                               request.plan.name)};
+    return Problem{
+        fmt::format("campaign {}: its strata are queries, for the query of a plug-in alone",
+                    request.plan.name)};
   }
   return request;
 }

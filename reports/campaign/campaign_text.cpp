@@ -22,7 +22,7 @@ using properties::Source;
 // Returns a row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
   constexpr const char* row = "{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n";
-  // A plug-in's one configuration has its name, which may be long.
+  // The only configuration of a plug-in has the plug-in's name, which may be long.
   std::size_t width = 18;
   for (const auto& configuration : findings.run.detector.configurations)
     width = std::max(width, configuration.name.size());
@@ -150,7 +150,7 @@ std::string worlds_text(const RunFindings& findings) {
   return out;
 }
 
-// Returns what was judged of the detector and what was not, besides its measures.
+// Returns on which sizes claims were tried, and which parts and families were not judged.
 std::string judged_lines(const Json& p) {
   std::string out;
   const auto sizes = sizes_text(p["judged_up_to"]);

@@ -1,5 +1,5 @@
 // Renders the results of a campaign as plain text: its predicate (certificate/statement.h), or its
-// findings and gates where the predicate holds less; and writes the files of its failures.
+// findings and gates where these say more. Writes the files of its failures.
 #pragma once
 
 #include <filesystem>
@@ -37,9 +37,9 @@ DetectorWords detector_of(const properties::RunFindings& findings);
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run, and a picture (.svg) of the smallest mesh of each signature.
 // `text` gets one paragraph for the signature that was met most often: claim, how often, both
-// sizes, triangles, feature, and the line that replays it. Nine others get a line each, the
-// smallest meshes first, with every broken claim among them; the rest is one count. `detector` is
-// the one that failed.
+// sizes, triangles, feature, and the line that replays it. Nine others get a line each: the
+// smallest meshes first, and every broken claim at least once. The rest is one count. `detector` is
+// the detector that failed.
 Expected<void> write_failures(const properties::FailureList& failure_list,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);

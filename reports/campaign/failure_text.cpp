@@ -108,7 +108,7 @@ std::size_t triangles_of(const FailureRecord& failure) {
   return c ? static_cast<std::size_t>(c.value().triangles.rows()) : 0;
 }
 
-// Returns the size as met, and the smallest size if it differs, as it does not for a query.
+// Returns the size as met, and the smallest size if it differs. The sizes of a query do not differ.
 std::string sizes_text(const FailureRecord& failure) {
   const auto first_size = size_of_mesh(failure.mesh), smallest = smallest_size(failure);
   return first_size == smallest ? first_size : first_size + " -> " + smallest;

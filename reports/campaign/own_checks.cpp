@@ -135,7 +135,7 @@ class CorpusCheck {
   void judge(const corpus::Case& c, properties::WorkerProcess& worker,
              std::vector<JudgedSource>& rows) {
     const auto source = rows.front().source;
-    // If a source counts as another one, its ids begin with the other prefix, and its own follows.
+    // If a source counts as a part of another, its ids begin with the prefix of the other.
     const auto id = (row_of(source).counts_as == source ? "" : row_of(source).prefix) + c.id;
     const auto contracted_case = properties::contract_case(c, request_.detector.contract);
     for (auto& row : rows) ++(contracted_case ? row.cases : row.left_out);

@@ -39,7 +39,7 @@ Json each(const List& list, const Make& make) {
   return rows;
 }
 
-// The fields of each item of a list (properties/fields.h).
+// Returns the fields of each item of a list (properties/fields.h).
 template <class List>
 Json fields_of_each(const List& list) {
   return each(list, [](const auto& one) { return properties::json_of_fields<Json>(one); });
@@ -68,7 +68,7 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
   return list;
 }
 
-// A row [from, to, count] for each power of two, and [0, 0, count] for those that are 0.
+// Returns a row [from, to, count] for each power of two, and [0, 0, count] for those that are 0.
 Json histogram(const std::map<int, std::uint64_t>& counts) {
   return each(counts, [](const auto& one) -> Json {
     const std::uint64_t lo = one.first < 0 ? 0 : std::uint64_t{1} << one.first;
@@ -152,8 +152,8 @@ Json cases_json(const RunFindings& findings) {
           {"tags", counts.tags}};
 }
 
-// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order; where there
-// is one, a remedy too.
+// Returns one {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order; where
+// there is one, a remedy too.
 Json gates_json(const properties::Judgement& judgement) {
   return each(judgement.gates, [](const auto& result) -> Json {
     const auto& rule = properties::rule_of(result.gate);
@@ -174,12 +174,12 @@ Json confidence_json(const RunFindings& findings) {
            "exact one-sided bound of Clopper and Pearson; Bonferroni over strata, claims and "
            "configurations"},
           {"speaks_of",
-           "the cases that the named generator makes, not the user's meshes: the share of them "
-           "on which a claim does not hold"}};
+           "the share of the named generator's cases, not of the user's meshes, on which a claim "
+           "does not hold"}};
 }
 
-// One object for each stratum: planned, trials, discards, distinct cases, steps, and one bound for
-// each configuration.
+// Returns one object for each stratum: planned, trials, discards, distinct cases, steps, and one
+// bound for each configuration.
 Json strata_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& stratum : findings.run.plan.strata) {
@@ -205,8 +205,8 @@ Json strata_json(const RunFindings& findings) {
   return list;
 }
 
-// One object for each law: how often its premise held, how often it was close, and how often it
-// was broken; null for a plug-in.
+// Returns one object for each law: how often its premise held, how often it was close, and how
+// often it was broken; null for a plug-in.
 Json laws_json(const RunFindings& findings) {
   const auto& plan = findings.run.plan;
   const bool built_in = findings.run.detector.built_in;
@@ -229,15 +229,15 @@ Json laws_json(const RunFindings& findings) {
           {"laws", std::move(list)}};
 }
 
-// The largest of each extreme that was tried, and how many trials have a relation; null for a run
-// of queries alone.
+// Returns the largest of each extreme that was tried, and how many trials have a relation; null for
+// a run of queries alone.
 Json tried_json(const RunFindings& findings) {
   if (properties::asks_queries_alone(findings.run.plan)) return nullptr;
   return {{"largest", properties::json_of_fields<Json>(properties::largest_tried(findings))},
           {"relations", findings.tally.counts.measures.relation_trials}};
 }
 
-// The canaries, the planted faults and the proved worlds.
+// Returns the canaries, the planted faults and the proved worlds.
 Json power_json(const RunFindings& findings) {
   const auto& power = findings.evidence.power;
   return {{"canaries", each(findings.evidence.canaries, facts_of<properties::Canary>)},
@@ -250,7 +250,7 @@ Json power_json(const RunFindings& findings) {
           {"worlds", each(findings.evidence.worlds, world_json)}};
 }
 
-// Null if no self-test was run.
+// Returns the results of the self-test; null if none was run.
 Json self_test_json(const RunFindings& findings) {
   auto families = inputs_json(findings, Source::self_test);
   if (families.is_null()) return nullptr;
@@ -296,12 +296,13 @@ Json times_json(const RunFindings& findings) {
       {"strata", each(findings.tally.strata, stratum)},
       {"near_the_limit", findings.tally.near_limit.size()},
       {"worlds", each(findings.evidence.worlds, world)},
-      // The digests of the stores stand here, because stores hold times, and so their bytes differ
+      // The digests of the stores stand here, because stores hold times, so that their bytes differ
       // from run to run.
       {"files", fields_of_each(findings.files)}};
 }
 
-// One object for each signature of a defect or of a broken law, with the line that replays it.
+// Returns one object for each signature of a defect or of a broken law, with the line that replays
+// it.
 Json failures_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto* failure : findings.kinds()) {
@@ -401,7 +402,7 @@ Json replay_json(const RunFindings& findings) {
 }
 
 // Tells paths for readers of other machines, and replaces what is not UTF-8, such as in the name of
-// a folder. The result is what will be read back from the file.
+// a folder. The result equals the JSON that is read back from the file.
 Json for_any_reader(const RunFindings& findings, Json predicate) {
   RunPaths(findings).tell_in(predicate);
   return Json::parse(corpus::json_text(predicate));

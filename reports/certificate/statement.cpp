@@ -27,8 +27,8 @@ bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& pla
   return plan_text(json) == plan_text(findings.run.plan);
 }
 
-// The subject is the library of a plug-in. For the built-in detector it is the program that holds
-// and runs it.
+// Returns the subject: the library of a plug-in, or the program that holds and runs the built-in
+// detector.
 Json subject_json(const RunFindings& findings) {
   const auto& run = findings.run;
   Json digest;

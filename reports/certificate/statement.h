@@ -1,6 +1,7 @@
 // The certificate: an in-toto Statement v1 about a detector, computed from the stores of a folder.
-// This header issues it, for one run or for several that are judged together, states its paths,
-// verifies it, and renders its predicate, which a run without a certificate has as well.
+// This header issues it, for one run or for several that are judged together, and verifies it. It
+// also writes the paths in it, and renders its predicate, which a run without a certificate has as
+// well.
 #pragma once
 
 #include <cstdint>
@@ -124,7 +125,7 @@ Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
 // free-sound, total; not judged: no-spurious (the contract has a margin), its elementary query;
 // meshes of up to 2048 triangles; largest tried: (extremes_text); contract margin 0.1; isolation
 // full; campaign smoke, seed 1 (the default)". For the built-in detector, whose configurations
-// differ in their claims, the number of configurations stands there instead.
+// differ in their claims, the number of configurations stands in place of the claims.
 std::string judged_text(const nlohmann::ordered_json& predicate);
 
 // Returns the predicate as JUnit XML. The suites are gates (those of the predicate), strata

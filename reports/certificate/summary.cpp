@@ -65,7 +65,7 @@ std::string strata_text(const Json& p) {
   return out;
 }
 
-// "met 3 times", or that no trial showed it.
+// Returns "met 3 times", or that no trial showed it.
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
   if (trials > 0) return "met " + properties::times_text(trials);
@@ -77,7 +77,7 @@ std::string met_text(const Json& failure) {
 
 std::string failures_text(const Json& p) {
   std::string out =
-      p["failures"].empty() ? "" : "\nLines to replay are for the folder of the run.\n\n";
+      p["failures"].empty() ? "" : "\nPaste the lines that replay in the folder of the run.\n\n";
   for (std::size_t i = 0; i < std::min(p["failure_groups"].size(), most_groups_shown); ++i) {
     const auto& group = p["failure_groups"][i];
     out += fmt::format("- {}; the smallest: {}\n", cell(group["what"]), cell(group["smallest"]));
@@ -136,7 +136,7 @@ std::string claims_text(const Json& p) {
                      others.empty() ? "" : "; not judged: " + join(others, ", "));
 }
 
-// "seed 3, share 1/8", "seeds 1, 2, 3".
+// Returns "seed 3, share 1/8", "seeds 1, 2, 3".
 std::string seeds_text(const Json& parts) {
   std::vector<std::string> seeds;
   for (const auto& part : parts) seeds.push_back(cell(part["seed"].dump()));
@@ -168,8 +168,8 @@ bool gate_fails(const Json& p, std::string_view name) {
   });
 }
 
-// Returns a test for each stratum. It fails for the reason for which a gate fails: by its defects
-// if the claims do not hold, and by its bound if the bounds are not met.
+// Returns a test for each stratum. It fails as a gate fails: by its defects if gate `claims` fails,
+// and by its bound if gate `bounds` fails.
 Tests strata_tests(const Json& p) {
   Tests tests;
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");

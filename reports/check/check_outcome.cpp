@@ -16,7 +16,7 @@ using properties::Outcome;
 
 namespace {
 
-// The outcome names only claims that were judged.
+// Returns the claims in words. The outcome names only claims that were judged.
 std::string claims_text(const std::vector<std::string>& held_claims,
                         const std::vector<properties::NotJudged>& not_judged) {
   if (not_judged.empty()) return "; all claims hold\n";

@@ -24,7 +24,7 @@ using properties::Outcome;
 
 namespace {
 
-// A week, because nobody waits longer for one mesh.
+// A week: nobody waits longer for one mesh.
 constexpr double longest_check_seconds = 7 * 24 * 3600.0;
 
 class CheckRun {
@@ -129,7 +129,7 @@ class CheckRun {
       if (!file.empty()) say(fmt::format("writes {}\n", file));
   }
 
-  // Vertices that belong to no triangle, if there are any.
+  // Returns a line on vertices that belong to no triangle, if there are any.
   std::string loose_vertices_text() const {
     std::vector<std::uint8_t> is_used(static_cast<std::size_t>(steps_.first_frame().rows()), 0);
     const auto& triangles = steps_.triangles();
@@ -159,7 +159,7 @@ class CheckRun {
     outcome_.defect = verdict.outcome == Outcome::defect;
     outcome_.is_judged &= verdict.outcome != Outcome::refused;
     outcome_.undecided = !outcome_.defect && verdict.outcome != Outcome::refused;
-    // If the only broken claim is that two runs agree, there are steps to show.
+    // If only the claim `deterministic` is broken, there are steps to show.
     return verdict.breaches == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
@@ -192,7 +192,7 @@ class CheckRun {
     return bodies;
   }
 
-  // Reading does not count against the limits.
+  // Reads a step. Reading does not count against the limits.
   corpus::Expected<corpus::SourceStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
     return steps_.step(s);
@@ -203,7 +203,7 @@ class CheckRun {
     return steps_.has(s);
   }
 
-  // A log may have a million notes.
+  // Tells a note. A log may have a million of them.
   void tell_note(std::size_t s, const std::string& note) {
     constexpr std::size_t most_told = 100;
     if (++notes_told_ <= most_told)
@@ -357,7 +357,7 @@ class CheckRun {
     nested_ = nested_bodies(
         step.x_t0, mesh_, bodies_.empty() ? component_by_vertex() : steps_.counted()->body, pairs);
     if (bodies_.empty()) nested_ = innermost(*nested_);
-    // A component has no name that its owner knows.
+    // A component has no name known to its owner.
     const auto name = [&](std::int32_t part) {
       return bodies_.empty() ? fmt::format("the component of triangle {}",
                                            mesh_.components[properties::at(part)].triangles.front())

@@ -37,7 +37,7 @@ struct CheckOutcome {
   std::string limit_reached;
   std::string rest;       // for a mesh at rest: the bodies that meet; empty if unknown
   std::string unwritten;  // why a requested file was not written
-  std::vector<std::string> asked_again;  // what a plug-in answered about kept steps
+  std::vector<std::string> asked_again;  // the answers of a plug-in about kept steps
   std::vector<std::string> losses;       // of the input
   std::map<properties::Claim, std::uint64_t> first_broken;  // by claim: the step, from 0
   std::optional<std::uint64_t>

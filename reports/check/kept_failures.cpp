@@ -25,7 +25,7 @@ namespace {
 
 using detector::TrianglePair;
 
-// The most steps kept of one signature: a further one shows nothing new.
+// At most this many steps of one signature are kept, because a further one shows nothing new.
 constexpr int most_of_a_kind = 10;
 
 constexpr const char* page_form = R"(<!DOCTYPE html>
@@ -72,7 +72,7 @@ std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TriangleP
     return static_cast<std::int32_t>(
         std::count(is_marked.begin(), is_marked.begin() + t, std::uint8_t{1}));
   };
-  // Which contact counts, and its time, may depend on more of the mesh than this part.
+  // The contact that counts, and its time, may depend on more of the mesh than this part.
   const auto contact_of = [&](const corpus::Case& c,
                               TrianglePair at) -> std::optional<std::string> {
     const auto judgements = properties::judge_case(c, contract);
@@ -89,8 +89,8 @@ std::optional<corpus::Case> part_that_shows(const corpus::Case& whole, TriangleP
 
 class KeptFailures {
  public:
-  // `again(number)` is the line that judges this step again, with all that came before it where
-  // that may matter.
+  // `again(number)` gives the line that judges this step again, with all steps before it if they
+  // may matter.
   KeptFailures(const Keeping& keeping, std::function<std::string(std::uint64_t number)> again,
                std::optional<properties::Subject> plugin)
       : folder_(keeping.folder),
@@ -262,8 +262,7 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) 
   if (!*entry.reproduced) {
     entry.reply =
         "not reproduced: asked about this step alone, in a new process, the detector does not "
-        "fail; "
-        "what fails may need what the process did before";
+        "fail; the failure may need earlier work of the process";
     return outcome::success();
   }
   constexpr std::uint64_t most_calls = 100'000;

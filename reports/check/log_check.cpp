@@ -107,7 +107,7 @@ class RecordedSteps : public corpus::StepSource {
     }
     if (!(asks_answers_ && now_.answer) && !(asks_limits_ && now_.limit)) {
       ++unanswered_;
-      why_left_out_ = "nothing was recorded that its claims are about";
+      why_left_out_ = "nothing that it makes a claim about was recorded";
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
     const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;
@@ -282,7 +282,7 @@ Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
   const auto& detector = recorded.subject.detector;
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
-        "{}: its detector claims nothing that its contract leaves to be judged by a log",
+        "{}: the contract of its detector leaves none of its claims to be judged by a log",
         name.file)};
   if (selection.step && !selection.follow && !log.place_of(*selection.step))
     return Problem{

@@ -244,7 +244,7 @@ class SeparationRun {
   std::optional<std::size_t> near_step_;  // the first, from 0
   detector::TimeEnclosure near_time_;
   std::size_t near_pairs_ = 0;
-  std::optional<double> least_;  // over all steps; at the end nothing if one is undecided
+  std::optional<double> least_;  // over all steps; empty if one is undecided
   bool undecided_ = false;
 };
 

@@ -93,7 +93,7 @@ class Plugin : public StepAnswers {
 
   std::string title() const override {
     return plugin_text(subject_) +
-           (drops_relation_ ? "; it cannot be told which pairs count, so that all do" : "");
+           (drops_relation_ ? "; it cannot be told which pairs count, so all do" : "");
   }
 
   nlohmann::ordered_json to_json() const override {
@@ -122,7 +122,7 @@ class Plugin : public StepAnswers {
  private:
   properties::WorkerProcess worker_, second_;
   const std::shared_ptr<const corpus::Case> case_;
-  const bool drops_relation_;  // which the input has
+  const bool drops_relation_;  // the input has one that is dropped
 };
 
 }  // namespace
@@ -166,11 +166,11 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
         shell_word(library))};
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
-        "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",
+        "{}: its contract leaves none of its claims to be judged; there is nothing to check",
         library)};
   auto contracted_case = properties::contract_case(*input.steps->whole(), detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
+    return Problem{fmt::format("{}: no step of it is within the contract of {}: {}", input.file,
                                plugin.description.name,
                                properties::why_left_out(*input.steps->whole(), detector.contract))};
   }
@@ -232,7 +232,7 @@ class Table : public GivenAnswers {
 
   std::string title() const override { return "answers of " + detector_text(subject_.detector); }
 
-  // Called for each step in turn.
+  // Is called for each step in turn.
   std::optional<std::string> left_out() override {
     if (rows_.contains(next_++)) return std::nullopt;
     ++steps_left_out_;

@@ -1,5 +1,5 @@
 // The detector that `check` runs and judges, the built-in one or a plug-in; its answers; and the
-// mesh and the steps that they are about.
+// mesh and the steps that the answers are about.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class StepAnswers {
   // `detector`.
   virtual nlohmann::ordered_json to_json() const = 0;
 
-  // Called before the first step. Returns the verdict on the run as a whole, without judging any
+  // Is called before the first step. Returns the verdict on the run as a whole, without judging any
   // step. If the verdict is not `holds`, there may be no steps to ask for.
   virtual properties::Verdict begin() { return {}; }
   // Makes the detector answer step s, which is `step`; run() then holds the answer. Steps are asked
@@ -52,8 +52,8 @@ class StepAnswers {
   bool is_plugin() const { return !under_test().built_in; }
   // Returns whether the answers were recorded, so that no detector runs here.
   virtual bool is_recorded() const { return false; }
-  // Returns why the step that was read last is not judged; an empty text: it was not chosen;
-  // nothing: it is judged. Called once, before the step's answer is asked for.
+  // Returns why the step that was read last is not judged: empty if it was not chosen, nothing if
+  // it is judged. Is called once, before the step's answer is asked for.
   virtual std::optional<std::string> left_out() { return std::nullopt; }
   // Returns claims of the detector that this kind of input cannot show, and why. These are not
   // among those of under_test().

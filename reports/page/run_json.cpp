@@ -101,7 +101,8 @@ Json candidates_json(const properties::CandidatePairs& candidates) {
   return list;
 }
 
-// By triangle; null if the case has no bodies. A detector may not have been told of them.
+// Returns the body of each triangle; null if the case has no bodies. The detector may not have been
+// told of them.
 Json bodies_json(const corpus::Case& c) {
   const auto* counted_pairs = corpus::counted_of(c);
   if (!counted_pairs || counted_pairs->body.empty()) return nullptr;
@@ -111,7 +112,7 @@ Json bodies_json(const corpus::Case& c) {
   return list;
 }
 
-// The scene of a case in `assay-report/3`: what the viewer draws (`scene` of its schema).
+// Returns the scene of a case in `assay-report/3`, which the viewer draws (`scene` of its schema).
 Json scene_json(const CaseScene& scene, const corpus::Case& c) {
   Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
   for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {

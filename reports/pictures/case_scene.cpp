@@ -15,7 +15,7 @@ namespace assay::reports {
 namespace {
 
 using Vector = Eigen::Vector3d;
-// The points of both triangles between which the place of a contact lies.
+// Returns the points of both triangles between which the place of a contact lies.
 NearestPoints points_of(const detector::PairContact& contact,
                         const detector::TrianglesView& triangles,
                         const detector::SteppedMesh& motion) {
@@ -34,8 +34,8 @@ NearestPoints points_of(const detector::PairContact& contact,
   return {on(0), on(1)};
 }
 
-// The features of the two triangles that share no vertex: an edge and a face only meet where the
-// edge pierces the face.
+// Returns the features of the two triangles that share no vertex: an edge and a face only meet
+// where the edge pierces the face.
 std::vector<detector::Feature> features_of(const std::array<std::int32_t, 3>& a,
                                            const std::array<std::int32_t, 3>& b) {
   using detector::FeatureKind;

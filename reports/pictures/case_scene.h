@@ -124,8 +124,8 @@ inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle
 
 class SceneMaker {
  public:
-  // `detector` is nothing for a plug-in whose library is not known. If a library no longer exists,
-  // the scenes only lack the detector's part.
+  // Keeps the detector. `detector` is nothing for a plug-in whose library is not known. If a
+  // library no longer exists, the scenes only lack the detector's part.
   explicit SceneMaker(const std::optional<DetectorWords>& detector);
 
   // Returns the scene of a case, in the configuration that the case's options state (a plug-in has

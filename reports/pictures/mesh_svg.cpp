@@ -55,7 +55,7 @@ class Picture {
     choose_side();
   }
 
-  // The picture of that time, without its place on the sheet.
+  // Returns the picture of that time, without its place on the sheet.
   std::string body(std::size_t time) {
     now_ = time;
     std::vector<std::size_t> order(faces_.size());
@@ -108,9 +108,10 @@ class Picture {
   }
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
-  // Chooses one of four isometric sides: the one from which the triangle of the pair that covers
-  // the smaller area covers most. A triangle that is not shown does not count. If the nearest
-  // points are apart, a side also counts by how long the segment between them appears.
+  // Chooses one of four isometric sides. From each side the triangle of the pair that covers less
+  // area counts; the side where it covers most is chosen. A triangle that is not shown does not
+  // count. If the nearest points are apart, a side also counts by how long the segment between them
+  // appears.
   void choose_side() {
     double most = -1;
     const auto* contact = exact_ ? exact_ : answer_;
@@ -220,7 +221,8 @@ class Picture {
     }
     return out;
   }
-  // A circle if the two places are one in the picture, else two smaller ones and the segment.
+  // Returns a circle if the two places are one in the picture, else two smaller ones and the
+  // segment.
   std::string mark(const detector::PairContact& contact, const char* colour, const char* look,
                    int radius) const {
     const auto places = scene_.nearest_points(step_, contact);
@@ -254,7 +256,7 @@ class Picture {
   Eigen::Vector2d flat_low_, shift_;
 };
 
-// What stands below the picture: each text in a row, or in several where it is too long for one.
+// The texts below the picture: each in one row, or in several rows if it is too long.
 class Caption {
  public:
   void add(std::string_view text) {

@@ -8,21 +8,21 @@ namespace py = pybind11;
 
 namespace {
 
-// Whether the numbers stand in the byte order of the machine, and at addresses where the processor
-// expects them.
+// Returns whether the numbers stand in the byte order of the machine, and at addresses where the
+// processor expects them.
 template <class Scalar>
 bool holds(const py::array& array) {
   return py::isinstance<py::array_t<Scalar>>(array) &&
          (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
 }
 
-// Whether the rows stand one behind the other, at distances of whole numbers. If there is a single
-// row, its stride says nothing.
+// Returns whether the rows stand one behind the other, at distances of whole numbers. If there is a
+// single row, its stride says nothing.
 template <class Scalar>
 bool is_viewable(const py::array& array) {
   constexpr py::ssize_t size = sizeof(Scalar), columns = 3;
   if (!holds<Scalar>(array) || array.ndim() != 2 || array.shape(1) != columns) return false;
-  if (array.shape(0) == 0) return true;  // its strides do not matter
+  if (array.shape(0) == 0) return true;  // without rows, strides do not matter
   if (array.strides(1) != size) return false;
   return array.shape(0) <= 1 ||
          (array.strides(0) >= columns * size && array.strides(0) % size == 0);
@@ -31,7 +31,7 @@ bool is_viewable(const py::array& array) {
 // Calls a function of assay/arrays.py.
 template <class... Arguments>
 py::array converted(const char* function, const Arguments&... arguments) {
-  const detector::ProcessorState state;  // in which a denormal float32 becomes the same double
+  const detector::ProcessorState state;  // lets a denormal float32 become the same double
   return py::module_::import("assay.arrays")
       .attr(function)(arguments...)
       .template cast<py::array>();
@@ -42,8 +42,8 @@ constexpr const char* conversion = "positions";
 template <>
 constexpr const char* conversion<std::int32_t> = "triangles";
 
-// A subclass may mean something else by its elements. Masked arrays, for example, are treated in
-// Python.
+// Returns whether the object is a plain array. A subclass may mean something else by its elements;
+// masked arrays, for example, are treated in Python.
 bool is_plain(const py::object& object) {
   return Py_TYPE(object.ptr()) ==
          reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_);

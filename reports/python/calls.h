@@ -1,6 +1,6 @@
 // Common parts of calls from Python: problems of the other rooms as exceptions, ctrl-C during work
-// that does not hold the interpreter, and arrays of NumPy, both as input of the detector, without a
-// copy if their layout allows a view, and as its results.
+// that does not hold the interpreter, and arrays of NumPy as input and results of the detector.
+// Input is not copied if its layout allows a view.
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
@@ -88,7 +88,7 @@ class RowsArgument {
   using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
-  // `name` is that of the argument, for errors. Raises TypeError and ValueError.
+  // Takes the argument of this name; errors state the name. Raises TypeError and ValueError.
   RowsArgument(const pybind11::object& object, const char* name);
 
   // Returns a view that is valid as long as this object, which holds the array.

@@ -39,8 +39,8 @@ class OneAtATime {
   std::atomic_flag& busy_;
 };
 
-// After a fork the threads of the parent process are not there. A call that would wait for them is
-// refused.
+// Refuses a call that would wait for threads of the parent process, which do not exist after a
+// fork.
 void threads_in_this_process(std::uint32_t threads) {
   static std::atomic<pid_t> process = 0;  // the first process that used several
   if (threads == 1) return;
@@ -52,8 +52,8 @@ void threads_in_this_process(std::uint32_t threads) {
 
 class PythonDetector {
  public:
-  // `options` are words by their names, as a case file states them. If `threads` is 0, all cores
-  // are used.
+  // Makes a detector. `options` are words by their names, as a case file states them. If `threads`
+  // is 0, all cores are used.
   PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options,
                  std::uint32_t threads)
       : threads_(threads), detector_(make(triangles, positions, options, threads)) {}
@@ -160,7 +160,7 @@ SavedState state_of(const py::bytes& bytes) {
   return std::move(state.value());
 }
 
-// The words of each option, as a dict of tuples.
+// Returns the words of each option, as a dict of tuples.
 py::dict words_of_options() {
   py::dict words;
   const detector::Options standard;
@@ -195,7 +195,7 @@ bool answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_
   return true;
 }
 
-// With a separation above 0, features hit if they come within it, exactly.
+// Answers queries. With a separation above 0, features hit if they come within it, exactly.
 template <int first_group>
 py::tuple answers(const py::object& x_t0, const py::object& x_t1, const std::string& arithmetic,
                   double separation) {
@@ -227,15 +227,15 @@ using TimeArray = py::array_t<double, py::array::c_style | py::array::forcecast>
 
 constexpr py::ssize_t numbers_of_a_feature = 6;
 
-// How many vertices a feature of this kind has, or -1 if there is no such kind.
+// Returns how many vertices a feature of this kind has, or -1 if there is no such kind.
 py::ssize_t vertices_of(std::int32_t kind) {
   constexpr std::array<py::ssize_t, 4> of_kinds = {4, 4, 5, 0};
   const auto place = static_cast<std::size_t>(kind);
   return place < of_kinds.size() ? of_kinds[place] : -1;
 }
 
-// Whether a feature names vertices. It names none if its triangles have the same vertices, or if
-// the detector names no features.
+// Returns whether a feature names vertices. It names none if its triangles have the same vertices,
+// or if the detector names no features.
 bool is_named(const std::int32_t* feature) {
   return feature[1] >= 0 && vertices_of(feature[0]) > 0;
 }
@@ -264,9 +264,9 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
   }
 }
 
-// The place of each contact at its first time: points k x 3, barycentric coordinates k x 2 x 3,
-// errors k, normals k x 3 and their errors k. A missing normal is NaN, and so is every number of a
-// place whose feature has no name.
+// Returns the place of each contact at its first time: points k x 3, barycentric coordinates k x 2
+// x 3, errors k, normals k x 3 and their errors k. A missing normal is NaN, and so is every number
+// of a place whose feature has no name.
 py::tuple contact_places(const py::object& triangles, const py::object& x_t0,
                          const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
                          const IntegerArray& features) {

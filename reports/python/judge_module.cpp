@@ -26,7 +26,7 @@ namespace {
 
 namespace py = pybind11;
 
-// The oracle takes the same input as the detector, and refuses other input by the same names.
+// Refuses input that the detector would refuse, by the same names.
 void demand_good_input(const detector::TrianglesView& triangles,
                        const detector::PositionsView& x_t0, const detector::PositionsView& x_t1) {
   if (const auto bad = detector::check_triangles(triangles, x_t0.rows())) raise(*bad);
@@ -34,8 +34,8 @@ void demand_good_input(const detector::TrianglesView& triangles,
     if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
 }
 
-// With a distance, the sum of two doubles, the oracle is asked for pairs that come within it, and
-// not for contacts.
+// Asks the oracle. With a distance, the sum of two doubles, it is asked for pairs that come within
+// the distance, and not for contacts.
 py::dict judge(const py::object& triangles, const py::object& x_t0, const py::object& x_t1,
                const std::optional<std::pair<double, double>>& within, int jobs) {
   const TrianglesArgument mesh(triangles, "triangles");
@@ -108,7 +108,7 @@ CheckQuestion question_of(const py::dict& args) {
   return question;
 }
 
-// Which pairs count; nothing if all do.
+// Returns which pairs count; nothing if all do.
 std::optional<corpus::CaseRelation> relation_of(const py::dict& args, const corpus::Case& c) {
   corpus::CaseRelation relation;
   take(args, "bodies", relation.pairs.body);
@@ -150,7 +150,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
                                           std::move(text))};
 }
 
-// Returns the report as JSON, what is printed, and the exit code.
+// Returns the report as JSON, the printed text, and the exit code.
 py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py::dict& args,
                       const std::string& worker, const py::object& listener) {
   std::optional<double> separation;
@@ -225,7 +225,7 @@ py::tuple read_case(const std::string& file) {
   return mesh_and_frames(c.value().triangles, c.value().frames);
 }
 
-// What a certificate would say of the run in a folder, as JSON.
+// Returns, as JSON, the predicate that a certificate of the run in a folder would have.
 std::string findings(const std::string& folder) {
   const auto result = properties::read_findings(folder);
   if (!result) throw py::value_error(result.error().message);
@@ -243,7 +243,8 @@ using properties::Subject;
 // Asks a plug-in steps, limits and queries, in a process of its own.
 class Plugin {
  public:
-  // `library` is a file or "python:MODULE:CLASS", and `worker` the program assay-worker.
+  // Names the plug-in: `library` is a file or "python:MODULE:CLASS", and `worker` the program
+  // assay-worker.
   Plugin(const std::string& library, const std::string& worker, double seconds)
       : subject_(open(library, worker, seconds)), process_(subject_.process()) {}
 
@@ -292,7 +293,7 @@ class Plugin {
     return input && input->frames == c.frames && corpus::steps_of(*input) == corpus::steps_of(c);
   }
 
-  // An answer as a results file has it (corpus/vectors/README.md).
+  // Returns an answer as a results file has it (corpus/vectors/README.md).
   py::dict answer_in(const CaseRun& run, std::size_t s, bool asks_limits, bool is_query) const {
     py::dict answer;
     const auto say = [&](const char* word) {

@@ -1,6 +1,6 @@
 // The plug-in that serves `--detector python:MODULE:CLASS`. It runs an interpreter in the process
 // of a plug-in, and the class in it. assay/hosting.py says what the class may have and how its
-// answers are read, and does everything that can be done in Python.
+// answers are read, and does all work that can be done in Python.
 #include <Python.h>
 #include <dlfcn.h>
 #include <pybind11/numpy.h>
@@ -77,7 +77,7 @@ void start_interpreter(const char* package) {
   PyEval_SaveThread();
 }
 
-// The folder above that of this library. The package `assay` is in it.
+// Returns the folder above that of this library. The package `assay` is in it.
 std::string folder_of_package() {
   Dl_info self = {};
   if (::dladdr(reinterpret_cast<const void*>(&folder_of_package), &self) == 0) return ".";
@@ -106,7 +106,7 @@ auto in_python(const Work& work) {
   }
 }
 
-// The class, as assay/hosting.py wraps it. It stays as long as the process does.
+// Returns the class, as assay/hosting.py wraps it. It stays as long as the process does.
 const py::object& hosted() {
   static const py::object* const host = [] {
     start_interpreter(folder_of_package().c_str());

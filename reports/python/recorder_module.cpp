@@ -22,7 +22,7 @@ using Text = std::optional<std::string>;
 const double* data_of(const std::optional<Reals>& array) { return array ? array->data() : nullptr; }
 const char* data_of(const Text& text) { return text ? text->c_str() : nullptr; }
 
-// n x 3 numbers of float32 or float64, adjacent; or None.
+// Returns the array of an object: n x 3 adjacent numbers of float32 or float64, or None.
 assay_record_array array_of(const py::object& object) {
   if (object.is_none()) return {nullptr, 0};
   const auto array = py::reinterpret_borrow<py::array>(object);
@@ -31,8 +31,8 @@ assay_record_array array_of(const py::object& object) {
 
 class Recorder {
  public:
-  // `mesh`, `counted` and `near` are (triangles, positions), (bodies or None, apart) and (rings,
-  // distance at rest, places at rest); `described` is what hosting.described() gives.
+  // Begins a log. `mesh`, `counted` and `near` are (triangles, positions), (bodies or None, apart)
+  // and (rings, distance at rest, places at rest); `described` comes from hosting.described().
   Recorder(const std::string& path, const std::pair<Integers, py::array>& mesh,
            const std::pair<std::string, std::string>& name,
            const std::pair<std::uint32_t, py::dict>& described, std::uint64_t every, bool overwrite,
@@ -63,7 +63,7 @@ class Recorder {
   // Writes no end of the log, because this process may be a fork of the one that records.
   ~Recorder() { assay_record_free_(&recorder_); }
 
-  // `answer` is what hosting.parts_of() gives, or None.
+  // Records a step. `answer` comes from hosting.parts_of(), or is None.
   void step(const py::object& x0, const py::object& x1, const py::object& dx,
             const py::object& committed, const py::object& answer, const Text& message,
             double share, const std::optional<Reals>& positions) {

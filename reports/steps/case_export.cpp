@@ -23,7 +23,7 @@ extern const char *const exported_case_header, *const exported_plugin_header;
 
 namespace {
 
-// One line for each row of three numbers.
+// Returns one line for each row of three numbers.
 template <class Matrix>
 std::string rows_text(const char* format, const Matrix& matrix, int add = 0) {
   std::string out;
@@ -35,7 +35,7 @@ std::string rows_text(const char* format, const Matrix& matrix, int add = 0) {
 
 constexpr const char* row_of_array = "    {{{}, {}, {}}},\n";
 
-// The exact value of a double in [0, 1] as a fraction, such as "3/8", in lowest terms.
+// Returns the exact value of a double in [0, 1] as a fraction, such as "3/8", in lowest terms.
 std::string fraction_of(double share) {
   if (share == 0) return "0";
   int exponent = 0;
@@ -63,8 +63,8 @@ std::string pair_rows(const std::vector<detector::PairContact>& contacts,
   return "{" + rows + "}";
 }
 
-// `allowed` are pairs that need not be reported: those that the contract leaves out or, if it has a
-// slack, all pairs within the slack.
+// Returns the row of a step. Its `allowed` pairs need not be reported: those that the contract
+// leaves out or, if it has a slack, all pairs within the slack.
 std::string step_row(const corpus::CaseStep& step, const properties::StepTruth& truth,
                      const std::vector<detector::PairContact>& allowance, bool is_query) {
   const auto time = truth.first ? truth.first->time : detector::TimeEnclosure{};
@@ -143,8 +143,8 @@ int main() {
 static_assert(static_cast<int>(exported_case::Claim::times_unique) ==
               static_cast<int>(properties::Claim::times_unique));
 
-// The claims that an answer is checked for: the broken claim, or all judged claims if none is
-// broken.
+// Returns the claims that an answer is checked for: the broken claim, or all judged claims if none
+// is broken.
 std::string asked_text(const properties::DetectorUnderTest& detector, bool is_query,
                        std::optional<properties::Claim> claim) {
   const auto claims = detector.claims_in(detector.configurations.front());
@@ -156,8 +156,8 @@ std::string asked_text(const properties::DetectorUnderTest& detector, bool is_qu
   return join(names, ", ");
 }
 
-// The arrays of the case and the claims that its answers are checked for, with a function to fill
-// in.
+// Returns the arrays of the case and the claims that its answers are checked for, with a function
+// to fill in.
 std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
                       const std::vector<oracle::StepJudgement>& judgements,
                       std::optional<properties::Claim> claim) {
@@ -177,7 +177,7 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : join(phrases, ", "));
   if (contract.separation > 0) out += "// To meet is here to come within that distance.\n";
-  if (c.counted) out += "// Of the pairs that count: `counted` of case.json says which do.\n";
+  if (c.counted) out += "// Only pairs that count: `counted` of case.json says which do.\n";
   const auto claims_text = asked_text(detector, query.has_value(), claim);
   const bool is_float = contract.coordinates == properties::Coordinates::float32;
   return out +
@@ -198,7 +198,7 @@ std::string point_text(const detector::Point& p) {
   return fmt::format("{{{:a}, {:a}, {:a}}}", p[0], p[1], p[2]);
 }
 
-// A list of rows, each in braces, as `row` writes it.
+// Returns a list of rows, each in braces, as `row` writes it.
 template <class List, class Row>
 std::string braced(const List& list, const Row& row) {
   std::vector<std::string> rows;
@@ -208,7 +208,7 @@ std::string braced(const List& list, const Row& row) {
 
 std::string two_text(std::int32_t a, std::int32_t b) { return fmt::format("{}, {}", a, b); }
 
-// The relation as the built-in detector takes it.
+// Returns the relation as the built-in detector takes it.
 std::string relation_text(const detector::CountedPairs& pairs) {
   const auto number = [](std::int32_t n) { return fmt::format("{}", n); };
   const auto array = [](const auto& two) { return "{{" + two_text(two[0], two[1]) + "}}"; };
@@ -228,7 +228,7 @@ std::string relation_text(const detector::CountedPairs& pairs) {
              [&](const auto& pair) { return "{" + array(pair.a) + ", " + array(pair.b) + "}"; }));
 }
 
-// The relation as a plug-in is told it: a pointer that is null if the case has no relation.
+// Returns the relation as a plug-in is told it: a pointer that is null if the case has no relation.
 std::string told_relation_text(const corpus::Case& c) {
   const auto* pairs = corpus::counted_of(c);
   if (!pairs || pairs->count_all()) return "static const assay_counted_pairs* counted = nullptr;\n";
@@ -331,7 +331,7 @@ TEST(AssayCase, Holds) {
 }
 )";
 
-// The options of the built-in detector, the view that each step is given, and the test.
+// Returns the options of the built-in detector, the view that each step is given, and the test.
 std::string test_text(const corpus::Case& c, const properties::DetectorUnderTest& detector) {
   const auto& configuration = detector.configurations.front();
   const auto& options = configuration.options;

@@ -17,10 +17,11 @@ namespace assay::reports {
 //
 // FOLDER/case.cpp needs C++17 and FOLDER/exported_case.h alone. It holds mesh and frames, or the
 // four points of a query (properties/worker/plugin/query_case.h); for each step the oracle's
-// contacts that count under the contract, with their times as decimals and as fractions, and other
-// pairs that may be reported, because the contract leaves them out or has a slack; a function to be
-// filled in, and a main() that checks its answers for the broken `claim`, or for each claim if none
-// is broken. Its exit codes are 0: no claim is broken, 1: one is, 2: not filled in.
+// contacts that count under the contract, with their times as decimals and as fractions, and the
+// other pairs that may be reported; a function to be filled in; and a main() that checks its
+// answers for the broken `claim`, or for each claim if none is broken. Other pairs may be reported
+// if the contract leaves them out or has a slack. Its exit codes are 0: no claim is broken, 1: one
+// is, 2: not filled in.
 //
 // For a plug-in the second file is FOLDER/case_plugin.cpp, whose program takes a library as its
 // word and asks its assay_detector() (exported_plugin.h), once in a process of its own. If `total`

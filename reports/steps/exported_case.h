@@ -57,7 +57,7 @@ struct Asked {
 };
 
 struct Case {
-  int query;  // 0: a mesh; of a query 1: a vertex and a face, 2: two edges
+  int query;  // 0: a mesh; a query is 1: a vertex and a face, or 2: two edges
   const int* triangles;
   int triangle_count, vertex_count;
   const double* frames;  // of all vertices, one frame behind the other
@@ -94,7 +94,7 @@ inline const Pair* find(const std::vector<Pair>& list, const Pair& pair) {
   return found == list.end() ? nullptr : &*found;
 }
 
-// Whether the limiter allows the step to its very end.
+// Returns whether the limiter allows the step to its very end.
 inline bool is_whole(const Case& c, const Step& step, const Found& found) {
   return std::equal(found.stop.begin(), found.stop.end(), c.frame(step.to),
                     [&](double at, double end) {
@@ -102,8 +102,8 @@ inline bool is_whole(const Case& c, const Step& step, const Found& found) {
                     });
 }
 
-// Whether a share of a step is longer than rounding: it moves some coordinate by 2^10 units in its
-// last place.
+// Returns whether a share of a step is longer than rounding: it moves some coordinate by 2^10 units
+// in its last place.
 inline bool has_room(const Case& c, const Step& step, double share) {
   const double *x_t0 = c.frame(step.from), *x_t1 = c.frame(step.to);
   for (std::size_t i = 0; i < c.coordinates(); ++i)
@@ -111,8 +111,8 @@ inline bool has_room(const Case& c, const Step& step, double share) {
   return false;
 }
 
-// Whether the answer to a step keeps a claim. Only `assay replay` can tell whether the way to
-// positions other than the end is free.
+// Returns whether the answer to a step keeps a claim. Only `assay replay` can tell whether the way
+// to positions other than the end is free.
 inline bool holds(Claim claim, const Case& c, const Step& step, const Found& found) {
   if (!found.error.empty()) return claim != Claim::total;
   const auto begins_after = [&](double lo, double exact) { return lo > exact + c.time_tolerance; };

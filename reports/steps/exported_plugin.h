@@ -132,8 +132,8 @@ class Plugin {
     if (succeeded("query", code, found)) found.error = read_result(case_, alike, found);
   }
 
-  // All parts are asked, in the order in which Assay asks them; the first error counts, that of the
-  // step itself before others.
+  // Asks all parts, in the order in which Assay asks them. The first error counts; that of the step
+  // itself goes before others.
   void ask(assay_handle* handle, const Step& step, Found& found) const {
     const double* const x_t0 = case_.frame(step.from);
     const auto way = told(step);
@@ -216,9 +216,9 @@ inline bool ask_elsewhere(const char* library, std::string& text) {
   return child > 0 && waitpid(child, &status, 0) == child && status == 0 && !text.empty();
 }
 
-// The program. Its first argument is the library. In the process of its own a second argument says
-// where to write the answers. Returns 0 if no claim that is asked is broken, 1 if one is, and 2 if
-// nothing can be asked.
+// Runs the program. Its first argument is the library. In the process that asks the library, a
+// second argument says where to write the answers. Returns 0 if no claim that is asked is broken, 1
+// if one is, and 2 if nothing can be asked.
 inline int ask_library(const Case& c, const assay_counted_pairs* counted, int argc, char** argv) {
   void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
   void* entry = library ? dlsym(library, "assay_detector") : nullptr;

@@ -24,8 +24,8 @@ std::string rate_text(const properties::Rate& rate) {
                      100 * rate.interval.lo, 100 * rate.interval.hi);
 }
 
-// "3 by 0.002 (99 %: 0.01) to 0.5": the number of steps that are off, then of these steps the
-// median, the value that 99 of 100 do not exceed, and the worst.
+// Returns "3 by 0.002 (99 %: 0.01) to 0.5": the number of steps that are off, then of these steps
+// the median, the value that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
   return fmt::format("{} by {:.2g} (99 %: {:.2g}) to {:.2g}", off.steps, off.quantile(0.5),
@@ -51,7 +51,7 @@ std::vector<std::string> pairs_left_out(const properties::Contract& contract) {
   return properties::phrases_of(of_pairs);
 }
 
-// Tells on what the claim `deterministic` was tried besides the trials.
+// Tells on which meshes the claim `deterministic` was tried besides the trials.
 std::string repeated_text(const properties::EvidenceFacts& evidence) {
   const auto repeated = evidence.rows_of(properties::Source::repeated);
   const auto sum = evidence.sum_of(properties::Source::repeated);
@@ -70,17 +70,18 @@ std::string repeated_text(const properties::EvidenceFacts& evidence) {
       lines);
 }
 
-// How a limiter used what was possible; empty for none.
+// Returns how much of the possible way a limiter used; empty if there is none.
 std::string limits_text(const properties::LimitUse& use) {
   if (use.free + use.contact == 0) return "";
   std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);
   if (use.contact == 0) return text + "\n";
   text += fmt::format(
-      "; of the time until the contact in {} others used {:.3g} in the median, {:.3g} in 99 of "
-      "100, {:.3g} at worst; {} stalls{}\n",
+      "; {} others used {:.3g} in the median, {:.3g} in 99 of 100, {:.3g} at worst, of the time "
+      "until the contact; {} stalls{}\n",
       use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
-      use.excused > 0 ? fmt::format("; {} less than claimed, as rounding may be why", use.excused)
-                      : "");
+      use.excused > 0
+          ? fmt::format("; {} less than claimed, perhaps because of rounding", use.excused)
+          : "");
   for (const auto& [cause, count] : use.stalls)
     text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
   return text;
@@ -187,7 +188,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (e.late.steps > 0) parts.push_back(off_sentence("late", e.late));
   if (e.early.steps > 0) parts.push_back(off_sentence("early", e.early));
   if (m.starts_near > 0)
-    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, counted for no n",
+    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, counted in no n",
                                 m.starts_near, m.starts_near == 1 ? "" : "s"));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
@@ -207,8 +208,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   std::string out = fmt::format(
       "whatever is claimed (intervals of 95 %, in per cent; late, early: how many first times are "
       "after or before the oracle's, and by which share of the step: in the median, in 99 of 100 "
-      "of "
-      "them at most, and at worst; left out: cases + steps)\n{:24} {}\n",
+      "at most, and at worst; left out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -219,8 +219,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(
-        "in {} steps it does not report a contact, and need not by its contract ({}): without "
-        "that, "
+        "in {} steps it does not report a contact, as its contract allows ({}): without that, "
         "these were misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);

@@ -149,7 +149,8 @@ class Inside {
   Inside(const detector::PositionsView& x, const detector::Topology& mesh, const Body& body)
       : instant_(own_places(x, body)), field_(instant_, own_triangles(mesh, body)) {}
 
-  // The components are connected and meet nothing of the body, so one vertex of each decides.
+  // Returns whether this body holds the other one. Each component of the other body is connected
+  // and meets nothing of this one, so one of its vertices decides.
   bool holds(const detector::PositionsView& x, const Body& other) const {
     return std::all_of(
         other.components.begin(), other.components.end(), [&](const Component* component) {
@@ -302,8 +303,8 @@ class PairStory {
   const detector::Detector& detector_;
   detector::TrianglePair pair_;
   double separation_;
-  bool is_asked_;  // not of two with a common vertex, if there is a separation
-  bool counts_;    // nor where the case's relation says so
+  bool is_asked_;  // false for a common vertex, if there is a separation
+  bool counts_;    // false if the case's relation leaves it out
   bool bodies_meet_ = true;
 };
 

@@ -36,8 +36,8 @@ std::string time_text(const detector::TimeEnclosure& time) {
 
 namespace {
 
-// Whether detector and oracle differ. If the outcome is `holds`, they differ in ways that break no
-// claim.
+// Returns whether detector and oracle differ. If the outcome is `holds`, they differ in ways that
+// break no claim.
 bool differs(const properties::StepDiff& diff) {
   return diff.wrong_answer() || diff.wrong_first_time() || !diff.missing.empty() ||
          !diff.spurious.empty() || !diff.missing_candidates.empty() || !diff.late.empty() ||
@@ -102,7 +102,7 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
                                                : "");
 }
 
-// "  limit: 0.71 of the step, contact ahead at t = 0.75; contact on the way at t = 0.9".
+// Returns " limit: 0.71 of the step, contact ahead at t = 0.75; contact on the way at t = 0.9".
 std::string limit_text(const properties::LimitDiff& limit) {
   std::string out = fmt::format("  limit: {:.9g} of the {}", limit.way,
                                 limit.share < 0 ? "way, as positions" : "step");
@@ -110,12 +110,12 @@ std::string limit_text(const properties::LimitDiff& limit) {
                      : ", which has no contact";
   if (limit.hit)
     out += fmt::format("; contact on the way at t = {} of it", time_text(limit.hit->time));
-  if (limit.is_excused) out += "; less than claimed, as rounding may be why";
+  if (limit.is_excused) out += "; less than claimed, perhaps because of rounding";
   if (!limit.stall.empty()) out += "; stalls, " + limit.stall;
   return out + "\n";
 }
 
-// Tells the view sets. A step without views has none, so the reason why takes their place.
+// Tells the view sets. For a step without views, tells the reason in their place.
 std::string sets_text(const detector::StepResult& result) {
   if (result.views != detector::ViewUse::used)
     return fmt::format("no views, {}", name_of(result.views));
@@ -183,7 +183,7 @@ std::string contradiction_text(const Contradiction& c) {
   return out;
 }
 
-// The triangles of a pair, and their names by bodies where there are bodies.
+// Returns the triangles of a pair, and their names by bodies where there are bodies.
 Json named_pair(const detector::TrianglePair& pair, const properties::BodyNames& bodies) {
   Json json = {{"triangles", {pair.a, pair.b}}};
   if (bodies.empty()) return json;

@@ -12,7 +12,7 @@ namespace assay::reports {
 
 namespace {
 
-// The words of a list such as "all, first".
+// Returns the words of a list such as "all, first".
 std::vector<std::string> words_of(const std::string& list) {
   std::vector<std::string> words;
   constexpr std::string_view between = ", ";
@@ -122,7 +122,7 @@ Check share() {
   return number([](double x) { return x > 0 && x <= 1; }, "a number above 0, at most 1");
 }
 
-// This check is needed because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
+// Checks for a whole number, because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
 // unsigned number.
 Check whole_number() {
   return [](const std::string& word) {
@@ -165,8 +165,8 @@ void add_part(CLI::App& verb, DetectorPart& part) {
                              : std::nullopt;
   };
   add_choice(verb, "--part", part, "steps, query", parse,
-             "What of the plug-in is judged: whole steps with their candidates, or its elementary "
-             "query (default: all that it holds)")
+             "The part of the plug-in that is judged: whole steps with their candidates, or its "
+             "elementary query (default: all that it holds)")
       ->group(OptionGroup::detector);
 }
 
@@ -175,8 +175,8 @@ CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const s
       add(verb, "--detector LIB.so", detector.library, about)->group(OptionGroup::detector);
   add_choice(verb, "--isolation", detector.isolation, "bubblewrap, limits",
              from_name<properties::Isolation>,
-             "Of the plug-in's process: bubblewrap, or limits alone (default: bubblewrap where it "
-             "works)")
+             "Isolation of the plug-in's process: bubblewrap, or limits alone (default: bubblewrap "
+             "where it works)")
       ->group(OptionGroup::detector);
   return library;
 }

@@ -30,7 +30,7 @@ struct VerbManual {
   const char* verb;
   const char* group;  // the title of the verb's group in the list of verbs
   const char* codes;  // the verb's possible exit codes, a digit each
-  // The meaning of exit code 0 if no claim is judged; empty: all claims hold.
+  // The meaning of exit code 0, if it is not that all claims hold.
   const char* success;
   std::vector<Example> examples;
 
@@ -49,7 +49,7 @@ constexpr const char* beside_the_verbs = "Beside it";
 std::string exit_codes_text();
 
 // Returns the text broken into lines of 80 columns. Each line but the first begins with `indent`
-// blanks; the first continues a line of which `indent` columns are written already.
+// blanks; the first continues a line that has `indent` columns already.
 std::string wrapped(const std::string& text, std::size_t indent);
 
 // Returns one line that says which words are allowed, and which may have been meant.

@@ -82,7 +82,7 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, Target& target,
 
 // Add the options --jobs (default: all cores), --time, --memory and --seed.
 void add_jobs(CLI::App& verb, int& jobs);
-// --time and --memory are for a verb that does its work in this process (work.h).
+// Adds --time and --memory, for a verb that does its work in this process (work.h).
 void add_limits(CLI::App& verb, std::optional<double>& seconds,
                 std::optional<std::uint64_t>& bytes);
 void add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& about);

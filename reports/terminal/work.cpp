@@ -64,7 +64,7 @@ void end_when_interrupted(const std::string& line, int code) {
 
 namespace {
 
-// The processor time of all threads of this process, including those that ended.
+// Returns the processor time of all threads of this process, including those that ended.
 double processor_seconds() {
   timespec now = {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -162,7 +162,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// If the path is a symbolic link, the file behind it is written.
+// Returns the file to write: for a symbolic link, the file behind it.
 fs::path target_of(const std::string& path) {
   std::error_code error;
   const auto target = fs::weakly_canonical(path, error);

@@ -151,7 +151,7 @@ class Progress {
                     std::chrono::seconds between_lines = std::chrono::seconds(60));
 
   void phase(std::string name);
-  // Is cheap unless a line is due.
+  // Shows a line if one is due. Cheap otherwise.
   void tick();
   void finish() { line_.finish(); }
 

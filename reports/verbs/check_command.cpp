@@ -111,7 +111,7 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
     }
     if (!last_row)
       return Problem{
-          fmt::format("{}is of {}, and this is {} ({}): leave it out, or assay check {} {}",
+          fmt::format("{}is for {}, and this is {} ({}): leave it out, or assay check {} {}",
                       name_in(word).substr(1), join(corpus::names_among(takers), " or "),
                       all[0].name, file, takers[0].input, word)};
     const auto is_beside = [&](const std::string& other) {
@@ -130,8 +130,8 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
   return outcome::success();
 }
 
-// The kind of the input as a whole. Inputs of two kinds are refused, and so are two inputs if only
-// one can be judged.
+// Returns the kind of the input as a whole. Inputs of two kinds are refused, and so are two inputs
+// if only one can be judged.
 Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& words_of_bodies) {
   using corpus::InputKind;
   auto files = inputs;
@@ -168,7 +168,7 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
   if (words_of_bodies.empty()) return kind == frames && files.size() == 1 ? rest : kind;
   if (kind != frames)
     return Problem{
-        fmt::format("--body is of frames, and {}: assay check {}", text(0), shell_word(files[0]))};
+        fmt::format("--body takes frames, and {}: assay check {}", text(0), shell_word(files[0]))};
   if (!inputs.empty())
     return Problem{fmt::format(
         "{} and --body do not go together: assay check --body FRAME... for each mesh", files[0])};
@@ -179,7 +179,7 @@ bool counts_all(const CheckRequest& request) {
   return request.rings == 0 && request.rest_distance == 0 && !request.weld;
 }
 
-// The input in words as they were typed.
+// Returns the input in words as they were typed.
 std::string words_of(const CheckRequest& request) {
   std::string words = join(request.inputs, " ");
   for (const auto& files : request.question.bodies)
@@ -192,7 +192,7 @@ std::string words_of(const CheckRequest& request) {
   return answers.empty() ? words : words + " --answers " + answers;
 }
 
-// The mesh and its steps. Fails as their readers do.
+// Returns the mesh and its steps. Fails as their readers do.
 Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
                                 const CheckQuestion& question) {
   if (kind == a_log) return read_log(log_name(request.inputs.front()), request.selection);
@@ -283,8 +283,8 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
 
 // Judges each log by itself, whatever the others are. Returns the worst exit code.
 Expected<int> check_logs(const CheckRequest& request, std::string& suites) {
-  if (!request.json_file.empty()) return Problem{"--json is of one log: name them one by one"};
-  if (request.selection.follow) return Problem{"--follow is of one log"};
+  if (!request.json_file.empty()) return Problem{"--json takes one log: check the logs one by one"};
+  if (request.selection.follow) return Problem{"--follow takes one log"};
   BOOST_OUTCOME_TRY(may_fill(request.keeping.folder));
   std::vector<std::string> files;
   for (const auto& word : request.inputs) files.push_back(log_name(word).file);
@@ -316,12 +316,13 @@ Expected<int> run_check(const CheckRequest& request) {
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
       request.option_texts()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
-    return Problem{"--detector asks again about what is kept: --keep says where"};
+    return Problem{"--detector is asked again about kept steps: name their folder by --keep"};
   if (const auto& which = request.selection;
       kind == a_log && (which.share < 1 || which.from > 1) &&
       std::ranges::any_of(request.inputs,
                           [](const auto& word) { return log_name(word).step.has_value(); }))
-    return Problem{"LOG#N is one step, and --share and --from choose among all: name one of both"};
+    return Problem{
+        "LOG#N is one step, and --share and --from choose among all steps: use one or the other"};
   if (kind == queries) {
     auto query_request = request.queries;
     query_request.files = request.inputs;
@@ -341,7 +342,7 @@ Expected<int> run_check(const CheckRequest& request) {
   return code;
 }
 
-// Which steps of a log are judged.
+// Adds the options that choose steps of a log.
 void add_selection(CLI::App& verb, LogSelection& selection) {
   add(verb, "--share SHARE", selection.share, "Judge this share of a log's steps")->check(share());
   add(verb, "--from N", selection.from, "Go on with this step of a log, counted from 1")
@@ -352,15 +353,14 @@ void add_selection(CLI::App& verb, LogSelection& selection) {
 void add_options(CLI::App& verb, CheckRequest& request) {
   auto& question = request.question;
   add(verb, "INPUT", request.inputs,
-      "Frames (OBJ, PLY, OFF; .gz too), whose steps are judged; one alone: a mesh at "
-      "rest. Or one case file (.json). Or a log that a recorder wrote (assay_record.h, "
-      "assay.Recorder); LOG#N: step N alone; several, each by itself. Or query files (.csv, "
-      ".csv.gz)");
+      "Frames of a mesh (OBJ, PLY, OFF; .gz too), whose steps are judged; one frame is a mesh at "
+      "rest. Or one case file (.json). Or logs of a recorder (assay_record.h, assay.Recorder), "
+      "each judged by itself; LOG#N is step N alone. Or query files (.csv, .csv.gz)");
   add(verb, "--body FRAME", question.bodies,
-      "The frames of one of several meshes, which become bodies of one; numbered from 0. One "
-      "frame: it stands still");
+      "The frames of one of several meshes, which become the bodies of one mesh, numbered from 0. "
+      "A body of one frame stands still");
   add(verb, "--apart A,B", request.apart,
-      "A,B: bodies that do not meet; A,A: one that meets not itself")
+      "A,B: bodies that do not meet; A,A: a body that does not meet itself")
       ->check(one_of("A,B: two bodies by number", two_numbers));
   add(verb, "--rings K", request.rings,
       "Pairs of triangles that fewer than K edges join do not count (1: those that share a "
@@ -374,9 +374,9 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_selection(verb, request.selection);
   add_query_options(verb, request.queries);
   add_detector_alone(verb, question.detector,
-                     "A plug-in's library, or python:MODULE:CLASS (default: the built-in). Of "
-                     "queries: its query answers. Of a log: one of the same code; it is asked "
-                     "again about what is kept, and that is shrunk");
+                     "A plug-in's library, or python:MODULE:CLASS (default: the built-in). For "
+                     "queries: its query answers. For a log: a plug-in of the same code; it is "
+                     "asked again about the kept steps, to shrink them");
   add_threads(verb, question.threads);
   add(verb, "--answers FILE", question.answers,
       "Judge the answers of this table (step,answer,time) in place of a detector");
@@ -391,46 +391,47 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
              from_name<detector::Pairs>, "Which pairs are asked for (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
-             from_name<detector::Arithmetic>, "What the detector computes in (default exact)");
+             from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
   verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
   add(verb, "--second-opinion SHARE", question.second_opinion,
       "Check the oracle itself by other methods, on this share of its questions")
       ->check(share());
   add(verb, "--separation LENGTH", request.separation,
-      "Ask the oracle alone which triangles that share no vertex come within this "
-      "distance, when first, and how near any two come. Of queries: ask for this distance, "
-      "and not for contact, where a query's rows say none")
+      "Ask only the oracle: which triangles without a common vertex come within this distance, "
+      "when first, and how near any two come. For queries: ask for this distance in place of "
+      "contact, unless a query's rows state one")
       ->check(length());
   add(verb, "--offset LENGTH", request.offsets,
-      "The same with a length for each --body, in their order: the distance of two triangles "
+      "Like --separation, with a length for each --body in order: the distance for two triangles "
       "is the sum of their bodies' lengths")
       ->check(length());
   add_jobs(verb, question.jobs);
   add_limits(verb, question.time_limit, question.memory_limit);
-  verb.add_flag("--fail-on-collision", request.fail_on_collision,
-                "Exit code 5 when they agree on a collision, or a step comes within --separation; "
-                "of a log when one is recorded, and no answer breaks a claim");
+  verb.add_flag(
+      "--fail-on-collision", request.fail_on_collision,
+      "Exit code 5 if detector and oracle agree on a collision, or if a step comes within "
+      "--separation; for a log if a collision is recorded and no answer breaks a claim");
   add(verb, "--keep DIR", request.keeping.folder,
-      "Keep failing steps here: the part of the mesh that shows each, as case, OBJ and C++; "
-      "of a plug-in shrunk")
+      "Keep failing steps here: the part of the mesh that shows the failure, as case, OBJ and C++; "
+      "for a plug-in, shrunk")
       ->group(OptionGroup::output);
   add(verb, "--shrink-time SECONDS", request.keeping.shrink_seconds,
-      "Of a log, seconds at most for each that is shrunk")
+      "For a log: the most seconds for shrinking a step")
       ->check(positive())
       ->capture_default_str()
       ->group(OptionGroup::limits);
   add(verb, "--ply FILE", question.ply_file,
-      "Write the mesh at its first contact here, with the triangles in contact in red, at "
-      "rest those that only touch in amber")
+      "Write the mesh at its first contact here: triangles in contact are red; at rest those that "
+      "only touch are amber")
       ->group(OptionGroup::output);
   verb.add_flag("--all-steps", request.all_steps,
                 "Print every step of a log, not only those that are not as claimed")
       ->group(OptionGroup::output);
   add(verb, "--junit FILE", request.junit_file,
-      "Write what each claim of a log came to here, as JUnit XML")
+      "Write the result of each claim of a log here, as JUnit XML")
       ->group(OptionGroup::output);
   add(verb, "--json FILE", request.json_file,
-      "Write the report here (assay-check/1; of queries assay-queries/1)")
+      "Write the report here (assay-check/1; for queries assay-queries/1)")
       ->group(OptionGroup::output);
   request.option_texts = [&verb] { return given_options(verb); };
 }

@@ -69,7 +69,7 @@ struct QueryReport {
   std::uint64_t false_positives = 0, false_negatives = 0, disputed_labels = 0;
   std::vector<QueryDifference> differences;
   double mean_us = 0, median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
-  std::uint64_t open = 0;  // neither yes nor a difference
+  std::uint64_t open = 0;  // undecided; neither a yes nor a difference
   std::uint64_t contradictions = 0;
   std::optional<std::map<std::string, std::uint64_t>> rungs;  // of a method that has some
   std::optional<ClaimsOnQueries> detector;                    // of a plug-in
@@ -88,13 +88,13 @@ properties::QueryTask task_of(const corpus::LabelledQuery& query) {
   return task;
 }
 
-// " within 0.1"; empty for a query of contact.
+// Returns " within 0.1"; empty for a query of contact.
 std::string within_text(const std::optional<double>& separation) {
   return separation ? fmt::format(" within {}", *separation) : "";
 }
 
-// Whether the label of a query that is coplanar throughout is in doubt, because another exact
-// method gives the same answer as this one (such labels were never checked by their makers).
+// Returns whether the label of a query that is coplanar throughout is in doubt, because another
+// exact method gives the same answer as this one (such labels were never checked by their makers).
 bool is_label_disputed(const properties::QueryMethod& method, const properties::QueryTask& task,
                        Decision answer) {
   const auto* oracle = properties::method_of("oracle");
@@ -136,7 +136,7 @@ class QueryScore {
 
   struct Answered {
     bool contact = false;       // or within the separation
-    std::optional<bool> truth;  // the label, if it is that of the query that was asked
+    std::optional<bool> truth;  // the label, if it is about the asked question
     std::optional<double> separation;
     bool label_disputed = false;
     double microseconds = 0;
@@ -432,7 +432,7 @@ Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet
   return plugin.exit_code();
 }
 
-// The problem of a method that knows no distance, if some query has a separation.
+// Refuses a method that knows no distance, if some query has a separation.
 Expected<void> check_method(const QueryQuestion& task, const std::vector<QuerySet>& sets) {
   if (task.method->knows_distance) return outcome::success();
   for (std::size_t i = 0; i < sets.size(); ++i) {

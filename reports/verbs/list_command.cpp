@@ -115,9 +115,9 @@ Expected<int> run_list(const ListRequest& request) {
 
 void add_options(CLI::App& verb, ListRequest& request) {
   const auto names = join(corpus::names_among(lists), ", ");
-  add(verb, "LIST", request.list, "Which; without it, what the lists are: " + names)
+  add(verb, "LIST", request.list, "Name of the list; without it, the lists are described: " + names)
       ->check(one_of(names, list_named));
-  add(verb, "DIR", request.folder, "Of a run, for failures and slow");
+  add(verb, "DIR", request.folder, "Folder of the run, for failures and slow");
 }
 
 }  // namespace

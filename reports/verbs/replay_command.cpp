@@ -61,8 +61,7 @@ std::optional<TrialName> trial_of(std::string_view id) {
   return TrialName{family, *index};
 }
 
-// A case that states options runs in their configuration. Any other case runs in every
-// configuration.
+// Chooses configurations: that of the case's options if it states some, else every one.
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
@@ -172,17 +171,17 @@ Expected<void> write_strip(const std::string& folder, const corpus::Case& c,
 }
 
 // Returns a remark on an id whose campaign has nearly the name of a built-in one. A case is made
-// from the text of its id, so a misspelt name makes another case; but a campaign from a file may
-// have that name.
+// from the text of its id, so a misspelt name makes another case. It is no error, because a
+// campaign from a file may have that name.
 std::string misspelt(const std::string& id) {
   const auto campaign = id.substr(0, id.find(':'));
   const auto hint = corpus::did_you_mean(corpus::names_among(properties::named_plans()), campaign);
   return hint.empty() ? "" : fmt::format("no built-in campaign is called {}{}\n", campaign, hint);
 }
 
-// A step of a log, judged again.
+// Judges a step of a log again.
 Expected<int> replay_log(const LogName& log, const ReplayRequest& request) {
-  if (request.why) return Problem{"--why is of the built-in detector, and this is a log"};
+  if (request.why) return Problem{"--why explains the built-in detector, and this is a log"};
   BOOST_OUTCOME_TRY(input, read_log(log, {}));
   CheckQuestion question;
   question.files = {log.file};
@@ -231,7 +230,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
     subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
   }
   if (request.why && !subject.detector.built_in) {
-    return Problem{"--why is of the built-in detector: a plug-in does not show its stages"};
+    return Problem{"--why explains the built-in detector: a plug-in does not show its stages"};
   }
   if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
     return Problem{fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
@@ -239,7 +238,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   const auto contracted_case = properties::contract_case(c, subject.detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: nothing of it is within the detector's contract: {}",
+    return Problem{fmt::format("{}: no step of it is within the detector's contract: {}",
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
@@ -304,9 +303,8 @@ void add_options(CLI::App& verb, ReplayRequest& request) {
       "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
       ->required();
   add(verb, "--export DIR", request.export_folder,
-      "Write frames as OBJ, a picture of the first contact and a test in C++ into this "
-      "folder: plain arrays beside a GoogleTest, or of a plug-in beside a program that loads "
-      "it")
+      "Write frames as OBJ, a picture of the first contact and a test in C++ into this folder: "
+      "plain arrays with a GoogleTest, or for a plug-in with a program that loads it")
       ->group(OptionGroup::output);
   add_choice(verb, "--why A,B", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");

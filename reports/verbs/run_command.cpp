@@ -65,7 +65,8 @@ class Certification {
     return store_.keep(to_row(properties::asked_of_a_certificate()));
   }
 
-  // If the owner gives cases, their digest is taken together with that of the shipped ones.
+  // Returns the digest of the cases: of the shipped ones, together with the owner's if there are
+  // some.
   std::string digest_of_cases() const {
     const auto files = corpus::case_files(corpus_ / "curated");
     const auto cases =
@@ -199,7 +200,7 @@ Expected<int> run_campaign(const CampaignWords& words) {
   BOOST_OUTCOME_TRY(properties::expect_no_other_store(out, {properties::store_file(out)}));
   BOOST_OUTCOME_TRY(
       store, properties::Store::open(properties::store_file(out), properties::binding_of(request)));
-  // Runs what is left, and reads the whole of it.
+  // Runs the rest of the campaign, and reads the findings of all of it.
   const auto findings = [&]() -> Expected<properties::RunFindings> {
     if (request.own_cases) {
       BOOST_OUTCOME_TRY(own, judge_corpus(request, ""));
@@ -217,7 +218,7 @@ Expected<int> run_campaign(const CampaignWords& words) {
   return conclude(request, findings.value(), out, seconds_since(begin));
 }
 
-// The 8 of "1/8"; nothing for other words.
+// Returns the 8 of "1/8"; nothing for other words.
 std::optional<std::uint64_t> shares_of(const std::string& word) {
   constexpr std::uint64_t most = 1'000'000;
   if (!word.starts_with("1/")) return std::nullopt;

@@ -58,7 +58,7 @@ void print_failures(const SelfTestFamily& family, std::uint64_t seed,
 
 void announce(const Families& families, const SelfTestRequest& request) {
   fmt::print(
-      "oracle against its referees: {} random small-integer queries, the other families by it; "
+      "oracle against its referees: {} random small-integer queries, other families in proportion; "
       "seed {}, {} jobs; writes no file; until {}\n",
       request.queries, request.seed, request.jobs,
       request.time_limit ? fmt::format("done, or {:.0f} s from now", *request.time_limit) : "done");
@@ -72,7 +72,7 @@ void announce(const Families& families, const SelfTestRequest& request) {
   std::fflush(stdout);
 }
 
-// One case again, put to all methods.
+// Puts one case to all methods again.
 Expected<int> replay(const Families& families, const std::string& name) {
   const auto self_test = properties::self_test_case(families, name);
   if (!self_test)
@@ -126,16 +126,16 @@ Expected<int> run_self_test(const SelfTestRequest& request) {
 }
 
 void add_options(CLI::App& verb, SelfTestRequest& request) {
-  add_seed(verb, request.seed, "Of all random queries");
+  add_seed(verb, request.seed, "Seed of all random queries");
   add(verb, "--queries N", request.queries,
-      "Random small-integer queries; the other families follow this number")
+      "Number of random small-integer queries; other families in proportion")
       ->check(in_range(1, 1'000'000'000))
       ->capture_default_str();
   add(verb, "--time SECONDS", request.time_limit, "Limit in seconds; what is left is undecided")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_jobs(verb, request.jobs);
-  add(verb, "--replay CASE", request.replay, "One case again, by its name family:seed:index");
+  add(verb, "--replay CASE", request.replay, "Run one case again, by its name family:seed:index");
 }
 
 }  // namespace

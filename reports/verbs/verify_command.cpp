@@ -27,13 +27,13 @@ struct VerifyRequest {
   int jobs = 1;
 };
 
-// A line about the files that were not looked at; empty if there are none.
+// Returns a line about the files that were not looked at; empty if there are none.
 std::string others_text(const std::vector<std::string>& files) {
   if (files.empty()) return "";
   constexpr std::size_t most_named = 3;
   const auto count = std::min(files.size(), most_named);
   return fmt::format(
-      "not looked at, for nothing of it rests on them: {}{}\n",
+      "not looked at, because the certificate does not rest on them: {}{}\n",
       fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count), ", "),
       files.size() > count ? fmt::format(" and {} more", files.size() - count) : "");
 }
@@ -44,8 +44,8 @@ std::uint64_t fresh_seed() {
   return (std::uint64_t{device()} << bits) | device();
 }
 
-// The seed is chosen now, because whoever forges a certificate must not know which trials are
-// asked for.
+// Runs trials again. The seed is chosen now, because a forger of the certificate must not know
+// which trials are asked for.
 Expected<int> run_trials_again(const std::string& certificate, const VerifyRequest& request) {
   const std::filesystem::path file = certificate;
   AgainRequest request_again{*request.again, request.seed ? *request.seed : fresh_seed(),
@@ -70,7 +70,7 @@ Expected<int> run_trials_again(const std::string& certificate, const VerifyReque
 
 Expected<int> run_verify(const VerifyRequest& request) {
   if (!request.again && (request.seed || !request.detector.library.empty()))
-    return Problem{"--seed and --detector are of --again, which is not given"};
+    return Problem{"--seed and --detector belong to --again, which is not given"};
   std::error_code ignored;
   auto certificates = request.certificates;
   for (auto& file : certificates) {
@@ -108,17 +108,17 @@ Expected<int> run_verify(const VerifyRequest& request) {
 void add_options(CLI::App& verb, VerifyRequest& request) {
   add(verb, "CERTIFICATE", request.certificates, "OUT/certificate.json, or OUT")->required();
   add(verb, "--out DIR", request.out,
-      "Folder for a certificate of all of them together: shares of one campaign, or whole "
-      "ones, each under a seed of its own")
+      "Folder for one certificate of all these runs: shares of one campaign, or whole campaigns, "
+      "each under a seed of its own")
       ->group(OptionGroup::output);
   add(verb, "--again SHARE", request.again,
-      "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
-      "what is stored")
+      "Run this SHARE of the trials, above 0, at most 1, once more; the results must be those that "
+      "are stored")
       ->check(share());
   add(
       verb, "--seed N",
       [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
-      "Of the choice of --again (default: a fresh one, printed)")
+      "Seed for the choice of trials by --again (default: a fresh one, printed)")
       ->check(whole_number());
   add_detector(verb, request.detector,
                "The certified plug-in's library, for --again (default: where it was)");
@@ -141,8 +141,8 @@ struct ReportRequest {
 
 using Json = nlohmann::ordered_json;
 
-// Everything that the page says of the run in a folder. A certificate that stands there is
-// believed only if it verifies.
+// Returns everything that the page says about the run in a folder. A certificate that stands there
+// is believed only if it verifies.
 properties::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
   BOOST_OUTCOME_TRY(findings, properties::read_findings(folder));
   progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings.tally.trials(),

@@ -1,4 +1,4 @@
-// Detector::limit: how far a step may be gone (L17).
+// Detector::limit: how far a step may be taken (L17).
 #include "detector/boxes/moving_box.h"
 #include "detector/detector.h"
 #include "tests/close_passes.h"

@@ -1,4 +1,4 @@
-// A limiter, by the built-in detector: how far a step may be gone. And limiters with a fault.
+// A limiter, by the built-in detector: how far a step may be taken. And limiters with a fault.
 // ASSAY_LIMITS_STEPS holds words of told.h, and
 //
 //   separation=D

@@ -1,7 +1,7 @@
 // The kernel's own isolation of zeros (Descartes' rule) calls itself for each halving: 1,190 deep,
 // on half a megabyte of stack, if two zeros differ only in that many bits. So zeros are isolated
-// here, and the remaining pieces lie on the heap. The kernel gives square-free parts, and functions
-// that compare numbers and refine them, which are loops.
+// here, and the remaining pieces lie on the heap. The kernel still gives square-free parts, and
+// compares and refines numbers, in loops.
 #include "oracle/query/times/times.h"
 
 // When two handles of CGAL that share a number are swapped, g++ 12 wrongly sees a use after free.
@@ -36,7 +36,7 @@ Polynomial kernel_polynomial(const IntegerPolynomial& p) {
 
 Integer integer(const CGAL::Gmpz& x) { return Integer(x.mpz()); }
 
-// The square-free part.
+// Returns the square-free part.
 IntegerPolynomial without_multiple_zeros(const Kernel& kernel, const IntegerPolynomial& p) {
   const Polynomial simple = kernel.make_square_free_1_object()(kernel_polynomial(p));
   IntegerPolynomial result;
@@ -44,7 +44,7 @@ IntegerPolynomial without_multiple_zeros(const Kernel& kernel, const IntegerPoly
   return result;
 }
 
-// k / 2^depth.
+// Returns k / 2^depth.
 Bound dyadic(const Integer& k, unsigned depth) {
   const Integer denominator = Integer(1) << depth;
   return {CGAL::Gmpz(k.get_mpz_t()), CGAL::Gmpz(denominator.get_mpz_t())};
@@ -62,7 +62,7 @@ struct Piece {
     for (int i = 0; i < p.degree(); ++i) half.p.c[i] <<= static_cast<unsigned>(p.degree() - i);
     return half;
   }
-  // p(w + 1).
+  // Returns p(w + 1).
   Piece next() const {
     Piece after = {p, k + 1, depth};
     const int n = p.degree();
@@ -102,7 +102,7 @@ void append_zeros(const IntegerPolynomial& p, std::vector<Real>& times) {
   }
 }
 
-// q as a polynomial of w, where time = low + w (high - low) on the interval that isolates
+// Returns q as a polynomial of w, where time = low + w (high - low) on the interval that isolates
 // `number`, times a positive power of the denominators.
 IntegerPolynomial on_interval(const IntegerPolynomial& q, const Real& number) {
   const Bound low = number.low(), high = number.high();

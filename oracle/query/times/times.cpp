@@ -212,7 +212,7 @@ QuadraticTimes::QuadraticTimes(std::span<const IntegerPolynomial> polynomials) {
 }
 
 // The sign of q at a zero r of f. q is its leading coefficient times the product of t - e over its
-// real zeros e, or times a positive function if it has none. So the sign follows from the side of r
+// real zeros e; if it has none, times a positive function. So the sign follows from the side of r
 // on which each e lies. An e inside of the piece of r is before r exactly when f(e) has the sign of
 // f at the start of the piece, and is r exactly when f(e) = 0.
 namespace {

@@ -37,7 +37,8 @@ Words words_in(const std::string& text) {
   return words;
 }
 
-// The words of a cause, and the opposites of those that it leaves out because they are ordinary.
+// Adds the words of a cause, and the opposites of those that it leaves out because they are
+// ordinary.
 void add_cause(Words& words, const std::string& cause) {
   words.merge(words_in(cause));
   constexpr std::array<std::array<const char*, 2>, 2> opposites = {
@@ -55,7 +56,7 @@ class MeshTraits {
       : is_query_(query_of(c).has_value()),
         mesh_(detector::make_topology(c.triangles, c.frames.front().rows())) {}
 
-  // A query has no mesh.
+  // Adds the traits of the mesh, and of this pair. A query has no mesh.
   void add_to(Words& words, const TrianglePair& pair) const {
     if (is_query_) return;
     const auto of = [&](std::int32_t t) { return mesh_.component_of_triangle[detector::at(t)]; };
@@ -75,7 +76,7 @@ class MeshTraits {
   const detector::Topology mesh_;
 };
 
-// Which of the two triangles move, and how small the smaller one is at the start.
+// Adds which of the two triangles move, and how small the smaller one is at the start.
 void add_motion(Words& words, const TrianglesView& triangles, const SteppedMesh& motion,
                 const TrianglePair& pair) {
   int moving = 0;
@@ -97,7 +98,7 @@ void add_motion(Words& words, const TrianglesView& triangles, const SteppedMesh&
   }
 }
 
-// The traits of the contacts of a case, of one pair alone if it is given.
+// Returns the traits of the contacts of a case, of one pair alone if it is given.
 std::vector<Words> contacts_of(const Case& c, const Contract& contract,
                                const TrianglePair* alone = nullptr) {
   std::vector<Words> contacts;
@@ -154,7 +155,7 @@ std::string deed_of(const FailureRecord& failure) {
   return name_of(is_early ? Deed::reports : row_of(*claim).deed);
 }
 
-// The two triangles that the explanation names; nothing if they are none of the mesh.
+// Returns the two triangles that the explanation names; nothing if the mesh lacks one.
 std::optional<TrianglePair> pair_told(const std::string& explanation, const Case& c) {
   constexpr const char* word = "triangles ";
   TrianglePair pair{0, 0};
@@ -221,7 +222,7 @@ struct Sorter {
   }
 
  private:
-  // Among the cases that hold, returns how many have a contact with all of these traits.
+  // Returns how many of the cases that hold have a contact with all of these traits.
   std::size_t holds_with(Traits traits) const {
     return static_cast<std::size_t>(std::ranges::count_if(contacts_, [&](const auto& contacts) {
       return std::ranges::any_of(contacts, [&](Traits of) { return holds(of, traits); });

@@ -113,7 +113,7 @@ class Reader {
       } else {
         findings_.evidence.add(std::move(evidence));
       }
-    } catch (const StoreProblem& odd) {  // it names no file
+    } catch (const StoreProblem& odd) {  // its text names no file
       throw StoreProblem(fmt::format("{}: {}", file.string(), odd.what()));
     }
     findings_.parts.push_back({run.seed, run.shares, digest});
@@ -198,7 +198,7 @@ std::uint64_t RunFindings::met_count(const FailureRecord& failure) const {
 }
 
 const FailureRecord* RunFindings::example_of(const std::string& signature) const {
-  // Failures that their own case shows come first, then those that a trial or the search has met.
+  // Failures that their own case shows come first, then those of a trial or of the search.
   const auto rank = [](const FailureRecord& failure) {
     return std::pair(failure.flaky, failure.is_of_corpus());
   };

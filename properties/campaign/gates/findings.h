@@ -33,7 +33,7 @@ struct RunFindings {
   std::vector<RunPart> parts;    // by seed; a single one if one run is judged by itself
   Tally tally;
   Counts times_met;                 // how often each signature of a failure was met
-  std::uint64_t claims_broken = 0;  // how often a failure was met that breaks no law
+  std::uint64_t claims_broken = 0;  // how often a failure that breaks no law was met
   // Ordered by signature; within one signature shrunk failures first, then shorter ones, then by
   // id.
   std::vector<FailureRecord> failures;
@@ -67,7 +67,7 @@ struct RunFindings {
   const FailureRecord* example_of(const std::string& signature) const;
   // Returns the outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
-  // Returns whether the run shows if laws were met often enough: it does for the built-in detector,
+  // Returns whether the run shows if laws were met often enough. It does for the built-in detector,
   // once all trials of a whole campaign took place.
   bool laws_are_judged() const;
   // Returns whether the same command would add something: the run was killed or its time ended.

@@ -33,7 +33,7 @@ struct GateFindings {
   }
 };
 
-// What can be done about the reasons of gate `complete`.
+// Returns the remedy for the reasons of gate `complete`.
 std::string remedy_of(const GateFindings& gate) {
   const auto all = gate.against.size(), lasting = gate.lasting.size();
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
@@ -123,8 +123,8 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
-    gate.add_lasting(
-        fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
+    gate.add_lasting(fmt::format("{} of {} trials were disturbed from outside; at most 1 % may be",
+                                 disturbed, trials));
 }
 
 // Checks that a plug-in was given every scene at the plan's size, the long sequence, and the walks
@@ -151,7 +151,8 @@ void check_search(const RunFindings& f, GateFindings& gate) {
   const auto cases = f.shares_of(f.run.plan.search);
   const auto lanes = f.evidence.sum_of(Source::search);
   if (lanes.planned < cases)
-    gate.add_to_do(fmt::format("the search came to lanes of {} of {} cases", lanes.planned, cases));
+    gate.add_to_do(
+        fmt::format("the search has finished lanes of {} of {} cases", lanes.planned, cases));
   if (cases > 0 && lanes.planned == cases && lanes.cases == 0)
     gate.add_lasting("the contract takes no case of the search");
   if (lanes.undecided > 0)
@@ -220,10 +221,9 @@ GateFindings check_complete(const RunFindings& f, const VerbRequest& request) {
     std::vector<std::string> shares;
     for (const auto& part : f.parts)
       shares.push_back(fmt::format("1/{} under seed {}", part.shares, part.seed));
-    gate.add_lasting(fmt::format(
-        "a whole campaign is more than the shares that are there: {}; shares 1/N need N "
-        "seeds that follow one another",
-        fmt::join(shares, ", ")));
+    gate.add_lasting(
+        fmt::format("the shares make no whole campaign: {}; shares 1/N need N consecutive seeds",
+                    fmt::join(shares, ", ")));
   }
   check_trials(f, request, gate);
   if (f.evidence.canaries.empty()) gate.add_to_do("no canary was met");
@@ -268,8 +268,8 @@ GateFindings check_bounds(const RunFindings& f, const VerbRequest&) {
   return gate;
 }
 
-// The lines leave out the figures themselves, which stand among the times, so that the lines are
-// the same from run to run. Of several runs the median counts.
+// Checks the figures. The lines leave the figures out, which stand among the times, so that the
+// lines are the same from run to run. Of several runs the median counts.
 GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
   GateFindings gate;
   const auto& limits = f.run.plan.policy.speed_limits;

@@ -63,8 +63,8 @@ struct GateResult {
   GateState state = GateState::holds;
   // Why the gate fails or was not judged, one line for each reason. Empty if it holds.
   std::vector<std::string> reasons;
-  // A sentence that says which reasons vanish if the same run goes on, and which do not. Only for a
-  // gate `complete` that fails; else empty.
+  // For a gate `complete` that fails: which reasons vanish if the same run goes on, and which do
+  // not, in a sentence. Else empty.
   std::string remedy = {};
 };
 
@@ -98,9 +98,9 @@ struct NotJudged {
 ASSAY_FIELDS(NotJudged, claim, reason)
 
 // Returns the claims of a plug-in that were not judged, in their order. The contract makes some
-// void, by a margin or because it reports no pairs. Others were never put to the test: no step had
-// a contact, or the intervals of the first time were wider than 1e-3 in more than one of a hundred
-// collisions, and so state no time. If a detector is judged by steps and queries, the steps decide.
+// void, by a margin or because it reports no pairs. Others were never tested: no step had a
+// contact, or more than one collision in a hundred had an interval of the first time that is wider
+// than 1e-3 and so states no time. If a detector is judged by steps and queries, the steps decide.
 // Empty for the built-in detector, whose contract is the default and whose times are enclosures.
 std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries = false);
@@ -133,11 +133,11 @@ std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
 Extremes largest_tried(const RunFindings& findings);
 
 // Returns why too little was judged for a verdict; empty if enough was. Asked only where a claim
-// speaks of contacts and the contract does not make it void: a tenth of the planned cases of each
-// family must have a contact that the contract does not leave out, and so must some cases of at
-// least three families. If the campaign names fewer families and no certificate is asked for, some
-// cases of each suffice. Families that the contract leaves out wholly do not count. Nothing is
-// known about a claim that no step put to the test.
+// speaks of contacts and the contract does not make it void. Contacts that the contract leaves out
+// do not count. A tenth of the planned cases of each family must have a contact, and so must some
+// cases of at least three families. If the campaign names fewer families and no certificate is
+// asked for, some cases of each suffice. Families that the contract leaves out wholly do not count.
+// Nothing is known about a claim that no step put to the test.
 std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate);
 
 // Groups the kinds of failure of a run by the change of the detector that would mend them: one
@@ -149,11 +149,11 @@ struct FailureGroup {
   // The traits that all contacts lost by the group share; possibly none.
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
-  // `holds_with` of `all_holds` cases that hold also have a contact with all `shared` traits.
+  // Of `all_holds` cases that hold, `holds_with` have a contact with all `shared` traits too.
   std::size_t holds_with = 0, all_holds = 0;
 };
 
-// The group with the most kinds comes first. A single kind is in no group.
+// Returns the groups, the one with the most kinds first. A single kind is in no group.
 //
 // Failures that do different things are in different groups. Failures that lose a contact (answered
 // free, late, left out a pair or a candidate, let a limiter through) are grouped by the traits of

@@ -15,7 +15,7 @@ constexpr std::uint64_t seldom = 100;
 constexpr const char* no_contact = "no step had a contact";
 constexpr const char* no_usable_answer = "no answer that can be judged";
 
-// Why no contact was judged.
+// Returns why no contact was judged.
 std::string without_contact(const StepMeasures& m) {
   if (m.unanswered == 0) return no_contact;
   return m.unanswered == 1
@@ -97,7 +97,7 @@ struct Largest {
   std::uint64_t judged_steps = 0, in_contact = 0, repeated = 0;
 };
 
-// Whether some configuration that is asked in strata of this family makes the claim.
+// Returns whether some configuration that is asked in strata of this family makes the claim.
 bool is_claimed_in(const RunFindings& findings, std::string_view family, Claim claim) {
   const auto configurations = configurations_in(findings.run.detector, family);
   return std::ranges::any_of(configurations,
@@ -130,7 +130,7 @@ Claims claims_of_any_configuration(const BoundDetector& detector) {
   return claims;
 }
 
-// Whether one of these claims speaks of contacts and is not void under the contract.
+// Returns whether one of these claims speaks of contacts and is not void under the contract.
 bool wants_contacts(const Claims& claims, const Contract& contract) {
   const auto claim_names = list_of(judged_claims(claims, contract));
   return std::ranges::any_of(claim_names,

@@ -45,7 +45,7 @@ BoundDetector bound_detector(const DetectorUnderTest& detector, std::uint64_t th
   return out;
 }
 
-// The digest; nothing if its file is not there. Whoever runs the file will find that out.
+// Returns the digest; nothing if its file is not there. Whoever runs the file will find that out.
 std::optional<std::string> digest_if(const corpus::Expected<std::string>& digest) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
@@ -56,7 +56,7 @@ Json member(const Json& json, const std::string& key) {
   return index < json.size() ? json[index] : Json();
 }
 
-// "seed 1 and 2": the first member in which the two differ, with its path, and both values.
+// Returns the first member in which the two differ, with its path, and both values: "seed 1 and 2".
 std::string first_difference(const std::string& part, const Json& a, const Json& b) {
   if (!a.is_structured() || !b.is_structured())
     return fmt::format("{} {} and {}", part, a.is_null() ? "none" : corpus::json_text(a),
@@ -73,8 +73,8 @@ std::string first_difference(const std::string& part, const Json& a, const Json&
   return part;
 }
 
-// The SHA-256 over the first cases of every family, which changes if the generator makes other
-// cases. About 10 ms.
+// Returns the SHA-256 over the first cases of every family, which changes if the generator makes
+// other cases. About 10 ms.
 std::string generator_digest() {
   constexpr std::uint64_t cases = 16;  // this many cases of each family
   std::string digests;
@@ -150,7 +150,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
   const auto first = corpus::parse_sorted_json(a, "binding"),
              right = corpus::parse_sorted_json(b, "binding");
   const bool are_objects = first && right && first.value().is_object() && right.value().is_object();
-  if (!are_objects) return "one of them says not of what it is";
+  if (!are_objects) return "one of them does not state its run";
   std::vector<std::string> differences;
   const auto parts_of = [&](Json binding) {
     if (runs == Runs::judged_together) {

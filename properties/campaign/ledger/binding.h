@@ -33,7 +33,7 @@ struct BoundDetector {
   bool built_in = true;
   Contract contract;
   std::uint64_t threads = 1;                  // for a plug-in that asks how many it may use
-  std::vector<Configuration> configurations;  // those of questions last
+  std::vector<Configuration> configurations;  // those with questions come last
   // As in DetectorUnderTest.
   std::vector<std::string> query_claims{}, unjudged_parts{};
 };

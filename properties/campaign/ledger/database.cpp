@@ -100,7 +100,7 @@ constexpr std::pair<std::string_view, const char*> passing_fields[] = {
     {failure_kind, "printed"}, {note_kind, "value"},
 };
 
-// With STRICT, a check of the whole file finds a text that became something else.
+// With STRICT, a check of the whole file finds a text whose type has changed.
 constexpr std::string_view declaration =
     "CREATE TABLE ledger(kind TEXT NOT NULL, key TEXT NOT NULL, progress INTEGER NOT NULL, fields "
     "TEXT NOT NULL, hash TEXT NOT NULL, PRIMARY KEY(kind, key)) STRICT, WITHOUT ROWID";

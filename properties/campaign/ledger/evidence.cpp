@@ -133,8 +133,8 @@ void merge(std::vector<T>& list, const std::vector<T>& more, const Meet& meet) {
 }  // namespace
 
 void EvidenceFacts::add(EvidenceFacts other) {
-  // A run that planted the faults by itself goes before runs that took over a proof, because the
-  // proof may be that of this run, and its cases would then count twice.
+  // If a run planted the faults by itself, its proof is taken, and not the proofs that other runs
+  // took over: those may be the same proof, and its cases would then count twice.
   const auto planted_count = [](const auto& facts) {
     return facts.power.empty() && !facts.faults.empty();
   };
@@ -155,7 +155,7 @@ void EvidenceFacts::add(EvidenceFacts other) {
   }
   if (power.size() > 1)
     throw StoreProblem("two runs took over proofs of planted faults from different runs");
-  // A world is the same in every run: the one that came farthest counts.
+  // A world is the same in every run, so only the proof that came farthest counts.
   merge(worlds, other.worlds, [](World& stored_world, const World& world) {
     if (stored_world.progress() < world.progress()) stored_world = world;
   });

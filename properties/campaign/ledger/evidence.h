@@ -35,8 +35,9 @@ struct HarnessProblem {
   static constexpr const char* kind = "problem";
   std::string what;
   std::uint64_t trials = 0;
-  // A later row replaces an earlier one. If both have the same number of trials, the row with a
-  // problem counts as later, because a problem ends only when a further trial is stored.
+  // Returns more for a later row, which replaces an earlier one. If both have the same number of
+  // trials, the row with a problem is the later one, because a problem ends only when a further
+  // trial is stored.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)
@@ -65,7 +66,7 @@ struct FaultProof {
   void add(const FaultProof& other);
 
   const std::string& key() const { return fault; }
-  // A hunt that was not ended by the time counts as farther than any that was.
+  // Returns more for a hunt that went to its end than for any that the time ended.
   std::uint64_t progress() const;
 };
 ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices)
@@ -94,7 +95,7 @@ struct World {
   bool complete = false;
   std::optional<std::string> counterexample;  // the claim that fails, in words
   const std::string& key() const { return world; }
-  // A counterexample counts as farther than any number of classes that hold.
+  // Returns more for a counterexample than for any number of classes that hold.
   std::uint64_t progress() const;
 };
 ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
@@ -126,9 +127,9 @@ struct Versions {
 ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
 
 // The result of one input in one configuration. The input is a part of the shipped corpus, a scene,
-// or the owner's cases; a large mesh, put to a plug-in (several times if it claims to be
-// deterministic) to try its claims on more than the trials; a lane of the search; or a family of
-// queries of the self-test. Each fills the members that apply to it.
+// or the owner's cases; a large mesh, on which a plug-in's claims are tried (several times, if it
+// claims to be deterministic); a lane of the search; or a family of queries of the self-test. Each
+// fills the members that apply to it.
 struct JudgedSource {
   static constexpr const char* kind = "judged";
   struct Failed {

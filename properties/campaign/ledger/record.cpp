@@ -11,7 +11,7 @@ namespace assay::properties {
 ASSAY_FIELDS(FailureRecord, source, case_id, configuration, law, claim, kind, contact, explanation,
              mesh, smallest, smallest_explanation, flaky, printed)
 
-// The fields that the row of a trial keeps. The key of the row says the rest.
+// Lists the fields that the row of a trial keeps. The key of the row says the rest.
 template <class Archive>
 void fields(Archive& archive, TrialRecord& x) {
   archive("outcomes", x.outcomes, "triangles", x.triangles, "steps", x.steps, "collisions",

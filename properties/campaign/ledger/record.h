@@ -92,14 +92,14 @@ enum class Source : std::uint8_t { trial, corpus, own, repeated, search, self_te
 struct SourceRow {
   Source value;
   const char* name;
-  Source counts_as;    // itself, or the source of which it is a part
+  Source counts_as;    // itself, or the source that it is a part of
   bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
   const char* prefix;  // of the ids of its failures; no trial's id begins so
-  // Says where a kind of failure was met if no trial has shown it; the same in a summary; and the
-  // name of the count behind the verdict.
+  // Texts: the first two say, on the terminal and in a summary, where a kind of failure was met
+  // that no trial shows; the last names the count behind the verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
   // The section of a certificate that lists the source's inputs, if any; and the members of
-  // JudgedSource that the section shows. "queries=cases" shows `cases` under the name `queries`.
+  // JudgedSource shown there. "queries=cases" shows `cases` under the name `queries`.
   const char *section = "", *shown_text = "";
 };
 constexpr auto names_of(Source) {
@@ -153,8 +153,8 @@ struct FailureRecord {
 
 // A text behind the explanation of a failure that its own case does not show.
 inline constexpr const char* needs_what_came_before =
-    "; asked again by itself, it comes to something else: what fails may need what the process did "
-    "before, and a replay may hold";
+    "; its case alone gives another result: the failure may need earlier work of the process, and "
+    "a replay may hold";
 
 // Returns the description in a failure's case file: "all-pairs: missing pair, edge-edge; triangles
 // 0 and 1 meet at t = 0.5".

@@ -16,7 +16,7 @@
 namespace assay::properties {
 namespace {
 
-// The schema that a binding names, if it is not that of this build.
+// Returns the schema that a binding names, if it is not that of this build.
 std::optional<std::string> other_schema(const std::string& binding) {
   const auto json = corpus::parse_json(binding, "binding");
   // If the text is no binding at all, whoever reads the binding reports that.
@@ -44,7 +44,8 @@ std::optional<std::string> unchecked_binding(const Database& db) {
   return binding ? binding : first("note", "SELECT value FROM note WHERE key='binding'");
 }
 
-// The end of a key is a number. If two keys differ in it alone, the shorter key comes first.
+// The end of a key is a number. If two keys differ in this number alone, the shorter key comes
+// first.
 constexpr const char* order_of_keys = "ORDER BY rtrim(key, '0123456789'), length(key), key";
 
 std::optional<Row> find(const Database& db, std::string_view kind, std::string_view key) {

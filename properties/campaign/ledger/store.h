@@ -48,8 +48,8 @@ class Store {
 
   std::string binding() const;
 
-  // Whatever a function below writes survives a kill of the process once it has returned. Not for
-  // several threads at once.
+  // What the functions below have written survives a kill of the process once they return. They are
+  // not for several threads at once.
 
   // Replaces the row of the same kind and key, unless the old row has more progress.
   void set(const Row& row);
@@ -89,13 +89,14 @@ Expected<void> copy_store(const std::filesystem::path& from, const std::filesyst
 
 // The files of a run's folder, by their names.
 
-// OUT/run.sqlite
+// Returns OUT/run.sqlite.
 inline std::filesystem::path store_file(const std::filesystem::path& out) {
   return out / "run.sqlite";
 }
-// OUT/seed-7.sqlite: the copy of a run's store in a folder where several runs are judged together.
+// Returns OUT/seed-7.sqlite: the copy of a run's store in a folder where several runs are judged
+// together.
 std::filesystem::path copied_store_file(const std::filesystem::path& out, std::uint64_t seed);
-// OUT/campaign.json, OUT/certificate.json
+// Return OUT/campaign.json and OUT/certificate.json.
 inline std::filesystem::path campaign_file(const std::filesystem::path& out) {
   return out / "campaign.json";
 }

@@ -13,7 +13,7 @@ namespace {
 
 int log2_of(std::uint64_t n) { return n == 0 ? -1 : std::bit_width(n) - 1; }
 
-// Whether a law is to be met under this culling by itself. Laws are met by view sets alone.
+// Returns whether a law is to be met under this culling by itself. Laws are met by view sets alone.
 bool is_met_under(Culling culling, PremiseScope met_under) {
   switch (met_under) {
     case PremiseScope::any_culling:
@@ -146,7 +146,7 @@ std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_
 }
 
 std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises) {
-  // Each culling needs a tenth of the steps that are wanted of all cullings together.
+  // Each culling needs a tenth of the steps that are wanted for all cullings together.
   constexpr std::uint64_t least_of_a_culling = 10;
   std::vector<std::string> lines;
   for (const auto& [law, count] : laws_in(counts)) {

@@ -51,8 +51,9 @@ struct Tally {
   static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  // Return numbers of trials over all strata: all; with a case that the contract takes; with a
-  // defect in some configuration; without a verdict in some configuration; disturbed ones.
+  // Return the number of trials over all strata: of all; of those with a case that the contract
+  // takes; with a defect in some configuration; without a verdict in some configuration; disturbed
+  // ones.
   std::uint64_t trials() const, judged_trials() const, with_defect() const, open() const,
       disturbed() const;
 
@@ -76,8 +77,8 @@ std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const Law
 // Returns why a law was met too seldom: its premise held less often than wanted, or was close in
 // less than a quarter of the steps. Empty if it was met often enough, or if `wanted_premises` is 0.
 std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_premises);
-// Returns one such line for each law that was met too seldom, and for each culling under which a
-// law was met in less than a tenth of the steps wanted for all cullings together.
+// Returns a line of `starved` for each law that was met too seldom, and one for each culling under
+// which a law was met in less than a tenth of the steps wanted for all cullings together.
 std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises);
 
 // Returns how many laws were broken.

@@ -60,7 +60,7 @@ struct Hunt {
   }
 
  private:
-  // This many cases are judged between two looks at what is found.
+  // This many cases are judged between two looks at the findings.
   static constexpr std::uint64_t chunk = 64;
 
   bool over() const { return std::chrono::steady_clock::now() >= deadline_; }

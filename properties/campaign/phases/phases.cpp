@@ -19,8 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A phase must be over when this share of the plan's time has passed. If trials are missing, they
-// have all but a tenth of the time. In this tenth their failures are shrunk, and then nothing else
-// is begun. The same command goes on with the rest.
+// have all but a tenth of the time. In this tenth their failures are shrunk, and nothing else is
+// begun. The same command goes on with the rest.
 constexpr double trials_share = 0.9, faults_share = 0.95;
 
 // The limits for shrinking a single failure.
@@ -51,7 +51,8 @@ struct CampaignRun {
     return std::min(deadline, deadline_in(Clock::now(), seconds_from_now));
   }
 
-  // The tenth that is kept for shrinking begins when the trials have ended, however late that was.
+  // Shrinks failures. The tenth of the time for this begins when the trials have ended, however
+  // late.
   void shrink(bool complete) {
     const double most = shrinking_seconds(request_.plan), all = request_.plan.seconds;
     const double seconds = all == 0 ? most : std::min(most, (1 - trials_share) * all);
@@ -60,7 +61,7 @@ struct CampaignRun {
                     progress_);
   }
 
-  // The evidence that an earlier call of this run stored.
+  // Returns the evidence that an earlier call of this run stored.
   EvidenceFacts facts() const { return facts_in(store_); }
 
   void drop_proofs() {
@@ -68,8 +69,8 @@ struct CampaignRun {
     store_.drop(FaultProof::kind);
   }
 
-  // If an earlier call of this run proved planted faults by itself, its proofs are dropped,
-  // because a store never holds both these and proofs that are taken over.
+  // Takes over the proof. If an earlier call of this run proved planted faults by itself, its
+  // proofs are dropped, because a store never holds both kinds.
   void take_power() {
     if (facts().power.empty()) drop_proofs();
     store_.set(to_row(request_.power->source));

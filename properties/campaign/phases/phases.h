@@ -66,8 +66,8 @@ Canary meet_canary(const CampaignRequest& request);
 
 // Returns the proof in `folder` for the request. Fails if the request's plan plants no faults, if
 // the folder is `out` or lies below it, if the digests of program, worker or generator differ, if
-// the run in `folder` did not find every planted fault itself or gave a fault fewer cases or seeds
-// than the plan asks for, and where read_findings fails.
+// the run in `folder` did not find every planted fault itself, if it gave a fault fewer cases or
+// seeds than the plan asks for, and if read_findings fails.
 //
 // REQUIRES that no code of a plug-in has run in this process's workers yet, because such code could
 // change the files that are read here.
@@ -89,12 +89,12 @@ std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request);
 // steps, or of a broad phase.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
-// Returns a scene as it is put to a plug-in, in one of its forms. Form 0 has the wanted number of
-// triangles. The other forms have a size between that and the largest trial, and about half of them
-// are several smaller copies side by side, which makes many components. The seed draws these sizes,
-// the number of frames, the order of vertices, triangles and corners, and one linear map near the
-// identity, through which all frames go. So nobody knows these meshes before the seed is known. The
-// map keeps contacts and their times, unless rounding decides them.
+// Returns one of the forms in which a scene is put to a plug-in. Form 0 has the wanted number of
+// triangles. The other forms are between that size and the size of the largest trial. About half of
+// them are several smaller copies side by side, which makes many components. The seed draws these
+// sizes, the number of frames, the order of vertices, triangles and corners, and one linear map
+// near the identity, through which all frames go. So nobody knows these meshes before the seed is
+// known. The map keeps contacts and their times, unless rounding decides them.
 inline constexpr int forms_of_a_scene = 3;
 Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
                     int form);
@@ -118,15 +118,15 @@ Case long_sequence(std::uint64_t seed);
 // a failure, whose mesh is the step that differs. A run that hangs is reported and breaks nothing;
 // after three such meshes no further mesh is run.
 //
-// The oracle judges two steps of each scene as the first run answered them, if the scene has such
-// steps: the step with the fewest contacts that the contract does not leave out, and the first step
-// without any. It also judges up to two steps in which a claim is broken if the built-in detector
-// is right. The built-in detector chooses the steps, and decides nothing else. A step that breaks a
-// claim is a failure, whose mesh is the step alone, or, if the step fails only after the steps
-// before it, the scene up to this step. In the long sequence the oracle judges every step, and the
-// first four failing steps of each signature are kept.
+// The oracle judges two steps of each scene, as the first run answered them: the step with the
+// fewest contacts, and the first step without any. Contacts that the contract leaves out do not
+// count. A scene may lack such a step. It also judges up to two steps whose answers break a claim
+// if the built-in detector is right. That detector only chooses the steps; it decides nothing. A
+// step that breaks a claim is a failure, whose mesh is the step alone, or, if the step fails only
+// after the steps before it, the scene up to this step. In the long sequence the oracle judges
+// every step, and the first four failing steps of each signature are kept.
 //
-// A limiter also does a walk of each WalkKind, and the oracle judges every step.
+// A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //
 // Throws StoreProblem; so it is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
@@ -139,15 +139,15 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
 // The movement to which the bodies of a walk are driven. All bodies are tetrahedra, above a floor
 // of two triangles at rest or between two such plates.
 enum class WalkKind : std::uint8_t {
-  resting,      // one falls onto the floor, is pushed about there, and lifted now and then
-  sliding,      // one is pushed down and along
-  pile,         // three lie on one another
-  closing_gap,  // two are driven through each other, to the same goal again and again
-  far_goal,     // one falls by a thousand times its size in each step
-  squeezed,     // two plates come together about one
+  resting,      // one body falls onto the floor, is pushed about there, and lifted now and then
+  sliding,      // one body is pushed down and along
+  pile,         // three bodies lie on one another
+  closing_gap,  // two bodies are driven through each other, to the same goal again and again
+  far_goal,     // one body falls by a thousand times its size in each step
+  squeezed,     // two plates close on one body
   far_away,     // a pile, 2^20 of its sizes from the origin
 };
-// These names are the ids of walks.
+// Names the walks; the names are their ids.
 constexpr auto names_of(WalkKind) {
   using enum WalkKind;
   return std::to_array<Named<WalkKind>>({{resting, "walk-resting"},
@@ -217,17 +217,18 @@ Finding finding_of(const Failure& failure);
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
-  // Called first, with the number of trials that are in the store already.
+  // Is called first, with the number of trials that are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // A phase begins now: "trials", "repetitions", "search", "shrinking", "faults" or "tetrahedron".
-  // The first call comes after the canary.
+  // Is called when a phase begins: "trials", "repetitions", "search", "shrinking", "faults" or
+  // "tetrahedron". The first call comes after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
-  // The progress of the phase in words; if it can be counted, also how much is done and left.
+  // Is told the progress of the phase in words; if it can be counted, also how much is done and
+  // left.
   virtual void on_progress(const std::string&, std::uint64_t /*done*/, std::uint64_t /*left*/) {}
-  // All trials and their failures are stored now; faults and worlds are still to come.
+  // Is called when all trials and their failures are stored; faults and worlds are still to come.
   virtual void on_failures_shrunk(const FailureList&) {}
 };
 
@@ -249,10 +250,10 @@ double shrinking_seconds(const CampaignPlan& plan);
 // Keeps the failures of curated cases and scenes, each with a small mesh, as for failing trials.
 
 // Takes the failures whose signature is not in the store yet, and stores the smallest mesh of each
-// such signature. Then it shrinks these meshes. That takes at most a minute for each, and for all
-// together the share of the plan's time that is reserved for shrinking. REQUIRES failures in the
-// order of the corpus. What an earlier call stored stays. `progress` is called with the signature
-// that is being shrunk.
+// such signature. Then it shrinks these meshes. Each takes at most a minute, and all together at
+// most the share of the plan's time that is reserved for shrinking. REQUIRES failures in the order
+// of the corpus. The rows of an earlier call stay. `progress` is called with the signature that is
+// being shrunk.
 // Returns the stored failures of the corpus.
 Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
                                              const std::vector<FailureRecord>& failures,

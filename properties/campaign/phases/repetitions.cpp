@@ -87,11 +87,11 @@ Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std
 }
 
 Case long_sequence(std::uint64_t seed) {
-  // Scenes that pierce themselves, and still do so under another map. Smaller spheres do not.
+  // Scenes that pierce themselves, under any of these maps too. Smaller spheres do not.
   constexpr std::string_view meeting[] = {"dented-sphere", "bend", "folding-sheet",
                                           "crumpling-sphere"};
   constexpr int least_size = 60, most_size = 100;
-  // There and back takes at most 18 steps, so the mesh meets itself in every 18 steps.
+  // The way there and back takes at most 18 steps, so the mesh meets itself in every 18 steps.
   constexpr int least_way = 5, most_way = 9;
   // With drawn_map, a row's own entry is at least 1 - 0.25 - 0.08, and the two others together at
   // most 2 (0.25 + 0.08): the map never turns the mesh inside out.
@@ -160,8 +160,8 @@ StepJudgement truth_by(const StepResult& result, const IsTested& is_tested) {
   return judgement;
 }
 
-// The steps in which the run breaks a claim if the built-in detector, whose run is `answers`, is
-// right: those with the fewest contacts, and not more than most_differing.
+// Returns the steps in which the run breaks a claim if the built-in detector, whose run is
+// `answers`, is right: those with the fewest contacts, and not more than most_differing.
 std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest& detector,
                                          const CaseRun& run, const CaseRun& answers) {
   const auto& contract = detector.contract;
@@ -170,7 +170,7 @@ std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest&
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
     auto answer = step_alone(run, s);
-    answer.limits.clear();  // which the oracle alone judges
+    answer.limits.clear();  // the oracle alone judges these
     const auto diff = judge_step(answer, 0,
                                  {{start_of(c, script[s]), end_of(c, script[s])},
                                   c.triangles,
@@ -187,8 +187,8 @@ std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest&
   return places;
 }
 
-// Of a case that the contract takes: the colliding step with the fewest contacts that count, and
-// the first without any. `answers` is the run of the built-in detector.
+// Returns, for a case that the contract takes, the colliding step with the fewest contacts that
+// count, and the first step without any. `answers` is the run of the built-in detector.
 std::vector<std::size_t> plain_steps(const Case& c, const Contract& contract,
                                      const CaseRun& answers) {
   const auto is_tested = tested_contacts(contract, c);
@@ -209,8 +209,8 @@ std::vector<std::size_t> plain_steps(const Case& c, const Contract& contract,
   return places;
 }
 
-// The first step in which the two runs differ. Nothing if they differ in something else than a
-// step.
+// Returns the first step in which the two runs differ. Nothing if they differ only outside of
+// steps.
 std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
   for (std::size_t s = 0; s < std::min(a.steps.size(), b.steps.size()); ++s) {
     if (!same_answers(step_alone(a, s), step_alone(b, s))) return s;
@@ -236,7 +236,7 @@ struct Repetitions {
   const char* special_ = "";
   int hung_ = 0;
 
-  // Where the limiter lets a step stop, by itself, in the process of the first run.
+  // Returns where the limiter lets a step stop, by itself, in the process of the first run.
   std::optional<Positions> limit_of(const Case& step) {
     const auto run = run_once(step, 0);
     if (run.limits.empty() || !run.limits[0]) return std::nullopt;
@@ -255,7 +255,7 @@ struct Repetitions {
     if (!contracted_case) {
       row.what = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
-      row.what = fmt::format("not run: it hung on {} of them before", hung_);
+      row.what = fmt::format("not run: the detector hung on {} large meshes before", hung_);
     } else {
       row.steps = steps_of(*contracted_case).size();
       run_all(*contracted_case, steps, row);
@@ -267,9 +267,9 @@ struct Repetitions {
   const Contract& contract() const { return request_.detector.contract; }
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
-  // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
-  // The last run is a second one in the process of the run before it. REQUIRES that the runs before
-  // it took place.
+  // Runs the case in the process of the run at this place of threads_. Each run keeps its process
+  // from mesh to mesh. The last run is a second one in the process of the run before it. REQUIRES
+  // that the runs before it took place.
   CaseRun run_once(const Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
     if (process == workers_.size()) {
@@ -401,7 +401,7 @@ struct Repetitions {
     if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, verdict, row.what);
   }
 
-  // Stores what the end of a run shows, or its difference from another one.
+  // Stores a finding: how a run ended, or how it differs from another one.
   void keep_end(const Case& c, const CaseRun& run, const Verdict& verdict,
                 const std::string& what) {
     auto failure = failure_of(verdict, c, {}, run, configuration(), request_.detector);

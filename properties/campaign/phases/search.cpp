@@ -36,9 +36,9 @@ struct ShareSearch {
   std::set<std::string> stored_lanes_ = {};
   std::mutex mutex_ = {};
   std::uint64_t next_ = 0;
-  // Of this run; the lanes that an earlier call stored are among them.
+  // The numbers of this run, with the lanes that an earlier call stored.
   std::uint64_t lanes_ = 0, judged_cases_ = 0, defects_ = 0;
-  std::atomic<bool> is_broken_ = false;  // something went wrong in one thread: all of them end
+  std::atomic<bool> is_broken_ = false;  // if something goes wrong in one thread, all of them end
 
   void run() try {
     for (const auto& lane : facts_in(store_).rows_of(Source::search)) {
@@ -90,7 +90,8 @@ struct ShareSearch {
     defects_ += lane.defects;
   }
 
-  // A defect as it is stored: if the case, run again by itself, has other answers, it is flaky.
+  // Returns a defect as it is stored: if the case, run again by itself, has other answers, it is
+  // flaky.
   static FailureRecord stored_of(const SearchDefect& defect, const Exam& exam) {
     const auto alone = run_alone(*exam.worker, defect.c, exam.configurations[defect.configuration]);
     throw_if_not_run(alone);

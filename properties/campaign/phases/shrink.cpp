@@ -13,13 +13,13 @@ namespace assay::properties {
 
 namespace {
 
-// Its oracle is worth several threads, and its failure more time.
+// Returns whether the mesh is worth several threads of the oracle, and its failure more time.
 bool is_large(const Case& c) {
   constexpr Eigen::Index from = 1000;
   return c.triangles.rows() > from;
 }
 
-// The case with the view that the detector chose; it runs here and may crash.
+// Returns the case with the view that the detector chose; it runs here and may crash.
 std::optional<Case> chosen_view(const Case& c, const Options& options) {
   // A component within which nothing counts needs no view, so all pairs count here.
   auto creation = detector::Detector::create(c.triangles, c.frames[0], options);
@@ -32,22 +32,23 @@ std::optional<Case> chosen_view(const Case& c, const Options& options) {
   for (const auto& frame : c.frames) {
     const auto result = creation.value().evaluate(frame, frame);
     if (result.primitives.empty()) return std::nullopt;
-    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // as view-auto chose
+    is_line |= out.view->q0.empty() && !result.primitives[0].is_point();  // the choice of view-auto
     out.view->q0.push_back(result.primitives[0].q0.t0);
     if (is_line) out.view->q1.push_back(result.primitives[0].q1.t0);
   }
   return out;
 }
 
-// The case with the primitive of its first component stated, as the detector chooses it. Nothing if
-// the culling has no views, if the case states a primitive already, or if the mesh is refused.
+// Returns the case with the primitive of its first component stated, as the detector chooses it.
+// Nothing if the culling has no views, if the case states a primitive already, or if the mesh is
+// refused.
 std::optional<Case> with_explicit_view(const Case& c, const Options& options) {
   if (c.view || !uses_views(options.culling)) return std::nullopt;
   const auto run = in_a_copy([&](const Say& say) {
     if (const auto view = chosen_view(c, options)) say(case_text(*view));
   });
   auto parsed_case = corpus::parse_case(run.output, c.id);
-  if (!parsed_case) return std::nullopt;  // there is none, or the copy crashed
+  if (!parsed_case) return std::nullopt;  // no view was chosen, or the copy crashed
   return std::move(parsed_case.value());
 }
 
@@ -87,12 +88,13 @@ namespace {
 // detector is wrong on large meshes alone.
 constexpr double most_seconds_of_a_large_mesh = 20;
 
-// The key of the note that this failure has been shrunk for all of its time.
+// Returns the key of the note that this failure has been shrunk for all of its time.
 std::string done_note(const FailureRecord& failure) {
   return fmt::format("shrunk {} {}", failure.id(), failure.shown_configuration());
 }
 
-// The configurations as they were given to this case: if it vouches for a clean start, so do they.
+// Returns the configurations as they were given to this case: if it vouches for a clean start, so
+// do they.
 std::vector<Configuration> configurations_of(const Case& failing,
                                              const DetectorUnderTest& detector) {
   const auto start = failing.options.find("start");
@@ -103,21 +105,22 @@ std::vector<Configuration> configurations_of(const Case& failing,
   return vouched ? with_clean_start(std::move(all)) : all;
 }
 
-// The explanation of a shrunk case, which names its own triangles and times. The signature stays
-// that of the failure, although a case that was cut from a large mesh may have another cause.
+// Returns the explanation of a shrunk case, which names its own triangles and times. The signature
+// stays that of the failure, although a case that was cut from a large mesh may have another cause.
 std::string explanation_of(const Finding& finding, std::size_t fails_from = 0) {
   return finding.explanation + (fails_from == 0 ? "" : "; " + fails_from_text(fails_from));
 }
 
-// How long a failure may be shrunk. The time grows with the triangles of the mesh, from 10,000 on.
+// Returns how long a failure may be shrunk. The time grows with the triangles of the mesh, from
+// 10,000 on.
 double seconds_for(const FailureRecord& failure, const Case& failing, double usual) {
   if (failure.source == Source::repeated) return std::min(usual, most_seconds_of_a_large_mesh);
   constexpr double most_times = 10;
   return usual * std::clamp(static_cast<double>(failing.triangles.rows()) / 10'000, 1., most_times);
 }
 
-// Whether one run of the case alone has to show the failure: not if a law is broken, or if two runs
-// have to agree.
+// Returns whether one run of the case alone has to show the failure: not if a law is broken, or if
+// two runs have to agree.
 bool may_be_asked_alone(const FailureRecord& failure, const CampaignRequest& request) {
   return request.plugin && failure.claim != name_of(Claim::deterministic);
 }
@@ -166,7 +169,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     const ReduceLimits bounded{std::min(most, rest.count()), limits.calls};
     const Law* law = failure.claim.empty() ? law_named(failure.law) : nullptr;
     const auto store_as_smallest = [&](const Case& better, const std::string& explanation) {
-      // As the detector saw it: with coordinates that a contract of float32 has rounded.
+      // The case as the detector saw it: a contract of float32 has rounded its coordinates.
       Case small_case = contract_case(better, detector.contract).value_or(better);
       if (!explanation.empty()) {
         failure.smallest_explanation = explanation;
@@ -176,7 +179,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
       store.set_smallest(failure);
     };
     const OnBetter keep = [&](const Case& better) {
-      // What a large mesh shows is told in the end, because asking again takes long.
+      // A large mesh is asked only at the end, because each question takes long.
       const auto finding = law || is_large(better)
                                ? std::nullopt
                                : judge_of_detector(detector, *configuration, worker)(better);

@@ -14,7 +14,7 @@ using Row = Eigen::RowVector3d;
 constexpr int corners_of_a_plate = 4, corners_of_a_body = 4;
 constexpr double half_of_a_plate = 8, size_of_a_body = 1, far_off = 0x1p20;
 
-// A square of two triangles at this height, seen from above or from below.
+// Adds a square of two triangles at this height, whose outside is above or below.
 void add_plate(Draft& draft, double z, bool is_above) {
   const auto first = draft.vertices();
   for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
@@ -23,7 +23,7 @@ void add_plate(Draft& draft, double z, bool is_above) {
   draft.faces.push_back({first, first + (is_above ? 3 : 2), first + (is_above ? 2 : 3)});
 }
 
-// A tetrahedron about a point.
+// Adds a tetrahedron about a point.
 void add_body(Draft& draft, Random& random, const Point& middle) {
   const auto v = draft.vertices();
   for (const auto& corner : {Point{1, 0, -0.7}, {-0.5, 0.87, -0.7}, {-0.5, -0.87, -0.7}, {0, 0, 1}})
@@ -75,7 +75,7 @@ Scene scene_of(WalkKind kind, Random& random, double separation) {
   return scene;
 }
 
-// Where the mesh would be at the end of a step.
+// Says where the mesh is driven in a step.
 struct Driver {
   const WalkKind kind_;
   const Eigen::Index first_moving_;
@@ -96,7 +96,7 @@ struct Driver {
 
  private:
   Row draw() { return {random_.signed_unit(), random_.signed_unit(), random_.signed_unit()}; }
-  // A part of the way of a vertex back to its start.
+  // Returns a part of the way of a vertex back to its start.
   Row lift(const Positions& x, Eigen::Index v) const { return 0.3 * (start_.row(v) - x.row(v)); }
 
   Row way(Eigen::Index v) const {

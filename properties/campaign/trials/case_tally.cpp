@@ -96,7 +96,7 @@ class ConfigurationLaws {
   CaseFacts facts_;
 };
 
-// A law that is checked on one of the cases, in one of its configurations: places in lists.
+// A law to be checked, and in which case and configuration, by their places in the lists.
 struct LawCheck {
   const Law* law;
   std::size_t of_case, configuration;
@@ -261,8 +261,8 @@ FormCheck check_in_form(const Law& law, const Case& c, const CaseRun& run,
   auto form = form_of(*law.change, c);
   const auto input = form ? contract_case(form->c, detector.contract) : std::nullopt;
   if (!input || steps_of(*input).size() != steps_of(form->c).size()) return check;
-  // Answers can be set side by side if the contract has not rounded the form. Of lengths that the
-  // contract states a form in another scale knows nothing.
+  // Answers can be compared if the contract has not rounded the form, and if it states no lengths,
+  // which do not change with the scale of a form.
   const auto& contract = detector.contract;
   const bool states_lengths =
       contract.margin > 0 || contract.separation > 0 || contract.rest_distance > 0;

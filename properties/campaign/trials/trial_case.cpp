@@ -33,7 +33,7 @@ double shortest_edge_of(const Case& c) {
   return shortest;
 }
 
-// By which power of two the case comes into the range, or as near to it as it does.
+// Returns the power of two that brings the case into the range, or as near to it as possible.
 int exponent_into_range(const Case& c, const Contract& contract) {
   const double largest = greatest_of(c);
   if (largest == 0) return 0;
@@ -46,14 +46,15 @@ int exponent_into_range(const Case& c, const Contract& contract) {
   return std::min(most, std::ldexp(shortest, exponent) < least ? exponent + 1 : exponent);
 }
 
-// Multiplies by 2^exponent. The result is 0 if the scaling would round it.
+// Returns x times 2^exponent, or 0 if the scaling would round it.
 double scaled(double x, int exponent) {
   const double y = std::ldexp(x, exponent);
   return std::ldexp(y, -exponent) == x ? y : 0;
 }
 
-// The length of most edges of a large mesh, and the longest side of a small one. A contract's
-// distances are told in it, so that a large mesh does not lie within them as a whole.
+// Returns the length of most edges of a large mesh, and the longest side of a small one. A
+// contract's distances are measured in this unit, so that no large mesh lies within them as a
+// whole.
 double unit_of(const Case& c) {
   constexpr Eigen::Index largest_small_mesh = 400;
   if (c.triangles.rows() <= largest_small_mesh) return extent_of(c);
@@ -65,18 +66,19 @@ double unit_of(const Case& c) {
   return length(*middle);
 }
 
-// Whether a case may be scaled until its largest coordinate is this.
+// Returns whether a case may be scaled until its largest coordinate is this.
 bool fits(double largest, const Contract& contract) {
   constexpr double far_enough = 1e100;  // no mesh of anybody is larger
   return largest <= (contract.has_range() ? contract.largest : far_enough);
 }
 
-// The power of two by which the case is scaled.
+// Returns the power of two by which the case is scaled.
 int exponent_within(const Case& c, const Contract& contract) {
   const double largest = greatest_of(c), extent = unit_of(c);
   const int into_range = contract.has_range() ? exponent_into_range(c, contract) : 0;
   if (contract.separation > 0 && extent > 0) {
-    // Twice to 512 times as large as the separation: then some of its parts are nearer than that.
+    // The mesh becomes twice to 512 times as large as the separation, so that some of its parts are
+    // nearer.
     Random random(c.id);
     const int most = extent == extent_of(c) ? 9 : 3;
     const int exponent =
@@ -90,7 +92,7 @@ int exponent_within(const Case& c, const Contract& contract) {
   return fits(std::ldexp(largest, apart), contract) ? apart : into_range;
 }
 
-// Whether every fourth case of this family has to have a contact.
+// Returns whether every fourth case of this family has to have a contact.
 bool leaves_contacts_out(const Contract& contract, const Family& family) {
   return is_query_family(family.name) || contract.adjacency != Adjacency::all ||
          contract.start != StartRule::any || contract.tests_part() || contract.separation > 0;
@@ -101,7 +103,7 @@ bool is_every_fourth(const std::string& id) {
   return !digits.empty() && std::strtoull(digits.c_str(), nullptr, 10) % 4 == 0;
 }
 
-// For a question about distance every second case is aimed at the distance.
+// Returns whether cases may be aimed: every second case of a question about distance is.
 bool may_be_aimed(const Contract& contract) {
   return least_aimed <= contract.separation && contract.separation <= most_aimed;
 }
@@ -150,7 +152,7 @@ TrialCase case_within(const Contract& contract, const Family& family, const std:
     TrialCase trial;
     trial.source = make_case(family, attempt);
     trial.source.c = brought_into_contract(std::move(trial.source.c), contract);
-    Random random(attempt + ":aimed");  // other numbers than those that the case was drawn by
+    Random random(attempt + ":aimed");  // other numbers than those of the case
     if (!is_large && may_be_aimed(contract) && random.one_in(2))
       trial.source.c = with_approach(std::move(trial.source.c), contract.separation, random);
     trial.input = contract_case(trial.source.c, contract);
@@ -178,7 +180,7 @@ bool is_clean(const Positions& all, const Triangles& triangles, const Triangles&
   return std::ranges::all_of(layers.clean, [](std::uint8_t is_clean) { return is_clean != 0; });
 }
 
-// The same with the ghosts of the built-in detector, which it places by this arithmetic.
+// Does the same with the ghosts of the built-in detector, which it places by this arithmetic.
 bool starts_clean_with_ghosts(const Case& c, Arithmetic arithmetic) {
   Options options;
   options.culling = Culling::view_line;

@@ -23,7 +23,7 @@ Case failing_case(const Case& c, const Configuration& configuration,
                   const DetectorUnderTest& detector, const Failure& failure) {
   Case out = c;
   out.about = about_text(failure.signature(), failure.explanation);
-  // A plug-in's one configuration has its name.
+  // The only configuration of a plug-in has the plug-in's name.
   out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
                (detector.built_in ? ", " + configuration.name : "");
   std::ranges::replace(out.id, ':', '-');
@@ -76,7 +76,7 @@ std::uint64_t mesh_hash(const Case& c) {
   return hash;
 }
 
-// From 10,000 triangles on, the limit of a case grows with its triangles.
+// Returns the factor of the limit of a case, which grows with its triangles from 10,000 on.
 double time_factor(const Family& family) {
   constexpr double from = 10'000;
   return std::max(1., static_cast<double>(family.triangles) / from);
@@ -87,7 +87,8 @@ struct TrialKey {
   std::uint64_t index;
 };
 
-// The families take turns, so that a run that ends early has judged all of them.
+// Returns the trials. The families take turns, so that a run that ends early has judged all of
+// them.
 std::vector<TrialKey> planned_trials(const CampaignRequest& request,
                                      const std::set<std::string>* only) {
   const auto& plan = request.plan;
@@ -105,7 +106,7 @@ std::vector<TrialKey> planned_trials(const CampaignRequest& request,
   return list;
 }
 
-// The detector as it is asked in each stratum, by family.
+// Returns the detector as it is asked in each stratum, by family.
 std::map<std::string, DetectorUnderTest, std::less<>> detectors_in(const CampaignRequest& request) {
   std::map<std::string, DetectorUnderTest, std::less<>> detectors;
   for (const auto& [family, cases, bound] : request.plan.strata)
@@ -133,7 +134,7 @@ struct Trials {
     return end_;
   }
 
-  // What each thread does: it takes trials, and runs and judges them.
+  // Takes trials, and runs and judges them. Each thread does this.
   void work() {
     Workers workers{request_};
     std::vector<Trial> waiting, ended_trials;
@@ -174,9 +175,9 @@ struct Trials {
   }
 
  private:
-  // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
-  // process (CampaignRequest::second_worker_limits), and in another order: some of these trials
-  // wait for each other, and the last comes first.
+  // Every 16th trial is run a second time, in another process
+  // (CampaignRequest::second_worker_limits), to judge the claim `deterministic`. A few of these
+  // trials wait for each other, and then run in the opposite order.
   static constexpr std::uint64_t repeat_every = 16;
   static constexpr std::size_t repeated_together = 4;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
@@ -198,23 +199,23 @@ struct Trials {
     return trial_id(request_.plan, request_.seed, std::string(trial.family->name), trial.index);
   }
 
-  // A trial that is being made: its case, what the oracle and the detector say of it, and what it
-  // showed.
+  // A trial in the making: its case, the answers of the oracle and the detector, and the findings.
   struct Trial {
     const TrialKey* key = nullptr;
-    const DetectorUnderTest* detector = nullptr;  // as it is asked in the stratum
+    const DetectorUnderTest* detector = nullptr;  // in the configurations of the stratum
     WorkerProcess *first = nullptr, *second = nullptr;
     std::vector<std::string> tags;
     bool is_within = true;  // the detector's contract takes the case
     std::vector<Configuration> configurations;
     CaseResults results;
-    bool has_contact = false;  // one that the contract does not leave out, and that was judged
+    bool has_contact = false;  // a contact was judged that the contract does not leave out
     TrialRecord record;
     std::vector<FailureRecord> failures;
   };
 
-  // The processes of one thread: one for first runs, one for second ones; and the same for each
-  // size of large cases, whose limit of time is another. They are started when they are asked.
+  // The processes of one thread: one for first runs and one for second runs. Each size of large
+  // cases has two more, because its limit of time is different. A process starts when it is first
+  // asked.
   struct Workers {
     const CampaignRequest& request_;
     std::map<std::pair<double, std::uint32_t>, WorkerProcess> processes_ = {};
@@ -240,7 +241,7 @@ struct Trials {
     return {*trial.detector, trial.configurations, trial.first, trial.second};
   }
 
-  // Runs the case, and notes what disturbed the runs and how long they took.
+  // Runs the case, and notes the disturbances and the times of the runs.
   static void run(Trial& trial, void (*part)(const Exam&, CaseResults&)) {
     part(exam_of(trial), trial.results);
     throw_if_not_run(trial.results);
@@ -265,7 +266,7 @@ struct Trials {
     }
   }
 
-  // Notes what the verdicts on a trial say.
+  // Notes the verdicts on a trial.
   void conclude(Trial& trial) const {
     auto& record = trial.record;
     const auto& results = trial.results;
@@ -280,7 +281,7 @@ struct Trials {
     if (has_forms(request_.detector, results.c)) count_forms(trial);
   }
 
-  // Counts the laws of a plug-in in cases that hold: a case that fails shows nothing of its form.
+  // Counts the laws of a plug-in, in cases that hold. If a case fails, its form shows nothing.
   void count_forms(Trial& trial) const {
     const auto every = request_.plan.laws_every;
     if (every == 0 || trial.key->index % every != 0) return;
@@ -304,7 +305,7 @@ struct Trials {
     }
   }
 
-  // Counts what the trials met, keeps them, and empties the list.
+  // Counts the traits of the trials, keeps the trials, and empties the list.
   void finish(std::vector<Trial>& ended_trials) {
     if (request_.detector.built_in) count_cases(ended_trials);
     for (auto& trial : ended_trials) keep(trial);

@@ -45,8 +45,8 @@ struct TrialCase {
 // drawn again, deterministically, at most most_redrawn times, and for lack of a contact at most
 // most_without_contact times. Then the last case that the contract takes stays. The case is brought
 // into the contract (below). Under a contract with a separation every second case is aimed at the
-// separation (parts.h), and a case is rejected if all of its steps start within it. Without a
-// contract the result for a mesh is the case of the id.
+// separation (parts.h), and a case is rejected if all of its steps start within it. For a mesh
+// without a contract the result is the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
@@ -177,12 +177,13 @@ TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline d
 // Returns the case of a failure as it is stored: with the options of its configuration.
 Case failing_case(const Case& c, const Configuration& configuration,
                   const DetectorUnderTest& detector, const Failure& failure);
-// Returns the failure as stored, under the id of the case. `flaky`: a second run does not show it.
+// Returns the failure as it is stored, under the id of the case. `flaky`: a second run does not
+// show it.
 FailureRecord stored_failure(Source source, const Case& c, const Configuration& configuration,
                              const DetectorUnderTest& detector, const Failure& failure, bool flaky,
                              const std::string& output);
 
-// Both throw StoreProblem if there was no worker; so they are for campaign/ alone.
+// Throw StoreProblem if there was no worker; so both are for campaign/ alone.
 void throw_if_not_run(const CaseResults& results);
 void throw_if_not_run(const CaseRun& run);
 

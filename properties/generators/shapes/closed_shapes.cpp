@@ -15,14 +15,14 @@ void scale_and_move(Draft& d, double scale, const Point& by) {
   for (auto& p : d.rest()) p = scale * p + by;
 }
 
-// The least and the greatest x of the draft.
+// Returns the least and the greatest x of the draft.
 std::array<double, 2> extent(const Draft& d) {
   const auto [low, high] = std::minmax_element(
       d.rest().begin(), d.rest().end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
   return {(*low)[0], (*high)[0]};
 }
 
-// Two pieces stand side by side along x, with a gap between a hair and half a unit.
+// Makes two pieces side by side along x, with a gap from a hair to half a unit.
 Draft two_pieces(Random& random, int size) {
   Draft a = simple_shape(random, size / 2), b = simple_shape(random, size / 2);
   const double gap = random.between(1, 32) / 64.0;
@@ -46,7 +46,7 @@ Draft nested(Random& random, int size, bool inward) {
   return d;
 }
 
-// The highest vertex of one piece along x is the lowest of the other.
+// Makes two pieces: the highest vertex of one along x is the lowest of the other.
 Draft sharing_a_vertex(Random& random, int size) {
   Draft a = simple_shape(random, size / 2), b = simple_shape(random, size / 2);
   std::int32_t high = 0, low = 0;
@@ -65,7 +65,7 @@ Draft sharing_a_vertex(Random& random, int size) {
   return d;
 }
 
-// Two tetrahedra share an edge. They lie beside each other, or one within the other.
+// Makes two tetrahedra that share an edge. They lie beside each other, or one within the other.
 Draft sharing_an_edge(Random& random, int) {
   Draft d;
   const double side = random.below(3) == 0 ? 1 : -1;

@@ -93,7 +93,7 @@ Draft tube(Random& random, int size) {
   return d;
 }
 
-// A ribbon around the z axis that goes outward, and so lies over itself after one turn.
+// Returns a ribbon around the z axis that goes outward, and so lies over itself after one turn.
 Draft spiral(Random& random, int size) {
   const int columns = std::max(5, size / 2);
   const double turns = 1.125 + random.unit();
@@ -108,9 +108,9 @@ Draft spiral(Random& random, int size) {
   return d;
 }
 
-// A ring with a gap, which closes when all vertices go their way (Draft::closing): a flat one, a
-// tube with an open seam, or a sheet that curls onto its own border. Its two ends then meet, only
-// just miss each other, or pass. A ramp takes some ends past each other.
+// Returns a ring with a gap, which closes when all vertices go their way (Draft::closing): a flat
+// one, a tube with an open seam, or a sheet that curls onto its own border. Its two ends then meet,
+// only just miss each other, or pass. A ramp takes some ends past each other.
 Draft open_ring(Random& random, int size) {
   const int rows = random.between(1, size < 24 ? 1 : 3), along = std::max(6, size / (2 * rows));
   const bool flat = random.one_in(2);
@@ -136,7 +136,8 @@ Draft open_ring(Random& random, int size) {
   return d;
 }
 
-// Two holes of one triangle each that meet at a vertex only. The loop passes that vertex twice.
+// Returns two holes of one triangle each that meet at a vertex only. The loop passes that vertex
+// twice.
 Draft loop_twice_through_a_vertex(Random& random, int size) {
   Draft d = star_shape(random, std::max(size, 8));
   const Face first = one_of(random, d.faces);
@@ -214,7 +215,7 @@ void add_zero_area(Random& random, Draft& d) {
   d.faces.push_back({f[0], f[1], third});
 }
 
-// Some triangles around a vertex take a copy of it. This makes a seam, which opens when the copies
+// Gives some triangles around a vertex a copy of it. This makes a seam, which opens when the copies
 // part.
 void open_seam(Random& random, Draft& d) {
   const std::int32_t v = one_of(random, d.faces)[0];

@@ -259,7 +259,7 @@ std::size_t component_of(const CaseFacts& facts, std::size_t triangle) {
   return at(facts.component_of(static_cast<std::int32_t>(triangle)));
 }
 
-// Whether every triangle of S is positive where the step starts.
+// Returns whether every triangle of S is positive where the step starts.
 bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
   auto still = facts.result(s).primitives[component];
   still.q0.t1 = still.q0.t0;
@@ -274,8 +274,8 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   });
 }
 
-// Which triangles of `in_question` are untouched, and in the layer of the triangles of their
-// component that are not in doubt, or else in the common layer.
+// Returns which triangles of `in_question` are untouched and in the right layer: that of the
+// triangles of their component that are not in doubt or, without any, the common layer.
 TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question,
                            const TriangleFlags& in_doubt) {
   const auto& layers = facts.layers_at_start(s);

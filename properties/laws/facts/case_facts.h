@@ -35,7 +35,7 @@ using oracle::JudgeOptions, oracle::StepJudgement;
 using ExactInteger = boost::multiprecision::cpp_int;
 using ExactPoint = std::array<ExactInteger, 3>;
 
-// The place of a point along the axis of the segment q0q1, which decides from where it is seen.
+// The place of a point along the axis of the segment q0q1. It decides from where the point is seen.
 enum class Region : std::uint8_t {
   r0,  // before q0: view from q0
   r1,  // beyond q1: view from q1
@@ -201,7 +201,7 @@ class CaseFacts {
   // triangles.
   bool is_trusted(std::size_t s);
 
-  // The functions below ask the oracle, and take the primitives and apexes from the detector's
+  // The functions below ask the oracle; they take the primitives and apexes from the detector's
   // result. S is a component with its ghosts, K the set of candidates. REQUIRES has_views(s).
   const std::vector<ViewSign>& signs(std::size_t s);        // mesh, then ghosts
   const std::vector<std::uint8_t>& touched(std::size_t s);  // by the component's ghosts (L11)
@@ -212,7 +212,8 @@ class CaseFacts {
   bool is_free_by_view(std::size_t s, std::size_t component);
   const oracle::LayerState& layers_at_start(std::size_t s);
   const oracle::LayerState& layers_at_end(std::size_t s);
-  // By triangle; 1: in contact with another triangle of its component. REQUIRES is_judged(s).
+  // Returns, by triangle, 1 if it is in contact with another triangle of its component, else 0.
+  // REQUIRES is_judged(s).
   const std::vector<std::uint8_t>& own_contacts(std::size_t s);
 
   bool same_component(const TrianglePair& pair) const {
@@ -266,7 +267,7 @@ enum class PairBlock : std::uint8_t {
   zero_zero,
   violated,  // at least one triangle is in Vv
   positive_positive,
-  negative_negative,  // the last two are outside K, unless in two groups
+  negative_negative,  // these two: in K between groups only
 };
 constexpr auto names_of(PairBlock) {
   using enum PairBlock;
@@ -285,8 +286,8 @@ PairBlock block_of(ViewSign a, ViewSign b, bool either_violated);
 
 using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
 
-// Returns how the oracle contradicts that the triangles marked in `is_held` are untouched and that
-// those of one component share a layer. Empty if it does not.
+// Returns the oracle's objection to the claim that the triangles marked in `is_held` are untouched
+// and that those of one component share a layer. Empty if it has none.
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
                               const TriangleFlags& is_held);
 
@@ -305,13 +306,13 @@ bool has_account(CaseFacts& facts, std::size_t s);
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone. At a new start these are the triangles that are not clean by its layers; but layers do
-// not count with start unknown, nor with start verified under a culling that chooses views
-// (view-auto, auto): there every component is dirty that is not free by view. Otherwise a triangle
-// is dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or
-// in contact with its own component), and is not now untouched and in the common layer. That layer
-// is the one of the triangles that are not in doubt; in a component without such triangles, it is
-// the layer of most untouched triangles.
+// alone. At a new start these are the triangles that are not clean by its layers. Layers do not
+// count with start unknown, nor with start verified under a culling that chooses views (view-auto,
+// auto): then every component that is not free by view is dirty. Otherwise a triangle is dirty if
+// it was in doubt after the step before (dirty by this account, touched by a ghost, or in contact
+// with its own component), and is not now untouched and in the common layer. That layer is the one
+// of the triangles that are not in doubt; in a component without such triangles, it is the layer of
+// most untouched triangles.
 //
 // A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
 // caller vouched for the start; else those that were in doubt after the step before. REQUIRES
@@ -323,7 +324,7 @@ TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
 // all triangles of a component with ghosts are in doubt. REQUIRES has_account(s).
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s);
 
-// Returns flags by triangle; 1: the result of step s marks it with doubt::dirty.
+// Returns, by triangle, 1 if the result of step s marks it with doubt::dirty, else 0.
 TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s);
 
 }  // namespace assay::properties

@@ -48,7 +48,7 @@ class TraditionalScheme::PatchFinder {
     return {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])};
   }
 
-  // A node stands before its children, so the walk goes backward.
+  // Merges the cones, from the last node to the first, because a node stands before its children.
   void merge_cones() {
     for (auto node = static_cast<std::int32_t>(cones_.size()); node-- > 0;) {
       const auto child = tree_.child(node);
@@ -58,7 +58,7 @@ class TraditionalScheme::PatchFinder {
     }
   }
 
-  // The direction for which the premise of L13 is proved, if there is one.
+  // Returns the direction for which the premise of L13 is proved, if there is one.
   std::optional<int> certified(DirectionSet cone, Contour contour) {
     if (cone == 0 || contour.empty()) return std::nullopt;
     const int bit = detector::nearest_direction(cone, moving_.area(contour));

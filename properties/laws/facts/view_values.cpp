@@ -13,7 +13,7 @@ namespace {
 constexpr int mantissa_bits = 53;
 constexpr int weight_bits = 4;
 
-// The least exponent e such that every coordinate is a multiple of 2^e.
+// Returns the least exponent e such that every coordinate is a multiple of 2^e.
 int common_exponent(std::span<const MovingPoint* const> points) {
   int least = 0;
   bool is_found = false;
@@ -128,8 +128,8 @@ Vector at(const MovingPoint& p, double t) {
   return (1 - t) * from + t * to;
 }
 
-// (x - n(x)).N, times the constant |d|^2 if the primitive is a segment. This is the clamp form of
-// L1.
+// Returns (x - n(x)).N, times the constant |d|^2 if the primitive is a segment. This is the clamp
+// form of L1.
 double view_value(const Vector& x, const Vector& q0, const Vector& q1, const Vector& normal) {
   const Vector along = q1 - q0;
   const double length2 = along.squaredNorm();

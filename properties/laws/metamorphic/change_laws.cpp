@@ -22,8 +22,8 @@ bool is_given_in_form(const Law& law, std::string_view case_id) {
 
 namespace {
 
-// The pairs as pairs of triangles of the case, each with the least of its times. A contact of two
-// parts of one triangle is no contact of the case.
+// Returns the pairs as pairs of triangles of the case, each with the least of its times. A contact
+// of two parts of one triangle is no contact of the case.
 std::map<TrianglePair, TimeEnclosure> pairs_of_parents(const StepResult& result,
                                                        const std::vector<std::int32_t>* parent) {
   std::map<TrianglePair, TimeEnclosure> pairs;
@@ -43,9 +43,9 @@ std::map<TrianglePair, TimeEnclosure> pairs_of_parents(const StepResult& result,
   return pairs;
 }
 
-// Whether two layer classes of a component have the same size. The order of triangles then decides
-// which is the common one (L9). Looks at the start of the step, and at the starts of the steps from
-// which its state comes.
+// Returns whether two layer classes of a component have the same size. The order of triangles then
+// decides which is the common one (L9). Looks at the start of the step, and at the starts of the
+// steps from which its state comes.
 bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
   for (std::optional<std::size_t> start = s; start; start = facts.known_from(*start)) {
     const auto& layers = facts.layers_at_start(*start);
@@ -61,7 +61,7 @@ bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
   return false;
 }
 
-// The set of the triangle if all of the mesh is turned over.
+// Returns the set of the triangle if all of the mesh is turned over.
 ViewSign swapped(ViewSign sign) { return static_cast<ViewSign>(-static_cast<int>(sign)); }
 
 std::array<std::size_t, 6> sizes_of_sets(const StepResult& result, bool swaps_signs) {
@@ -74,8 +74,8 @@ std::array<std::size_t, 6> sizes_of_sets(const StepResult& result, bool swaps_si
           result.dirty};
 }
 
-// `exact_start` says that the results rest on the positions of the case itself. The oracle's layers
-// are layers at these positions.
+// Compares a step. `exact_start` says that the results rest on the positions of the case itself;
+// the oracle's layers are layers at these positions.
 std::string compare_step(CaseFacts& facts, std::size_t s, const StepResult& base, const Form& form,
                          const StepResult& other, bool exact_start) {
   auto differs = difference_in_form(base, form, other, false);
@@ -179,8 +179,8 @@ constexpr Law law_of(std::string_view name, std::string_view statement,
 
 constexpr Law change_law_table[] = {
     {"L18_RefinedMeshHasTheSameContacts", "L18",
-     "With edges split in all triangles that have them, at places that are exact, none of which "
-     "loses its area, a mesh has the same pairs, up to which part of a triangle meets, and times.",
+     "If edges are split at exact places, in all triangles that have them, and no split triangle "
+     "loses its area, a mesh has the same times and pairs, if parts count as their triangle.",
      "nothing", check_form<changes::split_edges>, one_case_in_16, PremiseScope::any_culling,
      &changes::split_edges},
     law_of<changes::vertex_numbers>(

@@ -12,9 +12,9 @@
 
 namespace assay::properties {
 
-// Returns whether the law is judged for plug-ins: it is about a change of the case that can be put
-// to any detector, or says that threads do not show, which the second runs of trials test. No state
-// is saved and restored, because the interface of plug-ins has no such call.
+// Returns whether the law is judged for plug-ins. A law is judged if it is about a change of the
+// case that can be put to any detector, or about threads, which the second runs of trials test. No
+// state is saved and restored, because the interface of plug-ins has no such call.
 inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
 bool is_of_plugins(const Law& law);
 

@@ -12,9 +12,9 @@ namespace {
 
 using EdgeSet = std::vector<std::array<std::int32_t, 2>>;
 
-// The edges of each hole by the number of its apex, of ghosts whose apexes are numbered from
-// `first` on. They are undirected and sorted, so they are the same for a hole that is walked from
-// elsewhere or backward.
+// Returns the edges of each hole by the number of its apex, of ghosts whose apexes are numbered
+// from `first` on. They are undirected and sorted, so they are the same for a hole that is walked
+// from elsewhere or backward.
 template <class Ghosts>
 std::map<std::int32_t, EdgeSet> holes_of(const Ghosts& ghosts, std::int32_t first) {
   std::map<std::int32_t, EdgeSet> holes;
@@ -50,7 +50,8 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
                                                 const StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
   }
-  // Before the first step, when view primitives are chosen, no apex is pinned yet.
+  // Returns the pinned apexes. Before the first step, when view primitives are chosen, none is
+  // pinned yet.
   std::vector<MovingPoint> place_apexes(const detector::Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
                                         const SteppedMesh& motion) const override {

@@ -16,9 +16,9 @@
 namespace assay::properties {
 namespace {
 
-// Whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t - 1 are
-// exact. A time that no double equals has a closer enclosure in the second half, which lies inside
-// of the one that is computed here.
+// Returns whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t -
+// 1 are exact. If no double equals the time, its enclosure in the second half is closer, and lies
+// inside of the one that is computed here.
 bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
   const TimeEnclosure doubled = {2 * t.lo - half, 2 * t.hi - half};
   if (t.lo == t.hi) return u == doubled;
@@ -125,7 +125,7 @@ std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
 }
 
 // Restores the same state with one primitive too few among those that view-auto has chosen since.
-// This has to be refused.
+// The detector has to refuse this state.
 bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Detector& detector) {
   detector::StateFields fields = state.fields();
   if (!fields.committed || fields.anchors.empty()) return false;
@@ -152,8 +152,8 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   return difference(facts.result(s), result);
 }
 
-// What the step committed last left in contact is settled by the next step, so it shows where the
-// mesh rests there.
+// Compares the two detectors by a next step at rest, which settles the triangles that the last
+// committed step left in contact.
 std::string rests_alike(const CaseFacts& facts, detector::Detector& detector, const Positions& x) {
   const auto state_read = detector::SavedState::read(detector.state().bytes());
   auto restored = busy_detector(facts);
@@ -182,8 +182,8 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. So a
-// result that depends on order or lanes can be repeated, and its case can be shrunk.
+// Runs the pieces of a loop one after the other, in an order and in lanes that are drawn. If a
+// result depends on order or lanes, the run can so be repeated, and its case can be shrunk.
 class DrawnOrder : public detector::ThreadArena {
  public:
   DrawnOrder(Random random, std::size_t lanes) : random_(random), lanes_(lanes) {}
@@ -249,8 +249,8 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
 constexpr Law repetition_law_table[] = {
     {"Change_StepHalved", "change",
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
-     "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
-     "first time.",
+     "the middle is exact), has the pairs of the whole, each at its time; with first contacts "
+     "alone it has the first time.",
      "nothing", check_halves, one_case_in_16, PremiseScope::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
@@ -268,8 +268,8 @@ constexpr Law repetition_law_table[] = {
      "lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
-     "A state that went through bytes into another detector of the mesh, made from other positions "
-     "and in the middle of another step, gives the results and the states that would have come, "
+     "A state that is saved as bytes, and restored in another detector of the mesh, made from "
+     "other positions and in the middle of another step, gives the same later results and states, "
      "and no evaluation outlives it.",
      "nothing", check_restored_state, one_case_in_16},
     {"Change_StepReversed", "change",
@@ -279,7 +279,7 @@ constexpr Law repetition_law_table[] = {
      &changes::played_back},
     {"Change_StepsBeforeDoNotShow", "change",
      "Played after its own steps in another order, a sequence has the answers, pairs and times "
-     "that it has at first.",
+     "that it has by itself.",
      "nothing", check_form<changes::other_steps_first>, one_case_in_16, PremiseScope::any_culling,
      &changes::other_steps_first},
 };

@@ -23,14 +23,14 @@ namespace {
 
 using detector::StepLimit;
 
-// The case that the oracle is asked about, and the case that the detector is given instead: behind
-// the step that the state asks for, and with its far body.
+// The case that the oracle is asked about, and the case that the detector is given: with the step
+// that the state asks for in front, and with its far body.
 struct PosedCase {
   Case judged_case, played_case;
   DrawnOptions draw;
 };
 
-// The case behind the step that the state asks for.
+// Returns the case with the step that the state asks for in front.
 Case with_step_before(Case c, StateBefore state) {
   const auto last = static_cast<std::int32_t>(c.frames.size()) - 1;
   auto script = steps_of(c);
@@ -40,7 +40,7 @@ Case with_step_before(Case c, StateBefore state) {
   return c;
 }
 
-// Some cases have no such form: then what was drawn is taken back.
+// Leaves something out. Some cases have no such form; then the draw is taken back.
 void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, Case& c) {
   if (d.left_out == LeftOut::nothing) return;
   std::vector<PairContact> in_contact;
@@ -56,7 +56,7 @@ void leave_out(DrawnOptions& d, Random& random, const CaseFacts& facts, Case& c)
   }
 }
 
-// A power of two, from a quarter of the mesh down to its 2^-12.
+// Returns a power of two, from a quarter of the mesh down to its 2^-12.
 double separation_of(const DrawnOptions& d, Random& random, const Case& c) {
   const double extent = extent_of(c);
   if (d.apart == Apart::none || !(extent > 0x1p-400 && extent < 0x1p400)) return 0;
@@ -84,8 +84,8 @@ PosedCase posed(const CaseFacts& facts) {
   return p;
 }
 
-// What the oracle says of each step of the posed case. It is asked anew only where what it said of
-// the case does not tell.
+// Returns the oracle's judgement of each step of the posed case. The oracle is asked anew only if
+// its judgement of the case itself does not tell.
 std::vector<StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) {
   const auto* counted_pairs = counted_of(p.judged_case);
   const auto features = oracle::mesh_features(p.judged_case.triangles);
@@ -130,7 +130,7 @@ bool go_on_elsewhere(CasePlayer& player, const Case& c, Options options,
   return true;
 }
 
-// What a question before a step showed.
+// The reply to a question before a step.
 struct Reply {
   std::string wrong;
   std::optional<StepLimit> limit;  // to be judged
@@ -222,7 +222,7 @@ std::vector<PlayedStep> play(const PosedCase& p, const StagesOf& stages_of) {
   return list;
 }
 
-// What is wrong with a limit, or empty.
+// Returns what is wrong with a limit, or empty.
 std::string fault_of(const StepLimit& limit, const PosedCase& p, const CaseStep& step,
                      const StepJudgement& truth) {
   if (limit.problem) return "a limit is refused";
@@ -247,9 +247,9 @@ std::string fault_of(const StepLimit& limit, const PosedCase& p, const CaseStep&
   return diff.breaches.empty() ? "" : fmt::format("limit: {}", name_of(diff.breaches.front()));
 }
 
-// Whether the caller vouches rightly (CaseFacts::is_trusted). A step without views does not tell
-// its apexes. It takes from a clean start only that nothing pierces its own component there, and
-// leaves components with ghosts dirty (L15). So it suffices if all is clean with the apexes of
+// Returns whether the caller vouches rightly (CaseFacts::is_trusted). A step without views does not
+// tell its apexes. It takes from a clean start only that nothing pierces its own component there,
+// and leaves components with ghosts dirty (L15). So it suffices if all is clean with the apexes of
 // `facts`.
 bool is_vouched_rightly(CaseFacts& tail, CaseFacts& facts, std::size_t s, std::size_t before) {
   if (tail.is_trusted(s)) return true;
@@ -294,9 +294,8 @@ constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
      "In a configuration that is drawn so that every two values of culling, arithmetic, start, "
      "pairs, threads, separation, relation, question, state before the case, mesh and size meet, "
-     "the claims hold. Limits are asked for too, and steps and limits are stopped. Where the "
-     "caller "
-     "vouches for a clean start, that is true.",
+     "the claims hold. Limits are asked for too, and steps and limits are stopped. A caller "
+     "vouches only for a start that is clean.",
      "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
 };
 

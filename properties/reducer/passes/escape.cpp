@@ -16,7 +16,7 @@
 namespace assay::properties {
 namespace {
 
-// After this many calls without success the pass ends. There are fewer calls if each takes long.
+// Returns after how many calls without success the pass ends: fewer if each takes long.
 std::uint64_t call_budget(const MeshSize& size) {
   constexpr std::uint64_t of_small = 6000, least = 500, small = 60;
   return std::max(least, of_small * small / std::max(small, size.triangles * size.steps));
@@ -41,7 +41,7 @@ class Escape {
  private:
   int index_below(std::size_t n) { return random_.below(static_cast<int>(n)); }
 
-  // A coordinate about as large as those that the case has.
+  // Returns a coordinate about as large as those that the case has.
   double some_number() {
     const double most = std::max(2., std::min(9., std::round(largest_)));
     const double step = largest_ > 9 || largest_ < 2 ? largest_ / most : 1;

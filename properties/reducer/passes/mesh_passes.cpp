@@ -16,7 +16,7 @@ std::size_t triangle_count(const ReductionSearch& search) {
   return static_cast<std::size_t>(search.best().triangles.rows());
 }
 
-// The middle of a triangle over all frames.
+// Returns the middle of a triangle over all frames.
 Eigen::RowVector3d middle_of(const Case& c, std::int32_t triangle) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const auto& frame : c.frames) {
@@ -25,8 +25,8 @@ Eigen::RowVector3d middle_of(const Case& c, std::int32_t triangle) {
   return sum / (3. * static_cast<double>(c.frames.size()));
 }
 
-// The triangles of the best case: those of the reported pair first, then the others by their
-// distance from it. Without a pair the first triangle takes its place.
+// Returns the triangles of the best case: those of the reported pair first, then the others by
+// their distance from it. If there is no pair, the first triangle stands for it.
 std::vector<std::int32_t> near_first(const ReductionSearch& search) {
   const auto& c = search.best();
   auto focus = search.finding().focus;
@@ -50,8 +50,8 @@ bool offer_without(ReductionSearch& search, const std::vector<std::int32_t>& ord
   return search.offer(keep_triangles(search.best(), keep));
 }
 
-// Keeps the triangles around the pair: four times as many each time, until they fail; then the
-// least number between the last two that still fails.
+// Keeps the triangles around the pair: four times as many each time, until the case fails; then the
+// least number between the last two with which it still fails.
 void keep_the_nearest(ReductionSearch& search) {
   constexpr std::size_t fewest = 8, times = 4;
   std::size_t passes = 0;
@@ -98,7 +98,7 @@ namespace {
 
 using detector::make_topology;
 
-// The triangles, those farthest from the focus first.
+// Returns the triangles, those farthest from the focus first.
 std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
   const Rings rings = rings_of(search);
   const auto triangles = triangles_of(search.best());

@@ -100,7 +100,7 @@ void simplify_together(ReductionSearch& search) {
 
 namespace {
 
-// Numbers the vertices in the order in which the triangles name them.
+// Returns the case with its vertices numbered in the order in which the triangles name them.
 Case with_vertices_by_use(const Case& c) {
   Numbers number(vertex_count(c), -1), was;
   const auto use = [&](std::int32_t v) {
@@ -109,7 +109,7 @@ Case with_vertices_by_use(const Case& c) {
     was.push_back(v);
   };
   for (const auto& corners : triangles_of(c)) std::ranges::for_each(corners, use);
-  for (const auto v : in_order(number.size())) use(v);  // of which no triangle is, if any
+  for (const auto v : in_order(number.size())) use(v);  // vertices without a triangle, if any
   Case candidate = c;
   renumber_vertices(candidate, number);
   if (c.counted)
@@ -139,7 +139,8 @@ void canonical_order(ReductionSearch& search) {
   const auto all = [](const Case& c) {
     return with_sorted_triangles(with_lowest_corners_first(with_vertices_by_use(c)));
   };
-  // If the failure depends on the order, as much of the canonical order is taken as it allows.
+  // If the failure depends on the order, only the parts of the canonical order are taken with which
+  // the case still fails.
   if (search.replace(all(search.best()))) return;
   search.replace(with_vertices_by_use(search.best()));
   search.replace(with_lowest_corners_first(search.best()));

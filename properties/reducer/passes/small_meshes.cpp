@@ -30,7 +30,7 @@ SphereMesh canonical(SphereMesh mesh) {
   return std::min(mesh, other);
 }
 
-// A double pyramid: n-2 vertices around the middle, and the last two at the tips.
+// Returns a double pyramid: n-2 vertices around the middle, and the last two at the tips.
 SphereMesh bipyramid(int vertices) {
   SphereMesh mesh;
   const std::int32_t around = vertices - 2;

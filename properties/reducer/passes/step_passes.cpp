@@ -81,7 +81,7 @@ void drop_view(ReductionSearch& search) {
 
 namespace {
 
-// The vertices that move between any two frames, far ones first.
+// Returns the vertices that move between any two frames, far ones first.
 std::vector<std::int32_t> moving_vertices(const ReductionSearch& search) {
   const auto& frames = search.best().frames;
   std::vector<std::int32_t> moving;

@@ -183,7 +183,7 @@ bool is_of_the_system(const fs::path& file) {
                              [&](const char* folder) { return file.string().starts_with(folder); });
 }
 
-// The order is that of the loader.
+// Finds a library in the order of the loader.
 std::optional<fs::path> find(const std::string& name, const Needs& needs,
                              const Strings& inherited) {
   Strings folders;

@@ -84,9 +84,9 @@ Expected<std::filesystem::path> python_plugin(std::string_view word,
                                               const std::filesystem::path& worker);
 
 // Returns the files of a Python detector. First comes the file of the module, or of the package of
-// that name, in the current folder or in one of PYTHONPATH; then the files of the packages around
-// it, and the files that these import by name from beside them or from the same folder, and so on.
-// Fails if there is no module.
+// that name, in the current folder or in one of PYTHONPATH. The files of the packages around it
+// follow, then the files that these import by name from their folders, and so on. Fails if there is
+// no module.
 Expected<std::vector<std::filesystem::path>> python_module_files(std::string_view word);
 
 }  // namespace assay::properties

@@ -20,7 +20,7 @@ struct PluginRun {
   const std::int32_t triangle_count_;
   const bool reports_pairs_, asks_twice_;
 
-  // The candidate pairs of a step, or why there are none.
+  // Returns the candidate pairs of a step, or why there are none.
   Expected<std::vector<TrianglePair>> candidates(const Positions& x_t0, const Positions& x_t1) {
     assay_candidates raw = {};
     BOOST_OUTCOME_TRYV(
@@ -28,7 +28,7 @@ struct PluginRun {
     return candidate_pairs(raw, triangle_count_);
   }
 
-  // What the limiter allows in a step, or why it allows nothing.
+  // Returns how far the limiter lets a step go, or why it does not say.
   // `way` is x_t1, or the displacement to it, as the contract has it.
   Expected<LimitAnswer> limit(const Positions& x_t0, const Positions& x_t1, const Positions& way,
                               const PluginDescription& description) {
@@ -38,7 +38,7 @@ struct PluginRun {
     return limit_answer(raw, description.claims, description.contract, x_t0, x_t1, way);
   }
 
-  // The result of a step, or why it has none: the same reasons.
+  // Returns the result of a step, or why it has none, for the same reasons.
   Expected<StepResult> step(const Positions& x_t0, const Positions& x_t1, bool commit) {
     auto result = evaluated_step(x_t0, x_t1);
     if (result && asks_twice_) result = evaluated_step(x_t0, x_t1);
@@ -70,10 +70,11 @@ struct PluginRun {
   }
 };
 
-// Tells the plug-in which pairs count. Says why it does not take that; empty if it does.
+// Tells the plug-in which pairs count. Says why the plug-in does not take the relation; empty if it
+// does.
 std::string tell_what_counts(const assay_detector_api& table, assay_handle* handle,
                              const CountedPairs& pairs) {
-  // They are handed over as they stand.
+  // The pairs are handed over as they lie in memory.
   static_assert(sizeof(TrianglePair) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::VertexAndFace) == 2 * sizeof(std::int32_t));
   static_assert(sizeof(detector::TwoEdges) == 4 * sizeof(std::int32_t));

@@ -43,7 +43,7 @@ class PluginHost {
   bool asks_twice_ = false;
 };
 
-// Reads what a plug-in gives without trusting it: its table of functions, in any version that this
+// Reads the output of a plug-in without trust: its table of functions, in any version that this
 // host takes; its description; and its results.
 
 // Returns the text as one printable line, no longer than a reply may hold; empty for null.
@@ -76,10 +76,10 @@ Expected<StepResult> step_result(const assay_result& raw, std::int32_t triangle_
                                  bool reports_pairs = true);
 
 // Returns the answer of a limiter with these claims: its share, or -1, and the positions at which
-// the caller stops, its own or computed as Contract::limit_gives says; `way` is the displacement
-// from x_t0 to x_t1. Fails if the share is no valid one, if there are neither positions nor a share
-// to compute them from, if positions are not finite, and if a claim needs a share that is not
-// stated.
+// the caller stops. If it gives none, they are computed as Contract::limit_gives says. `way` is the
+// displacement from x_t0 to x_t1. Fails if the share is no valid one, if there are neither
+// positions nor a share to compute them from, if positions are not finite, and if a claim needs a
+// share that is not stated.
 Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
                                    const Contract& contract, const Positions& x_t0,
                                    const Positions& x_t1, const Positions& way);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// How much of the table a version has, and how much of the description.
+// Returns how much of the table a version has, and how much of the description.
 std::size_t table_bytes(std::uint32_t version) {
   if (version == 1) return offsetof(assay_detector_api, use_threads);
   return version == 2 ? offsetof(assay_detector_api, count) : sizeof(assay_detector_api);
@@ -45,7 +45,7 @@ std::string nothing_described(const assay_detector_api& table) {
   return text.empty() ? "describe() returns nothing" : "describe(): " + text;
 }
 
-// Says what in the description makes no sense; empty if all of it does.
+// Names the part of the description that makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
   std::string unknown;
   visit_members(raw, contract, [&]<class T>(const char* name, const auto& value, T& member) {
@@ -189,8 +189,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
-// Where a caller stops if it computes in this format, with one rounding for each operation. Share 1
-// is x_t1.
+// Computes where a caller stops that computes in this format, with one rounding for each operation.
+// Share 1 is x_t1.
 template <class Real>
 void stop_at(double share, LimitGives gives, const Positions& x_t0, const Positions& x_t1,
              const Positions* displacement, Positions& stop) {
@@ -250,7 +250,7 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
                                    const Positions& x_t1, const Positions& way) {
   const bool has_share = raw.share != -1;
   if (has_share && !(raw.share >= 0 && raw.share <= 1))
-    return Problem{"its share " + number_text(raw.share) + " is none from 0 to 1"};
+    return Problem{"its share " + number_text(raw.share) + " is not from 0 to 1"};
   if (!has_share && claims.has_any({Claim::path_free, Claim::progress}))
     return Problem{"it states no share, and claims path-free or progress"};
   LimitAnswer limit{raw.share, x_t1};

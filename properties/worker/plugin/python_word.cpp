@@ -29,8 +29,8 @@ bool is_identifier(std::string_view text) {
          std::ranges::all_of(text, fits);
 }
 
-// The places where the package may be: in the build folder, around the programs (as pip puts it),
-// or where CMake installs it: the worker is then in libexec/assay.
+// Returns the places where the package may be: in the build folder, around the programs (as pip
+// puts it), or where CMake installs it: the worker is then in libexec/assay.
 std::vector<std::filesystem::path> places_beside(const std::filesystem::path& programs) {
   std::vector<std::filesystem::path> places = {programs / "python" / "assay", programs / ".."};
   std::error_code none;
@@ -52,7 +52,8 @@ void add_module(const fs::path& place, std::vector<fs::path>& files) {
   }
 }
 
-// The words of a file's lines that import something. Some of them are names of modules.
+// Returns the words of those lines of a file that import something. Some of the words are names of
+// modules.
 std::vector<std::string> imported_names(const fs::path& file) {
   std::ifstream in(file);
   std::vector<std::string> names;

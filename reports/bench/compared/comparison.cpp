@@ -355,7 +355,7 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
   peers.subjects.push_back(std::move(subject));
 }
 
-// Known detectors stand in the order of their list. Others stand behind them, by name.
+// Returns the place in the order: known detectors first, as listed, then the others, by name.
 std::size_t place_of(const std::filesystem::path& file) {
   const auto all = known_peers();
   const auto place = std::ranges::find(all, file.stem().string(), &KnownPeer::first);

@@ -1,7 +1,7 @@
 // Compares subjects on sources of cases: each subject plays each case in turn, the oracle judges
 // it, and times stand beside errors, summed by family and by subject. All suites of `assay bench`
-// are such comparisons. Each takes at most five minutes at its default size on one core, all of
-// them together twenty. The report of a suite stands first.
+// are such comparisons. At its default size, on one core, each takes at most five minutes, and all
+// together twenty. The report of a suite stands first.
 #pragma once
 
 #include <array>
@@ -25,14 +25,14 @@
 
 namespace assay::reports {
 
-// The result of a suite of benches: rows, wrong answers, and further figures, in forms that do not
-// depend on the suite. It is written as text, as JSON (schema assay-bench/2,
+// The result of a suite of benches: rows, wrong answers, and further figures, in forms that are the
+// same for all suites. It is written as text, as JSON (schema assay-bench/2,
 // reports/schemas/bench.schema.json) and as CSV, each in one way.
 
 // The goals of the suites of `assay bench`, as ratios. Suites hand these values to their rows; the
-// comments below say to which.
+// comments below name the rows.
 //
-// Only chosen bounds have a name here. The others stand in their rows: no wrong answer
+// Only chosen bounds have a name here. Other goals stand in their rows: no wrong answer
 // (at_most(0)), every answer the same (at_least(100) %).
 
 // The goal of a row.
@@ -49,14 +49,14 @@ inline std::optional<Goal> goal_if(bool condition, Goal goal) {
 namespace goal {
 
 // For the time of whole steps of any mesh. view-auto falls back to bvh if views do not pay, so it
-// may lose only the time to find that out.
+// loses only the time to find that out.
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For the times of whole sequences with culling auto, over the one culling that takes the least
-// time for each whole sequence: the ratios of the sums, of the median steps, and of any step of a
-// millisecond or more. Then the ratio of the first step to that of bvh, whose pairs it has to look
-// at, too; and that of one thread to two.
+// For whole sequences with culling auto. The first two are over the single culling that takes the
+// least time for the sequence: the first for the sum and the median step, the second for the worst
+// step of a millisecond or more. The third is for the first step over that of bvh, because both
+// look at the same pairs, and the last for one thread over two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -116,7 +116,8 @@ struct Column {
 // columns. Empty without rows.
 std::string table_text(const std::vector<std::vector<Column>>& rows, int gap = 1);
 
-// Returns "2: 0.01": in how many steps first times are off, and by which share of a step at worst.
+// Returns "2: 0.01": the number of steps whose first times are off, and the worst error, as a share
+// of a step.
 std::string text_of(const properties::TimesOff& off);
 
 // Returns the text above the rows, the rows as a table, one line each, the text below them, and the
@@ -153,7 +154,7 @@ struct BenchSubject : properties::Subject {
   bool must_hold = true;                          // a broken claim is a wrong answer of the suite
   // The claims by which errors are counted. For every form of the built-in detector these are the
   // claims of exact arithmetic, so that all errors are counted: otherwise doubles, which claim no
-  // pair, could miss none. For a plug-in they are its own.
+  // pair, could miss none. For a plug-in these are its own claims.
   properties::Claims error_claims = {};
   // The contract by which the subject gets steps, if that is not its own.
   std::optional<properties::Contract> contract_of_input = std::nullopt;
@@ -260,8 +261,9 @@ struct Match {
   const corpus::Case& c;  // as fitted to the contract of the subjects
   std::vector<SweptSubject> subjects = {};
   std::vector<SweptRuns> runs = {};
-  // If cases are judged: the oracle's judgement of each step; and by subject the errors of its
-  // first run, `outcome` by the claims by which errors are counted, and `own` by its own claims.
+  // If cases are judged: the oracle's judgement of each step, and a verdict on the first run of
+  // each subject. `outcome` is by the claims by which errors are counted, `own` by the subject's
+  // own claims.
   std::vector<oracle::StepJudgement> truth = {};
   struct Verdict {
     properties::StepErrors errors = {};
@@ -316,18 +318,19 @@ class Comparison {
   const ComparisonPlan plan_;
   BenchReport& report_;
   const BenchProgress progress_;
-  // By subject: for small cases, and for large ones. Each is started when it is first needed.
+  // By subject: a worker for small cases, and one for large ones. Each is started when it is first
+  // needed.
   std::vector<std::array<properties::WorkerProcess, 2>> workers_;
   std::vector<FamilyRow> rows_;
   std::vector<UnsafeAnswer> unsafe_;
 };
 
-// Returns whether another method shows that step s has a contact that was missed or met too late,
-// or one of the missing pairs. If the contact may be at any time of the step, the method is the
-// referee (a proof without roots). Otherwise it is rational arithmetic at a witness: a time before
-// the detector's at which the two features (or, if the contract asks for all features, their two
-// triangles) meet, or two times between which the features are proved to meet
-// (oracle/referee/referee.h). REQUIRES an unsafe diff of that step.
+// Returns whether another method shows that step s has a contact that was missed or reported too
+// late, or one of the missing pairs. If the contact may be at any time of the step, the method is
+// the referee (a proof without roots). Otherwise it is rational arithmetic at a witness: a time
+// before the detector's at which the two features meet, or two times between which they are proved
+// to meet (oracle/referee/referee.h). If the contract asks for all features, their two triangles
+// may meet instead. REQUIRES an unsafe diff of that step.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 

@@ -16,7 +16,7 @@ Eigen::Index triangles_of(const CaseFamily& family) {
   return family.cases().front().c.triangles.rows();
 }
 
-// With --quick, keeps only the two public sequences of fewest triangles.
+// Keeps, with --quick, only the two public sequences with the fewest triangles.
 void keep_smallest_sequences(std::vector<CaseFamily>& families, BenchReport& report) {
   std::vector<std::pair<Eigen::Index, std::string>> sizes;
   for (const auto& family : families) {
@@ -51,8 +51,8 @@ std::optional<double> bytes_a_triangle(const BenchSubject& subject) {
   return (peaks[1] - peaks[0]) / triangles;
 }
 
-// Returns the plug-in and the built-in detector, which is asked for what the plug-in claims. A
-// plug-in that takes any start has to verify it, and then so does the built-in detector.
+// Returns the plug-in and the built-in detector, which is asked for what the plug-in claims. If the
+// plug-in takes any start, it has to verify each start, and the built-in detector does so too.
 std::vector<BenchSubject> beside_built_in(const properties::Subject& plugin) {
   const auto& contract = plugin.detector.contract;
   const auto& claims = plugin.detector.claims;

@@ -22,8 +22,8 @@ std::string time_text(const properties::TimesOff& off) {
 // The subjects for which a column is shown: those in this process, those in workers, or both.
 enum class Of : unsigned char { both, here, workers };
 
-// Returns the columns of a row. A star marks the Pareto line, and brackets a count about which the
-// detector promised nothing.
+// Returns the columns of a row. A star marks the Pareto line, and brackets mark a count about which
+// the detector promised nothing.
 std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading,
                                bool has_workers) {
   const auto& e = row.counts.errors;
@@ -81,7 +81,7 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   for (const auto& row : rows) table.push_back(columns_of(row, heading, has_workers));
   auto text = table_text(table, 0);
   if (!has_workers) return text;
-  JudgedCounts of[2];  // of peers, of the built-in detector
+  JudgedCounts of[2];  // of peers; of the built-in detector
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
   return text +
          "answer: a collision or not, t when first, p which pairs; each in its own contract\n"

@@ -104,7 +104,7 @@ class Detector:
         return step_result(self._detector.first_contact(x_t0, x_t1, until), self._triangles, x_t0, x_t1)
 
     def limit(self, x_t0: ArrayLike, x_t1: ArrayLike) -> Limit:
-        """How far the step may be gone; the state stays as it is.
+        """How far the step may be taken; the state stays as it is.
 
         To limit.positions the straight way is free, rounding included; commit() then goes there. A
         step that is free is taken whole; else 0.95 of the time until the contact, or less where

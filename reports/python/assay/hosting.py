@@ -17,7 +17,7 @@ evaluate() answers with None (free) or a result: a dict, or an object that has o
 so what assay.Detector answers is one. Beside these a class may have name, version, commit(self) and
 
     def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
-    def limit(self, x_t0, x_t1): ...                      # how far the step may be gone
+    def limit(self, x_t0, x_t1): ...                      # how far the step may be taken
     @staticmethod
     def query(kind, x_t0, x_t1): ...                      # "vertex-face" or "edge-edge", (4, 3) each
     @staticmethod

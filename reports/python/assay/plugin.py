@@ -79,7 +79,7 @@ class Plugin:
 
         case: what a case file holds (corpus/README.md); with the option `query` it is one of two
         features. separation: the distance that is asked about, 0 for contacts; limits: how far each
-        step may be gone. None: the detector does not serve this question, or its contract leaves out
+        step may be taken. None: the detector does not serve this question, or its contract leaves out
         the case as it is.
         """
         with surroundings(self._detector):

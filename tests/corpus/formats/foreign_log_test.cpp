@@ -189,7 +189,7 @@ TEST_F(ForeignLogs, MapsThatAreNoneEndThem) {
   for (const auto& body : bodies) {
     const auto log = StepLog::open(write("map.log", record(begin()) + record(body)));
     EXPECT_EQ(log.value().count(), 0u);
-    EXPECT_EQ(log.value().damage()->what, "a record that nothing is known of");
+    EXPECT_EQ(log.value().damage()->what, "a record of an unknown kind");
   }
 }
 
@@ -212,7 +212,7 @@ TEST_F(ForeignLogs, RecordsInAnotherOrderEndThem) {
   EXPECT_EQ(damage({begin(), step(0), changed(1, "step", -1)}),
             "a record without the number of its step");
   EXPECT_TRUE(says(damage({begin(), step(0), begin()}), "another log begins"));
-  EXPECT_EQ(damage({begin(), step(0), Json::array({1, 2})}), "a record that nothing is known of");
+  EXPECT_EQ(damage({begin(), step(0), Json::array({1, 2})}), "a record of an unknown kind");
 }
 
 }  // namespace

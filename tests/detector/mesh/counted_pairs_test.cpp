@@ -82,7 +82,7 @@ TEST(CountedPairs, WrongListsAreRefusedByName) {
               c.vertex_faces = {{4, 0}};
             }),
             wrong_relation)
-      << "triangles are what counts";
+      << "in a relation of triangles";
   const auto of_features = [](const auto& change) {
     return error_with(change, CountedLevel::features);
   };
@@ -90,7 +90,7 @@ TEST(CountedPairs, WrongListsAreRefusedByName) {
               c.triangle_pairs = {{0, 2}};
             }),
             wrong_relation)
-      << "features are what counts";
+      << "in a relation of features";
   EXPECT_EQ(of_features([](auto& c) { c.vertex_faces = {{7, 0}}; }), index_out_of_range);
   EXPECT_EQ(of_features([](auto& c) { c.vertex_faces = {{0, 3}}; }), index_out_of_range);
   EXPECT_EQ(of_features([](auto& c) { c.edge_pairs = {{{0, 1}, {4, 7}}}; }), index_out_of_range);

@@ -211,8 +211,8 @@ void half_alone(RunFindings& f) {
 
 TEST(Gates, AShareAloneIsIncompleteAndTwoAreWhole) {
   expect_incomplete({half_alone},
-                    "a whole campaign is more than the shares that are there: 1/2 under seed 3; "
-                    "shares 1/N need N seeds that follow one another");
+                    "the shares make no whole campaign: 1/2 under seed 3; "
+                    "shares 1/N need N consecutive seeds");
   const Change second = [](auto& f) {
     f.parts.push_back({4, 2, "r"});
     for (auto& [family, tally] : f.tally.strata) tally = good_tally(2 * tally.trials);
@@ -257,7 +257,7 @@ const Change search_planned = [](auto& f) { f.run.plan.search = 1000; };
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   expect_certified({search_planned, lane("001", 500), lane("002", 500)});
   expect_incomplete({search_planned, lane("001", 500)},
-                    "the search came to lanes of 500 of 1000 cases");
+                    "the search has finished lanes of 500 of 1000 cases");
   expect_incomplete({search_planned, lane("001", 500), lane("002", 500, 3)},
                     "3 cases of the search have no verdict");
   const Change none_taken = [](auto& f) {

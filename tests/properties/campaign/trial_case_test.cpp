@@ -1,5 +1,5 @@
 // What the built-in detector is asked besides contacts, each question in a stratum of its own: how
-// far a step may be gone, and what comes within a distance. A wrong answer is found there.
+// far a step may be taken, and what comes within a distance. A wrong answer is found there.
 #include "detector/distance/nearness.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/phases.h"

@@ -129,8 +129,8 @@ TEST_F(LimitResult, BrokenRulesAreNamed) {
   contract.limit_gives = LimitGives::start_plus;
   EXPECT_TRUE(read(0.5));
   expect_broken(-1, "it gives no positions");
-  expect_broken(1.5, "is none from 0 to 1");
-  expect_broken(std::numeric_limits<double>::quiet_NaN(), "is none from 0 to 1");
+  expect_broken(1.5, "is not from 0 to 1");
+  expect_broken(std::numeric_limits<double>::quiet_NaN(), "is not from 0 to 1");
   claims.set(Claim::path_free);
   EXPECT_FALSE(read(-1, place.data())) << "the claim speaks of a share";
   const std::array<double, 3> none = {1, std::numeric_limits<double>::infinity(), 3};

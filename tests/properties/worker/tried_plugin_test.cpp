@@ -153,7 +153,7 @@ TEST(Contract, WhatIsSenselessIsRefusedInOneLine) {
       {"tolerance=nan", "no time"},
       {"start=apart:0", "start_distance of 0"},
       {"start=apart:-1", "is no length"},
-      {"range=-1:1", "range of coordinates is none"},
+      {"range=-1:1", "range of coordinates is invalid"},
       {"margin=inf", "its margin is no length"},
       {"separation=-1 adjacency=2", "its separation is no length"},
       {"separation=0.1", "it has a separation, and tests neighbours"}};

@@ -97,8 +97,8 @@ class Power : public testing::Test {
 TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   const auto made = expect_ended(run(out, with_proof), 0);
   EXPECT_TRUE(says(made.out,
-                   "; planted faults as campaign proof, seed 7, of this build found "
-                   "them; "));
+                   "; planted faults were found by campaign proof, seed 7, of this "
+                   "build; "));
   const auto proved = rows_of(proof_folder() + "/run.sqlite", "fault");
   expect_says(made.out, {" by their curated case alone; campaign proof, seed 7, of this build\n"});
   EXPECT_TRUE(

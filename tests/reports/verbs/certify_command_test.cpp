@@ -178,7 +178,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
   EXPECT_FALSE(contains(verified.out, "not looked at"));
   write(out + "/page.html", "anything");
   expect_ended("verify " + certificate, 0,
-               {"not looked at, for nothing of it rests on them: page.html\n"});
+               {"not looked at, because the certificate does not rest on them: page.html\n"});
   std::filesystem::remove(out + "/page.html");
 
   // In another folder: digests are of rows and bytes, not of places.

@@ -218,7 +218,7 @@ TEST_F(CheckLog, APluginOfTheSameCodeIsAskedAgain) {
   EXPECT_TRUE(says(same.out, "reproduced; smallest: ")) << same.err;
   const auto smallest = fmt::format("{}/step-{}/smallest.json", out, collision_ + 1);
   EXPECT_LE(read_json(smallest)["triangles"].size(), 3u);
-  expect_refused("check " + log + " --detector " + plugin("always_free"), "--keep says where");
+  expect_refused("check " + log + " --detector " + plugin("always_free"), "folder by --keep");
   std::filesystem::remove_all(out);
   const auto other =
       run_assay("check " + log + " --keep " + out + " --detector " + plugin("wrapped_builtin"));
@@ -324,7 +324,7 @@ TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   EXPECT_EQ(read_text(log), bytes);
   expect_refused(
       "check " + log + " " + log + " --detector " + plugin("always_free") + " --junit " + xml,
-      "--keep says where");
+      "folder by --keep");
 }
 
 // A share is the same in every run; what was killed goes on with a later step.

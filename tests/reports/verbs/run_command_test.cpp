@@ -202,7 +202,7 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
   const auto example =
       expect_ended(verdict("example"), 0,
                    {"neighbours no-shared-vertex",
-                    "steps it does not report a contact, and need not by its contract "
+                    "steps it does not report a contact, as its contract allows "
                     "(neighbours no-shared-vertex): without that, these were misses\n"});
   EXPECT_FALSE(contains(example.out, "in 0 steps it does not report")) << example.out;
 
@@ -226,7 +226,7 @@ TEST_F(Run, ACrashIsADefectAndTheRunGoesOn) {
       "strata": [{"family": "closed-generic", "cases": 640}]})");
   const auto crash = expect_ended(run("--jobs 1 --detector " + plugin("crash")), 1,
                                   {"DEFECT total: crashed (flaky)", "killed by signal 6 (Aborted)",
-                                   "asked again by itself, it comes to something else: "});
+                                   "its case alone gives another result: "});
   EXPECT_EQ(trials_of(out).size(), 640u);
   for (const auto& line : replay_lines(crash.out)) {
     EXPECT_TRUE(contains(line, "-original.json")) << line;

@@ -71,8 +71,8 @@ TEST_F(Shares, OfEightSeedsComeToTheWhole) {
 
 TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
   expect_ended(judge(good(1, 7)), 3,
-               {"complete   FAILS\n  a whole campaign is more than the shares "
-                "that are there: 1/8 under seed 1, "});
+               {"complete   FAILS\n  the shares make no whole "
+                "campaign: 1/8 under seed 1, "});
   EXPECT_EQ(predicate_in(out)["verdict"], "incomplete");
   // A share that was not judged to its end.
   const auto half =
@@ -84,7 +84,7 @@ TEST_F(Shares, OfWhichOneIsMissingAreIncomplete) {
 TEST_F(Shares, OfSeedsWithOneRemainderAreIncomplete) {
   std::string folders;
   for (std::uint64_t seed = 1; seed <= 57; seed += 8) folders += good(seed);
-  expect_ended(judge(folders), 3, {"; shares 1/N need N seeds that follow one another\n"});
+  expect_ended(judge(folders), 3, {"; shares 1/N need N consecutive seeds\n"});
 }
 
 TEST_F(Shares, OfOneSeedDoNotCountTwice) {
