@@ -201,7 +201,7 @@ TEST_F(Peers, FclMissesMotionWithinAPlaneAndMore) {
 }
 
 TEST_F(Peers, BulletIsAskedForVerticesAndFacesInFloatsAlone) {
-  // Its SolveP3 has no end at some large coordinates (corpus/peers/README.md).
+  // Its SolveP3 has no end at some large coordinates (corpus/peers/FINDINGS.md).
   ASSERT_NO_FATAL_FAILURE(judge("bullet_bernstein", 1));
   if (IsSkipped()) return;
   EXPECT_EQ(peer_.detector.contract.features, TestedFeatures::vertex_face);
