@@ -100,17 +100,7 @@ class PartsToTry {
 SavedState::SavedState(StateFields fields)
     : fields_(std::make_shared<const StateFields>(std::move(fields))) {}
 
-std::vector<std::uint8_t> SavedState::bytes() const {
-  std::vector<std::uint8_t> bytes(state_size(*fields_));
-  write_state(*fields_, bytes);
-  return bytes;
-}
-
-Expected<SavedState> SavedState::read(std::span<const std::uint8_t> bytes) {
-  auto fields = read_state(bytes);
-  if (!fields) return fields.error();
-  return SavedState(std::move(fields.value()));
-}
+bool operator==(const SavedState& a, const SavedState& b) { return a.fields() == b.fields(); }
 
 struct Detector::Parts {
   StepContext context;

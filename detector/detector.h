@@ -35,20 +35,12 @@ struct Stages;       // assembly.h
 class Workers;       // assembly.h
 
 // The state that a detector carries from step to step. It is an immutable value that can be copied
-// and kept (copies share what they hold), and it can be turned into bytes for a file.
+// and kept (copies share what they hold). States are equal if everything in them is equal. O(M).
 class SavedState {
  public:
   explicit SavedState(StateFields fields);
-
-  // Returns the state as bytes. They are the same on every machine: 24 for each vertex, 1 for each
-  // triangle, 16 for each pair in contact, and some for the components and holes. O(M).
-  std::vector<std::uint8_t> bytes() const;
-  // Errors: damaged_state, other_state_version. restore() checks whether the state is of the right
-  // mesh. Reading takes no more memory than a few times the size of `bytes`, whatever lengths the
-  // bytes claim. O(M).
-  static Expected<SavedState> read(std::span<const std::uint8_t> bytes);
-
   const StateFields& fields() const { return *fields_; }
+  friend bool operator==(const SavedState& a, const SavedState& b);
 
  private:
   std::shared_ptr<const StateFields> fields_;

@@ -21,6 +21,8 @@ namespace assay::detector {
 // ghosts through it cut the sheet.
 struct ApexRule {
   double height = 0;
+
+  friend bool operator==(const ApexRule&, const ApexRule&) = default;
 };
 
 // The rules to choose from. If several are equally good, the first of them is taken.

@@ -7,7 +7,7 @@
 //   }
 //
 // Loops over the values, checks of numbers and all words for users take what they need from that
-// list. It stands in the order in which users read it; the numbers of its values have no gap.
+// list. It stands in the order in which users read it.
 #pragma once
 
 #include <algorithm>
@@ -43,6 +43,7 @@ template <Listed Enum>
 inline constexpr Enum first_value = *std::min_element(all_values<Enum>.begin(),
                                                       all_values<Enum>.end());
 
+// REQUIRES that the numbers of the values have no gap.
 template <Listed Enum>
 inline constexpr Enum last_value = [] {
   constexpr Enum last = *std::max_element(all_values<Enum>.begin(), all_values<Enum>.end());
@@ -54,9 +55,10 @@ inline constexpr Enum last_value = [] {
 // Returns the value with this number; nothing if there is none.
 template <Listed Enum>
 constexpr std::optional<Enum> from_number(std::int64_t number) {
-  const bool is_value = static_cast<std::int64_t>(first_value<Enum>) <= number &&
-                        number <= static_cast<std::int64_t>(last_value<Enum>);
-  return is_value ? std::optional(static_cast<Enum>(number)) : std::nullopt;
+  for (const Enum value : all_values<Enum>) {
+    if (static_cast<std::int64_t>(value) == number) return value;
+  }
+  return std::nullopt;
 }
 
 // Returns the name of a value; "unknown" for a number that is no value.

@@ -15,6 +15,7 @@
 
 namespace assay::detector {
 
+// Numbers are for ever (assay_builtin_detector.h). 11 was an error that is gone.
 enum class InputError : std::uint8_t {
   no_triangles = 1,             // an empty mesh has no self-collision to detect
   index_out_of_range = 2,       // a triangle names a vertex that does not exist
@@ -25,8 +26,7 @@ enum class InputError : std::uint8_t {
   wrong_primitive_count = 7,    // the view primitives are not 0, 1, or 1 for each component
   nothing_to_commit = 8,        // commit() without a completed evaluate()
   foreign_state = 9,            // restore() with the state of another mesh or culling
-  damaged_state = 10,           // the bytes are no saved state, or were cut or changed
-  other_state_version = 11,     // the saved state has a form that this build does not read
+  damaged_state = 10,           // restore() with a state that contradicts its mesh
   mesh_too_large = 12,          // more triangles or vertices than the detector's indices can number
   stopped = 13,                 // the stop function asked for an end before there was a detector
   triangle_of_two_bodies = 14,  // its vertices are of two bodies (counted_pairs.h)
@@ -47,7 +47,6 @@ constexpr auto names_of(InputError) {
                                            {nothing_to_commit, "nothing_to_commit"},
                                            {foreign_state, "foreign_state"},
                                            {damaged_state, "damaged_state"},
-                                           {other_state_version, "other_state_version"},
                                            {mesh_too_large, "mesh_too_large"},
                                            {stopped, "stopped"},
                                            {triangle_of_two_bodies, "triangle_of_two_bodies"},

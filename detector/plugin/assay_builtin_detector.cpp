@@ -9,7 +9,6 @@
 
 #include "detector/contact_place.h"
 #include "detector/plugin/builtin_handle.h"
-#include "detector/state/step_state.h"
 
 namespace assay::detector {
 namespace {
@@ -212,8 +211,6 @@ const char* assay_builtin_error_name(std::int32_t code) {
       return "no_error";
     case ASSAY_BUILTIN_WRONG_OPTIONS:
       return "wrong_options";
-    case ASSAY_BUILTIN_SMALL_BUFFER:
-      return "small_buffer";
     case ASSAY_BUILTIN_TOO_MANY:
       return "too_many";
     case ASSAY_BUILTIN_NO_MEMORY:
@@ -328,29 +325,3 @@ void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets
 }
 
 void assay_builtin_reset(assay_handle* handle) { handle->detector.reset(); }
-
-std::int32_t assay_builtin_save(const assay_handle* handle, void* buffer, std::uint64_t capacity,
-                                std::uint64_t* size, assay_builtin_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    const SavedState saved = handle->detector.state();
-    const StateFields& state = saved.fields();
-    *size = state_size(state);
-    if (!buffer) return done(error);
-    if (capacity < *size)
-      return refuse(error, ASSAY_BUILTIN_SMALL_BUFFER, "the buffer is smaller than the state");
-    write_state(state, {static_cast<std::uint8_t*>(buffer), static_cast<std::size_t>(*size)});
-    return done(error);
-  });
-}
-
-std::int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, std::uint64_t size,
-                                   assay_builtin_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    auto state =
-        read_state({static_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(size)});
-    if (!state) return refuse(error, state.error());
-    if (const auto problem = handle->detector.restore(SavedState(std::move(state.value()))))
-      return refuse(error, *problem);
-    return done(error);
-  });
-}

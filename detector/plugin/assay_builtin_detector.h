@@ -9,8 +9,7 @@
  *
  * The table that assay_builtin_detector() returns and the other functions below work on the same
  * handles. Both keep the rules on memory, threads and order of assay_detector.h. The functions do
- * what the table does, but with options and named errors. They also save and restore the state
- * that is carried from step to step.
+ * what the table does, but with options and named errors.
  *
  * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
@@ -33,7 +32,8 @@ extern "C" {
  * is never NULL and always valid. */
 const assay_detector_api* assay_builtin_detector(void);
 
-/* The errors. A number keeps its meaning for ever; new errors get new numbers. */
+/* The errors. A number keeps its meaning for ever; new errors get new numbers, but not 11 or 65,
+ * which errors had that are gone. */
 enum {
   ASSAY_BUILTIN_NO_ERROR = 0,
   ASSAY_BUILTIN_NO_TRIANGLES = 1,          /* an empty mesh */
@@ -44,9 +44,8 @@ enum {
   ASSAY_BUILTIN_NON_FINITE_COORDINATE = 6, /* NaN or infinity, also in a view primitive */
   ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* neither none, one, nor one for each component */
   ASSAY_BUILTIN_NOTHING_TO_COMMIT = 8,     /* no step with an answer was evaluated */
-  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* the state is of another mesh or another culling */
-  ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* no saved state, or one that was cut or changed */
-  ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* the state has a form that this build does not read */
+  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* (not met in C: no state is kept there) */
+  ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* (likewise) */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
   ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
   ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES = 14, /* (not met in C: create takes no relation) */
@@ -55,7 +54,6 @@ enum {
   ASSAY_BUILTIN_PROVES_NOTHING = 17,         /* a limit is asked for in double or float */
   ASSAY_BUILTIN_WRONG_BOUND = 18,            /* until is no time from 0 to 1 */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,          /* an option has no such value; struct_size is wrong */
-  ASSAY_BUILTIN_SMALL_BUFFER = 65,           /* the state takes more bytes than the buffer has */
   ASSAY_BUILTIN_TOO_MANY = 66,               /* more than 2^31 - 1 triangles or vertices */
   ASSAY_BUILTIN_NO_MEMORY = 67
 };
@@ -193,21 +191,6 @@ void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets
 
 /* Forgets the committed steps: the next one is a new start. The table's result stays as it is. */
 void assay_builtin_reset(assay_handle* handle);
-
-/* Writes the committed state into a buffer of `capacity` bytes, to be kept or sent. The bytes are
- * the same on every machine. *size is always set to the number of bytes that the state takes; call
- * with buffer NULL and capacity 0 to learn it. A buffer with less room is refused and not written
- * to. */
-int32_t assay_builtin_save(const assay_handle* handle, void* buffer, uint64_t capacity,
-                           uint64_t* size, assay_builtin_error* error);
-
-/* Goes on from a saved state. If both handles were created with the same options from the same
- * positions, later results equal those of the saved handle bit by bit. If the positions were
- * others, counts may differ and, unless arithmetic is exact, the false alarms too. A step
- * that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the handle
- * is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
-int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, uint64_t size,
-                              assay_builtin_error* error);
 
 #ifdef __cplusplus
 }

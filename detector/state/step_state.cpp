@@ -56,6 +56,13 @@ bool StepState::holds_at(const PositionsView& x, const PacedStop& pace) const {
   return true;
 }
 
+// The binding names every member, so a new one does not compile before it is compared.
+bool operator==(const StepState& a, const StepState& b) {
+  const auto& [positions, clean, contacts, are_complete, inside, policy] = a;
+  return b.holds_at(positions) && clean == b.clean && contacts == b.contacts &&
+         are_complete == b.contacts_are_complete && inside == b.inside && policy == b.policy;
+}
+
 namespace {
 
 bool fits(const ViewAnchor& anchor, std::int32_t vertex_count) {
@@ -97,7 +104,7 @@ bool fits(const StateFields& state, const Surface& surface, std::size_t anchors)
     if (!std::isfinite(rule.height)) return false;
   }
   if (!state.committed) return true;
-  const auto& chosen = state.committed->policy.anchors;
+  const auto& chosen = state.committed->policy.anchors.list;
   return fits(*state.committed, surface) && (!chosen || fit(*chosen, anchors, n));
 }
 

@@ -17,11 +17,20 @@
 
 namespace assay::detector {
 
+// The anchors of all components, shared by copies of a state. Equal if they hold equal anchors.
+struct SharedAnchors {
+  std::shared_ptr<const std::vector<ViewAnchor>> list;  // may be null
+
+  friend bool operator==(const SharedAnchors& a, const SharedAnchors& b) {
+    return a.list && b.list ? *a.list == *b.list : a.list == b.list;
+  }
+};
+
 // The state of the cost model (step/culling_policy.h) between steps: where components are seen
 // from, and whether using views has paid.
 struct PolicyState {
   // One anchor for each component. Null: those of the detector's preprocessing.
-  std::shared_ptr<const std::vector<ViewAnchor>> anchors;
+  SharedAnchors anchors;
   bool anchors_are_due = false;         // the anchors are chosen again when views are next due
   std::uint64_t anchor_age = 0;         // steps since the anchors were chosen
   std::uint64_t least_anchor_age = 16;  // they are kept for at least this many steps
@@ -40,6 +49,8 @@ struct PolicyState {
   double credit = 8'000;
   double tried = 0;        // this much work was too little to make views
   bool has_views = false;  // views are made and paid for
+
+  friend bool operator==(const PolicyState&, const PolicyState&) = default;
 };
 
 struct StepState {
@@ -67,6 +78,8 @@ struct StepState {
   // workers of the pace share the work; it is not asked to stop.
   void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));
   bool holds_at(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops)) const;
+  // Positions are compared bit by bit.
+  friend bool operator==(const StepState& a, const StepState& b);
 };
 
 // The contents of a SavedState (detector.h).
@@ -79,6 +92,8 @@ struct StateFields {
   std::vector<ApexRule> apex_rules;
   std::vector<ViewAnchor> anchors;
   double view_work = 0;  // the work of choosing these, in box tests
+
+  friend bool operator==(const StateFields&, const StateFields&) = default;
 };
 
 // Returns the digest of a mesh: equal for equal triangles in the same order and equal vertex
@@ -89,28 +104,5 @@ std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 // `anchors` anchors of its own. REQUIRES as many apex rules as that detector has. It does not check
 // that the triangles that the state calls clean are clean. O(M).
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
-
-// A saved state as bytes, to be kept in a file or handed to another program.
-//
-// The form, version 3, is the same on every machine: 8 bytes "assaySAV", a version, the number of
-// all bytes, the fields of StateFields in the order of state_bytes.cpp, and a checksum of all
-// before it (FNV-1a of 64 bits, byte by byte). Numbers are little-endian, of 64 bits. Doubles are
-// written as their bits, flags and kinds as single bytes, a list as its length and then its
-// members. The checksum shows damage, but does not protect against forgery.
-
-inline constexpr std::uint64_t state_version = 3;
-
-// Returns how many bytes the state takes: 24 for each vertex, 1 for each triangle, 16 for each pair
-// in contact, and some for its components and holes. O(M).
-std::size_t state_size(const StateFields& state);
-
-// Writes the state as bytes. REQUIRES that `bytes` has state_size(state) bytes. Allocates nothing.
-// O(M).
-void write_state(const StateFields& state, std::span<std::uint8_t> bytes);
-
-// Reads a state from its bytes. Errors: damaged_state, other_state_version. Detector::restore
-// checks whether the state is of the right mesh. Reading takes no more memory than a few times the
-// size of `bytes`, whatever lengths the bytes claim. O(M).
-Expected<StateFields> read_state(std::span<const std::uint8_t> bytes);
 
 }  // namespace assay::detector

@@ -214,10 +214,10 @@ const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>&
                                            vertices_t0, effort, &pace));
     }
     spent_ += pace.spent() - spent_before;
-    state_.anchors = std::move(chosen);
+    state_.anchors = {std::move(chosen)};
     chose_anchors_ = true;
   }
-  return state_.anchors ? *state_.anchors : first;
+  return state_.anchors.list ? *state_.anchors.list : first;
 }
 
 double CostModel::hoped_at_a_glance(const SteppedMesh& motion) const {

@@ -18,6 +18,8 @@ namespace assay::detector {
 struct AffineWeights {
   std::vector<std::int32_t> vertices;  // at most 54
   std::vector<double> weights;         // by place in `vertices`; their sum is 1
+
+  friend bool operator==(const AffineWeights&, const AffineWeights&) = default;
 };
 
 // Returns the weights of the nearest vertex in each of 54 directions around the point. They are the
@@ -40,6 +42,8 @@ constexpr auto names_of(ViewKind) {
 struct ViewAnchor {
   ViewKind kind = ViewKind::point;
   AffineWeights ends[2];  // a point uses the first only
+
+  friend bool operator==(const ViewAnchor&, const ViewAnchor&) = default;
 };
 
 // How many triangles are looked at to find a place.

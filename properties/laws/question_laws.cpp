@@ -108,8 +108,7 @@ void check_stops(CaseFacts& facts, LawTally& tally) {
     const StepResult after = player.value().play(s);
     alone.value().play(s);
     if (wrong.empty()) wrong = difference(facts.result(s), after);
-    if (wrong.empty() &&
-        player.value().detector().state().bytes() != alone.value().detector().state().bytes())
+    if (wrong.empty() && player.value().detector().state() != alone.value().detector().state())
       wrong = "the state after the step";
     note(facts, s, wrong.empty() ? holds() : wrong + " differs", tally);
   }

@@ -1,4 +1,5 @@
 // The module assay._detector holds the production detector and its elementary test, and no oracle.
+#include <pybind11/operators.h>
 #include <pybind11/pybind11.h>
 #include <unistd.h>
 
@@ -147,18 +148,6 @@ class PythonDetector {
   Detector detector_;
   std::atomic_flag busy_;
 };
-
-py::bytes bytes_of(const SavedState& state) {
-  const auto bytes = state.bytes();
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-SavedState state_of(const py::bytes& bytes) {
-  const std::string_view text = bytes;
-  auto state = SavedState::read({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  if (!state) raise(state.error());
-  return std::move(state.value());
-}
 
 // Returns the words of each option, as a dict of tuples.
 py::dict words_of_options() {
@@ -314,9 +303,7 @@ PYBIND11_MODULE(_detector, module) {
   using namespace assay::python;
   module.attr("VERSION") = ASSAY_VERSION;
   module.attr("OPTIONS") = words_of_options();
-  py::class_<SavedState>(module, "State")
-      .def("__bytes__", bytes_of)
-      .def_static("from_bytes", state_of);
+  py::class_<SavedState>(module, "State").def(py::self == py::self);
   py::class_<PythonDetector>(module, "Detector")
       .def(py::init<const py::object&, const py::object&, const py::dict&, std::uint32_t>())
       .def("evaluate", &PythonDetector::evaluate)

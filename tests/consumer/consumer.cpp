@@ -21,8 +21,8 @@ int main() {
               result.pairs.size());
   if (result.answer != Answer::collision || result.first.lo != 0.5) return 1;
 
-  // What is kept of it as bytes serves another detector of the same mesh.
-  const auto saved = SavedState::read(detector.value().state().bytes());
+  // Its state serves another detector of the same mesh.
+  const SavedState saved = detector.value().state();
   auto other = Detector::create(triangles, x_t0, {});
-  return saved && other && !other.value().restore(saved.value()) ? 0 : 1;
+  return other && !other.value().restore(saved) && other.value().state() == saved ? 0 : 1;
 }

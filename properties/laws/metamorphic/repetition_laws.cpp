@@ -131,20 +131,19 @@ bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Dete
   if (!fields.committed || fields.anchors.empty()) return false;
   auto anchors = fields.anchors;
   anchors.pop_back();
-  fields.committed->policy.anchors =
-      std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(anchors));
+  fields.committed->policy.anchors = {
+      std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(anchors))};
   return !detector.restore(detector::SavedState(std::move(fields)));
 }
 
 std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& state,
                     CasePlayer& other) {
-  const auto state_read = detector::SavedState::read(state.bytes());
   auto busy = busy_detector(facts);
-  if (!state_read || !busy) return "no detector for the state, or no state:";
+  if (!busy) return "no detector for the state:";
   if (is_taken_with_one_too_few(state, *busy)) return "a state that does not fit is taken, which";
-  if (busy->restore(state_read.value())) return "the restored state is refused, which";
+  if (busy->restore(state)) return "the restored state is refused, which";
   if (!busy->commit()) return "an evaluation outlives what is restored, which";
-  if (busy->state().bytes() != state.bytes()) return "the restored state";
+  if (busy->state() != state) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
   // The counts may differ, because the trees are shaped by other positions.
@@ -155,9 +154,8 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
 // Compares the two detectors by a next step at rest, which settles the triangles that the last
 // committed step left in contact.
 std::string rests_alike(const CaseFacts& facts, detector::Detector& detector, const Positions& x) {
-  const auto state_read = detector::SavedState::read(detector.state().bytes());
   auto restored = busy_detector(facts);
-  if (!state_read || !restored || restored->restore(state_read.value())) return "the state";
+  if (!restored || restored->restore(detector.state())) return "the state";
   const StepResult expectation = detector.evaluate(x, x);
   StepResult result = restored->evaluate(x, x);
   result.counts = expectation.counts;  // as in goes_on
@@ -174,8 +172,8 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     std::string differing = goes_on(facts, s, player.value().detector().state(), other.value());
     player.value().play(s);
-    const auto expectation = player.value().detector().state().bytes();
-    if (differing.empty() && other.value().detector().state().bytes() != expectation)
+    const auto expectation = player.value().detector().state();
+    if (differing.empty() && other.value().detector().state() != expectation)
       differing = "the state after the step";
     if (differing.empty()) differing = rests_alike(facts, player.value().detector(), facts.x_t1(s));
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
@@ -214,12 +212,12 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
   in_order.value().detector() = std::move(in_drawn_order.value());
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     alone.value().play(s);
-    const auto state = alone.value().detector().state().bytes();
+    const auto state = alone.value().detector().state();
     std::string differing;
     for (auto* other : {&in_order, &shared}) {
       if (!differing.empty()) break;
       differing = difference(facts.result(s), other->value().play(s));
-      if (differing.empty() && other->value().detector().state().bytes() != state)
+      if (differing.empty() && other->value().detector().state() != state)
         differing = "the state after the step";
     }
     note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
@@ -268,9 +266,9 @@ constexpr Law repetition_law_table[] = {
      "lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
-     "A state that is saved as bytes, and restored in another detector of the mesh, made from "
-     "other positions and in the middle of another step, gives the same later results and states, "
-     "and no evaluation outlives it.",
+     "A state that is restored in another detector of the mesh, made from other positions and in the "
+     "middle of another step, gives the same later results and states, and no evaluation outlives "
+     "it.",
      "nothing", check_restored_state, one_case_in_16},
     {"Change_StepReversed", "change",
      "A sequence played back, each step from its end to its start, has the pairs of each step, and "

@@ -120,12 +120,12 @@ std::vector<StepJudgement> truth_of(const PosedCase& p, const CaseFacts& facts) 
 bool go_on_elsewhere(CasePlayer& player, const Case& c, Options options,
                      const StagesOf& stages_of) {
   options.counted = counted_of(c);
-  const auto state = detector::SavedState::read(player.detector().state().bytes());
+  const auto state = player.detector().state();
   const auto& elsewhere = c.frames.back();
   auto creation = detector::assemble(c.triangles, elsewhere, options, stages_of(options));
-  if (!state || !creation) return false;
+  if (!creation) return false;
   creation.value().step(elsewhere, elsewhere);
-  if (creation.value().restore(state.value())) return false;
+  if (creation.value().restore(state)) return false;
   player.detector() = std::move(creation.value());
   return true;
 }
@@ -145,7 +145,7 @@ bool is_the_same(const StepLimit& a, const StepLimit& b) {
 // of these calls. `ask` returns what is wrong with an answer that should have been stopped.
 template <class Ask>
 std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask& ask) {
-  const auto state = detector.state().bytes();
+  const auto state = detector.state();
   int times = 0, questions = 0;
   ask([&] { return ++times, false; }, false);
   if (times == 0) return "";
@@ -154,7 +154,7 @@ std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask
   std::string wrong = ask([&] { return ++questions == last; }, true);
   if (questions < last) return "";
   if (wrong.empty() && !detector.commit()) wrong = "what was stopped is committed";
-  if (wrong.empty() && detector.state().bytes() != state) wrong = "what was stopped leaves a trace";
+  if (wrong.empty() && detector.state() != state) wrong = "what was stopped leaves a trace";
   return wrong;
 }
 

@@ -14,23 +14,15 @@ OPTIONS = _detector.OPTIONS  # the words of each option
 
 
 class State:
-    """What a detector carries from step to step: bytes(state) and pickle keep it."""
+    """What a detector carries from step to step, as a value: Detector.restore() takes it back."""
 
     def __init__(self, saved: _detector.State):
         if not isinstance(saved, _detector.State):
-            raise TypeError("a state is what Detector.state() and State.from_bytes() give")
+            raise TypeError("a state is what Detector.state() gives")
         self._saved = saved
 
-    def __bytes__(self) -> bytes:
-        return bytes(self._saved)
-
-    @staticmethod
-    def from_bytes(data: bytes) -> "State":
-        """InputError: bytes that are no saved state, or one of a form that is not read."""
-        return State(_detector.State.from_bytes(bytes(data)))
-
-    def __reduce__(self):
-        return State.from_bytes, (bytes(self),)
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, State) and self._saved == other._saved
 
 
 class Detector:

@@ -6,6 +6,8 @@
 #include "detector/assembly.h"
 #include "detector/contact_place.h"
 #include "detector/parallel/workers.h"
+#include "detector/plugin/builtin_handle.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 #include "tests/meshes.h"
 
@@ -109,8 +111,24 @@ class Numbers {
     if (place.normal) add(*place.normal);
     add(place.normal_error);
   }
-  void add(const SavedState& state) {
-    for (const auto byte : state.bytes()) add(std::uint64_t{byte});
+  void add(const SavedState& saved) {
+    const StateFields& state = saved.fields();
+    for (const auto& anchor : state.anchors) {
+      for (const auto& end : anchor.ends) {
+        for (const auto vertex : end.vertices) add(static_cast<std::uint64_t>(vertex));
+        for (const auto weight : end.weights) add(weight);
+      }
+    }
+    for (const auto& rule : state.apex_rules) add(rule.height);
+    add(state.view_work);
+    const StepState& end = state.committed.value();
+    add(end.positions);
+    for (const auto is_clean : end.clean) add(std::uint64_t{is_clean});
+    for (const auto& view : end.inside) {
+      if (view) add(view->front()), add(view->back());
+    }
+    const PolicyState& policy = end.policy;
+    add(policy.best_share), add(policy.overhead), add(policy.credit), add(policy.tried);
   }
   std::vector<std::uint64_t> list;
 };
@@ -347,7 +365,7 @@ TEST_F(BuiltinDetector, AnswersInAnyStateOfTheProcessor) {
     assay_builtin_evaluate(detector, x_t0, x_t1, nullptr, 0, nullptr, nullptr, &error);
     add_result(handle);
     assay_builtin_commit(detector, &error);
-    for (const auto byte : save(handle)) numbers.add(std::uint64_t{byte});
+    numbers.add(handle->detector.state());
     assay_builtin_first_contact(detector, x_t0, x_t1, 1, nullptr, nullptr, &error);
     add_result(handle);
     assay_limit limit = {};

@@ -2,6 +2,7 @@
 // plug-in.
 #include "detector/contact_place.h"
 #include "detector/detector.h"
+#include "detector/plugin/builtin_handle.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 
 namespace assay::detector {
@@ -38,15 +39,15 @@ TEST_F(BuiltinDetector, NumbersAreThoseOfTheLists) {
   expect_numbers<InputError>(
       "no_triangles index_out_of_range repeated_index same_vertices_twice wrong_frame_size "
       "non_finite_coordinate wrong_primitive_count nothing_to_commit foreign_state damaged_state "
-      "other_state_version mesh_too_large stopped triangle_of_two_bodies wrong_relation "
+      "mesh_too_large stopped triangle_of_two_bodies wrong_relation "
       "wrong_separation proves_nothing wrong_bound",
       {ASSAY_BUILTIN_NO_TRIANGLES, ASSAY_BUILTIN_INDEX_OUT_OF_RANGE, ASSAY_BUILTIN_REPEATED_INDEX,
        ASSAY_BUILTIN_SAME_VERTICES_TWICE, ASSAY_BUILTIN_WRONG_FRAME_SIZE,
        ASSAY_BUILTIN_NON_FINITE_COORDINATE, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
        ASSAY_BUILTIN_NOTHING_TO_COMMIT, ASSAY_BUILTIN_FOREIGN_STATE, ASSAY_BUILTIN_DAMAGED_STATE,
-       ASSAY_BUILTIN_OTHER_STATE_VERSION, ASSAY_BUILTIN_MESH_TOO_LARGE, ASSAY_BUILTIN_STOPPED,
-       ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES, ASSAY_BUILTIN_WRONG_RELATION,
-       ASSAY_BUILTIN_WRONG_SEPARATION, ASSAY_BUILTIN_PROVES_NOTHING, ASSAY_BUILTIN_WRONG_BOUND});
+       ASSAY_BUILTIN_MESH_TOO_LARGE, ASSAY_BUILTIN_STOPPED, ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES,
+       ASSAY_BUILTIN_WRONG_RELATION, ASSAY_BUILTIN_WRONG_SEPARATION, ASSAY_BUILTIN_PROVES_NOTHING,
+       ASSAY_BUILTIN_WRONG_BOUND});
 }
 
 TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
@@ -198,9 +199,9 @@ TEST_F(BuiltinDetector, EveryErrorHasItsName) {
   std::map<std::string, int> names;
   for (std::int32_t code = -3; code < 300; ++code) ++names[assay_builtin_error_name(code)];
   EXPECT_EQ(names["no_error"], 1);
-  EXPECT_EQ(names.size(), 24u) << "18 of the detector, 4 of the interface, none, unknown";
+  EXPECT_EQ(names.size(), 22u) << "17 of the detector, 3 of the interface, none, unknown";
   EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_FOREIGN_STATE), "foreign_state");
-  EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_SMALL_BUFFER), "small_buffer");
+  EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_TOO_MANY), "too_many");
 }
 
 TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
@@ -366,65 +367,14 @@ TEST_F(Plugin, RefusesByName) {
   EXPECT_GT(std::strlen(got.message), 0u);
 }
 
-// States saved into a caller's buffer, restored, refused, forgotten.
-
-TEST_F(BuiltinDetector, ASmallBufferIsRefusedAndLeftAlone) {
-  const auto handle = make(Culling::view_point);
-  const auto whole = save(handle);
-  std::vector<std::uint8_t> buffer(whole.size(), 0xa5);
-  for (const std::size_t capacity : {std::size_t{0}, std::size_t{8}, whole.size() - 1}) {
-    std::uint64_t size = 0;
-    expect_refused(assay_builtin_save(handle.get(), buffer.data(), capacity, &size, &error),
-                   ASSAY_BUILTIN_SMALL_BUFFER);
-    EXPECT_EQ(size, whole.size());
-    EXPECT_EQ(buffer, std::vector<std::uint8_t>(whole.size(), 0xa5));
-  }
-  // More than is needed stays as it is.
-  buffer.push_back(0xa5);
-  std::uint64_t size = 0;
-  EXPECT_EQ(assay_builtin_save(handle.get(), buffer.data(), buffer.size(), &size, &error),
-            ASSAY_OK);
-  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), buffer.begin()));
-  EXPECT_EQ(buffer.back(), 0xa5);
-}
-
-TEST_F(BuiltinDetector, AWrongStateIsRefusedAndNothingChanges) {
-  const auto handle = make(Culling::view_point), line = make(Culling::view_line);
-  const auto open = make(Culling::view_point, 7);
-  evaluate(handle, in, hit);
-  assay_builtin_commit(handle.get(), &error);
-  const auto mine = save(handle);
-  evaluate(handle, hit, in);  // not committed: a refused state leaves that too
-  auto cut = mine, changed = mine, later = mine;
-  cut.pop_back();
-  changed[40] ^= 1;
-  later[8] = 9;
-  const auto restore = [&](const std::vector<std::uint8_t>& bytes) {
-    return assay_builtin_restore(handle.get(), bytes.data(), bytes.size(), &error);
-  };
-  expect_refused(restore(cut), ASSAY_BUILTIN_DAMAGED_STATE);
-  expect_refused(restore(changed), ASSAY_BUILTIN_DAMAGED_STATE);
-  expect_refused(restore({}), ASSAY_BUILTIN_DAMAGED_STATE);
-  expect_refused(restore(later), ASSAY_BUILTIN_OTHER_STATE_VERSION);
-  expect_refused(restore(save(line)), ASSAY_BUILTIN_FOREIGN_STATE);
-  expect_refused(restore(save(open)), ASSAY_BUILTIN_FOREIGN_STATE);
-  EXPECT_EQ(save(handle), mine);
-  EXPECT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK);
-  // A right one drops what was not committed.
-  evaluate(handle, in, hit);
-  EXPECT_EQ(restore(mine), ASSAY_OK);
-  expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
-  EXPECT_EQ(save(handle), mine);
-}
-
 TEST_F(BuiltinDetector, ResetForgets) {
   const auto handle = make(Culling::view_point);
-  const auto before = save(handle);
+  const auto before = handle->detector.state();
   evaluate(handle, in, hit);
   assay_builtin_commit(handle.get(), &error);
-  EXPECT_NE(save(handle), before);
+  EXPECT_NE(handle->detector.state(), before);
   assay_builtin_reset(handle.get());
-  EXPECT_EQ(save(handle), before);
+  EXPECT_EQ(handle->detector.state(), before);
   EXPECT_EQ(result_of(handle).answer, ASSAY_COLLISION);
 }
 

@@ -57,14 +57,6 @@ class BuiltinDetector : public testing::Test {
     assay_builtin_get_sets(handle.get(), &sets);
     return sets;
   }
-  std::vector<std::uint8_t> save(const Handle& handle) {
-    std::uint64_t size = 0;
-    EXPECT_EQ(assay_builtin_save(handle.get(), nullptr, 0, &size, &error), ASSAY_OK);
-    std::vector<std::uint8_t> bytes(size);
-    EXPECT_EQ(assay_builtin_save(handle.get(), bytes.data(), size, &size, &error), ASSAY_OK);
-    EXPECT_EQ(size, bytes.size());
-    return bytes;
-  }
   void expect_refused(std::int32_t code, std::int32_t expected) {
     EXPECT_EQ(code, ASSAY_REFUSED);
     EXPECT_EQ(error.code, expected) << error.message;

@@ -213,10 +213,9 @@ TEST(LongSequence, L9_L11_AnArmThroughAHoleLeavesNothingBehind) {
   }
 }
 
-// Detectors that are restored on the way, from the bytes of their states, give what one gives that
-// was never interrupted.
+// Detectors that are restored on the way give what one gives that was never interrupted.
 TEST(SavedSequence, GoesOnAsIfUninterrupted) {
-  std::size_t steps = 0, collisions = 0, with_views = 0, in_doubt = 0, most_bytes = 0;
+  std::size_t steps = 0, collisions = 0, with_views = 0, in_doubt = 0;
   for (const auto& info : corpus::scenes()) {
     SCOPED_TRACE(info.name);
     const auto scene = corpus::make_scene(info.name, {400, 121, {}}).value();
@@ -235,16 +234,15 @@ TEST(SavedSequence, GoesOnAsIfUninterrupted) {
         with_views += !result.doubts.empty();
         in_doubt += result.against_all > 0;
         if (f % 7 != 3) continue;
-        const auto bytes = part.state().bytes();
-        ASSERT_EQ(bytes, whole.state().bytes()) << "step " << f;
-        most_bytes = std::max(most_bytes, bytes.size());
+        const auto state = part.state();
+        ASSERT_EQ(state, whole.state()) << "step " << f;
         part = make();
-        ASSERT_FALSE(part.restore(SavedState::read(bytes).value()));
+        ASSERT_FALSE(part.restore(state));
       }
     }
   }
-  std::printf("%zu steps: %zu collide, %zu use views, %zu of them with doubts; %zu bytes at most\n",
-              steps, collisions, with_views, in_doubt, most_bytes);
+  std::printf("%zu steps: %zu collide, %zu use views, %zu of them with doubts\n", steps, collisions,
+              with_views, in_doubt);
   EXPECT_GT(steps, 1000u);
   EXPECT_GT(collisions, 0u);
   EXPECT_GT(with_views, steps / 4);
@@ -282,7 +280,7 @@ TEST_P(OfScene, ThreadsDoNotShow) {
         EXPECT_EQ(difference(expected[s], result), "")
             << threads << " threads, culling " << int(culling) << ", step " << s;
       }
-      EXPECT_EQ(shared.state().bytes(), alone.state().bytes());
+      EXPECT_EQ(shared.state(), alone.state());
     }
   }
 }
