@@ -39,19 +39,6 @@ inline constexpr auto all_values = [] {
   return values;
 }();
 
-template <Listed Enum>
-inline constexpr Enum first_value = *std::min_element(all_values<Enum>.begin(),
-                                                      all_values<Enum>.end());
-
-// REQUIRES that the numbers of the values have no gap.
-template <Listed Enum>
-inline constexpr Enum last_value = [] {
-  constexpr Enum last = *std::max_element(all_values<Enum>.begin(), all_values<Enum>.end());
-  static_assert(static_cast<std::size_t>(last) - static_cast<std::size_t>(first_value<Enum>) + 1 ==
-                all_values<Enum>.size());
-  return last;
-}();
-
 // Returns the value with this number; nothing if there is none.
 template <Listed Enum>
 constexpr std::optional<Enum> from_number(std::int64_t number) {

@@ -66,24 +66,26 @@ class Wire : public NamedFields<Wire<reads>> {
   template <class T>
   void pass(T& item) {
     if constexpr (std::is_same_v<T, bool>) {
-      pass_up_to(item, std::uint8_t{1});
+      pass_as<std::uint8_t>(item, [](auto number) {
+        return number <= 1 ? std::optional(number == 1) : std::nullopt;
+      });
     } else if constexpr (std::is_enum_v<T>) {
-      pass_up_to(item, static_cast<std::underlying_type_t<T>>(last_value<T>));
+      pass_as<std::underlying_type_t<T>>(item, from_number<T>);
     } else if constexpr (travels_as_bytes<T>) {
       pass_bytes(&item, sizeof item);
     } else {
       fields(*this, item);
     }
   }
-  // Passes a number up to `last`, so that a bool or an enum never gets a number that is no value of
-  // it.
-  template <class T, class Number>
-  void pass_up_to(T& item, Number last) {
+  // Passes the number of a value. A bool or an enum never gets a number that is no value of it.
+  template <class Number, class T, class ValueOf>
+  void pass_as(T& item, ValueOf value_of) {
     Number number = reads ? Number{0} : static_cast<Number>(item);
     pass_bytes(&number, sizeof number);
     if constexpr (reads) {
-      ok_ = ok_ && 0 <= number && number <= last;
-      if (ok_) item = static_cast<T>(number);
+      const std::optional<T> value = value_of(number);
+      ok_ = ok_ && value;
+      if (ok_) item = *value;
     }
   }
   void pass(std::string& text) {
