@@ -50,8 +50,8 @@ NOT_JOINED = tuple(f"{ROOT}/{file}" for file in (
 # Folders that no name keeps apart are read as one.
 TOGETHER = {folder: number for number, folders in enumerate((
     "detector detector/boundary detector/boxes detector/mesh detector/parallel detector/plugin "
-    "detector/state detector/view", "oracle oracle/distance oracle/view", "oracle/mesh oracle/query",
-    "detector/contact detector/distance detector/exact detector/geometry detector/search detector/step",
+    "detector/view", "detector/contact detector/distance detector/exact detector/geometry",
+    "oracle oracle/distance oracle/view", "oracle/mesh oracle/query",
     "oracle/instant oracle/referee")) for folder in folders.split()}
 
 
