@@ -86,14 +86,11 @@ cases that ended undecided, by an error, a crash, or no answer in time. <b>Unsup
 product was not asked, because its contract leaves it out. Where features only touch, be it at the end
 of the step, both answers are right; these are counted below. <b>To run it again</b>:
 <code>vectors.py run --detector LIB.so</code> asks all, with <code>--group NAME</code> one group;
-<code>vectors.py flags</code> says what each flag means.</p>
-"""
+<code>vectors.py flags</code> says what each flag means.</p>\n"""
 
 TOUCHING = """<h2>Where features only touch</h2>
 <p>By closed sets these cases are contacts; who counts only what overlaps answers free. Both are \
-right, and a product should hold to one of them.</p>
-<ul>
-"""
+right, and a product should hold to one of them.</p>\n<ul>\n"""
 
 # What is counted of a product, and the words that stand before the ids.
 LISTED = (("late", "Late times"), ("alarm", "Alarms"), ("crash", "Crashes"),
@@ -152,8 +149,8 @@ def matrix_html(title, members, every, reason):
 
 
 def products_html(every):
-    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product</th>'
-            "<th>cases asked</th><th>misses</th>" + "".join(f"<th>{words}</th>" for words, _ in COLUMNS) +
+    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product</th><th>cases asked</th>'
+            "<th>misses</th>" + "".join(f"<th>{words}</th>" for words, _ in COLUMNS) +
             "</tr></thead>\n<tbody>\n")
     for i, judged in enumerate(every):
         misses = len(judged.ids("miss"))

@@ -681,9 +681,8 @@ class Judged:
         self.uses = []  # of the way that could be gone, the share that a limiter let go
         self.limits = 0  # that have one right answer
 
-    def name(self, *between):
-        words = (self.product["name"], *between, self.product["settings"])
-        return ", ".join(filter(None, words))
+    def name(self, *version):
+        return ", ".join(filter(None, (self.product["name"], *version, self.product["settings"])))
 
     def name_and_version(self):
         return self.name(f"version {self.product['version']}")

@@ -85,7 +85,7 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
   return text +
          "answer: a collision or not, t when first, p which pairs; each in its own contract\n"
-         "time, create (preprocessing): over built-in, exact, bvh, same steps, medians of families\n"
+         "time, create (preprocessing): over built-in, exact, bvh, same steps, median of families\n"
          "(n): of what was not promised; late, early: steps, and the worst as a share of the step\n"
          "slow: cases with a step of more than 5 s, run once; bytes: a triangle, at the highest\n" +
          fmt::format(

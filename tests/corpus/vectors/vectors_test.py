@@ -2,7 +2,6 @@
 import copy
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -12,7 +11,6 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOM = HERE.parents[2] / "corpus" / "vectors"
-PEERS = ROOM.parent / "peers"
 MINI = HERE / "mini_set"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOM))
@@ -391,19 +389,6 @@ class Page(InScratch):
         self.assertIn("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;", text)
 
 
-# Of corpus/peers/README.md: how a row begins, whose results its conformance is, and its campaign.
-ROWS_OF_PEERS = (
-    ("cubic, doubles", None, "cubic_double"), ("cubic, floats", None, "cubic_float"),
-    ("cubic by Eigen", None, "cubic_eigen"), ("FCL", None, "fcl_elementary"),
-    ("Bullet", None, "bullet_bernstein"), ("TightCCD", "TightCCD", "tight_ccd"),
-    ("libuipc", "libuipc, additive", "libuipc"), ("ppf", "ppf-contact-solver, accd", "ppf"),
-    ("C-IPC", "C-IPC, additive", "codim_ipc"), ("El Topo, cubic", "El Topo, cubic", "eltopo_cubic"),
-    ("El Topo, root parity", "El Topo, root parity", "eltopo_root_parity"),
-    ("CTCD, eta 1e-8", "CTCD, eta 1e-8", "ctcd"), ("CTCD, eta 1e-3", None, "ctcd_within"),
-    ("ArcSim", "ArcSim", "arcsim"), ("BSC", "BSC", "bsc"),
-    ("Fast Approximate Root", "Fast Approximate Root", "fast_approximate_root"))
-
-
 class Committed(unittest.TestCase):
     """The set, the results and the page that stand beside vectors.py."""
 
@@ -417,25 +402,6 @@ class Committed(unittest.TestCase):
         every = [vectors.judge(results, self.set) for results in self.results]
         self.assertEqual(len(every), 21)
         self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
-
-    def test_the_page_of_the_peers_has_the_counts_that_are_stored(self):
-        page = (PEERS / "README.md").read_text().replace("*", "")
-        campaigns = json.loads((PEERS / "campaigns.json").read_text())
-        judged = {results["product"]["name"]: vectors.judge(results, self.set)
-                  for results in self.results}
-        for row, name, campaign in ROWS_OF_PEERS:
-            cells = re.search(rf"^\| {row}.*$", page, re.M)[0].split(" | ")
-            if campaign in campaigns:
-                came = campaigns[campaign]
-                is_whole = came["trials"] == came["wanted"]
-                told = str(came["defects"]) + ("" if is_whole else f" of {came['trials']}")
-                self.assertEqual(told, cells[2].split(":")[0] if ":" in cells[2] else cells[1], row)
-            if name:
-                of = judged[name]
-                counts = [len(of.ids(*o)) for o in (("miss",), ("late",), vectors.NO_ANSWERS)]
-                asked = len(of.outcome) - len(of.ids("unsupported"))
-                told = list(map(int, re.findall(r"\d+", cells[4])))
-                self.assertEqual(told, counts + ([asked] if asked != 764 else []), row)
 
     def test_the_rationals_are_those_of_the_groups(self):
         self.assertEqual(len(list((ROOM / "csv").glob("*/*.csv"))), 11)
