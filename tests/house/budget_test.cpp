@@ -21,8 +21,8 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 16472},   {"oracle", 5535},   {"corpus", 5298}, {"corpus/peers", 1560},
-      {"properties", 25085}, {"reports", 13122}, {"tests", 43254}, {"scripts", 10718}};
+      {"detector", 16372},   {"oracle", 5535},   {"corpus", 5298}, {"corpus/peers", 1560},
+      {"properties", 25013}, {"reports", 13021}, {"tests", 43153}, {"scripts", 10705}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
