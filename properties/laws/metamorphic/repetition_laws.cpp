@@ -266,7 +266,8 @@ constexpr Law repetition_law_table[] = {
      "lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
-     "A state that is restored in another detector of the mesh, made from other positions and in the "
+     "A state that is restored in another detector of the mesh, made from other positions and in "
+     "the "
      "middle of another step, gives the same later results and states, and no evaluation outlives "
      "it.",
      "nothing", check_restored_state, one_case_in_16},

@@ -62,9 +62,9 @@ TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
 TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
   // Free above 210 triangles; every mesh of the trials is smaller.
   const std::string fault = "ASSAY_QUERY=free-above=210 ";
-  const auto made =
-      expect_ended(judge("run", "steps_and_query", 240, "--part steps --threads 3", fault, "0.02"), 1,
-                   {"DEFECT free-sound: answered free, ", ", large mesh (query alone), met once"});
+  const auto made = expect_ended(
+      judge("run", "steps_and_query", 240, "--part steps --threads 3", fault, "0.02"), 1,
+      {"DEFECT free-sound: answered free, ", ", large mesh (query alone), met once"});
   const auto lines = replay_lines(made.out);
   ASSERT_FALSE(lines.empty());
   EXPECT_TRUE(contains(lines[0], "-smallest.json")) << lines[0];
