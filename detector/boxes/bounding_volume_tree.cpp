@@ -250,6 +250,7 @@ struct BoundingVolumeTree::Builder {
       before[i] = sum;
       taken |= std::uint32_t{1} << sum;
     }
+    // Spots at one place along the axis are ordered by their numbers.
     if (taken != ~std::uint32_t{0} >> (32 - count)) {
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j < most; ++j)
@@ -338,8 +339,8 @@ struct BoundingVolumeTree::Builder {
       std::int32_t place = 0;
     };
     int levels;
-    std::array<Cut, 1 << most_levels>
-        cuts;  // cut i has cuts 2i and 2i + 1 below it; the first is 1
+    // Cut i has cuts 2i and 2i + 1 below it. The first one is cut 1.
+    std::array<Cut, 1 << most_levels> cuts;
 
     // Returns how often a component is halved; 0 if its ranges are better split exactly.
     static int levels_for(std::uint32_t triangles) {
