@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "detector/exact/bernstein.h"
 #include "detector/mesh/step_types.h"
@@ -68,6 +70,22 @@ inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t
     return 0;
   }
   return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
+}
+
+// Returns the normal (b-a) x (c-a), and sets sides[k] to sure_side(a, b, c, k).
+inline Vector normal_and_sides(const Point& a, const Point& b, const Point& c,
+                               std::array<int, 3>& sides) {
+  const Vector p = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+               q = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, normal = cross(p, q);
+  std::array<double, 3> most;  // infinite where it is out of range: no side is sure with it
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double m = std::max(std::abs(p[k]), std::abs(q[k]));
+    most[k] =
+        m > least_magnitude && m < greatest_magnitude ? m : std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    sides[k] = sign_beyond(normal[k], side_error * most[(k + 1) % 3] * most[(k + 2) % 3]);
+  return normal;
 }
 
 // Returns whether the open segment e0e1 strictly pierces the open triangle, both at rest: its ends

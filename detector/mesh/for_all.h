@@ -82,15 +82,10 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pac
 template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
-  if (!has_workers(pace)) {
-    Sum sum = zero;
-    for_each_paced(count, work_of_each, pace, [&](std::size_t i) { add(sum, i); });
-    return sum;
-  }
-  std::vector<Sum> of_lanes(pace->workers()->count(), zero);
+  std::vector<Sum> of_lanes(has_workers(pace) ? pace->workers()->count() : 1, zero);
   for_all_pieces(count, shared_piece, work_of_each, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
-                   // A copy, because adding in place, beside the sums of other lanes, is slow.
+                   // A copy, because adding in place, in memory and beside other lanes, is slow.
                    Sum sum = of_lanes[lane];
                    for (; begin < end; ++begin) add(sum, begin);
                    of_lanes[lane] = sum;

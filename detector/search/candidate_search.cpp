@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "detector/boxes/moving_box.h"
+#include "detector/mesh/for_all.h"
 #include "detector/parallel/workers.h"
 
 namespace assay::detector {
@@ -73,8 +74,7 @@ void CandidateSearch::prove_apart() {
   constexpr double least_asked = 0.125;
   if (std::exchange(has_proved_apart_, true) || asked_share() < least_asked) return;
   contacts_.ask(AskedTypes::in_first_search(stages_.rule.candidates()));
-  fit_features();
-  contacts_.prove_apart(tree_.wide(), &pace_);
+  contacts_.prove_apart(tree_.wide(), &pace_, [&] { fit_features(); });
 }
 
 void CandidateSearch::fit_features() {
@@ -105,6 +105,7 @@ bool CandidateSearch::tighten() {
   if (pace_.stopped() || !tree.refit(mesh_, shortened.motion(), pace_, shortened.slack()))
     return false;
   contacts_.take_near_in(shortened.motion(), shortened.slack(), &pace_);
+  has_features_ = true;
   fitted = useful;
   return !pace_.stopped();
 }
@@ -131,6 +132,7 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
     until -= std::min(until, pairs.size());
     for (const auto& [a, b] : pairs) {
       if (contacts_.are_proved_apart(a, b)) continue;
+      if (!has_features_) fit_features();
       // A clean triangle is in no contact with its own component at t=0.
       const bool may_pierce =
           (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
@@ -156,7 +158,8 @@ bool CandidateSearch::collect(bool uses_proofs, bool keeps) {
   const bool has_proofs = uses_proofs && stages_.search.has_proofs();
   // Proofs of patches leave out the same pairs.
   if (!has_proofs) prove_apart();
-  fit_features();
+  // Where sheets leave few pairs or none, features are fitted for the first pair that comes.
+  if (!contacts_.find_few() || has_workers(&pace_)) fit_features();
   memory_.near.forget();
   keeps = keeps && !has_proofs && !motion_.is_at_rest();
   if (keeps) contacts_.list_keys(KeptFeatures::most_features(mesh_), memory_.near.take_room());

@@ -121,9 +121,12 @@ class FeatureContacts {
 
   // Proves pairs apart, if contacts are looked for in exact arithmetic by the detector's own rungs.
   // Any other stage, and any other arithmetic, still gets every test. Pairs that are proved apart
-  // need not be added. REQUIRES ask(), if types are asked for.
-  void prove_apart(const WideTree& tree, PacedStop* pace) {
-    if (elementary_.first_rungs() && neighbours_count_) pairs_.prove_apart(motion_, tree, pace);
+  // need not be added. It calls take_near() when it needs the whole step in take_near_in().
+  // REQUIRES ask(), if types are asked for.
+  template <class TakeNear>
+  void prove_apart(const WideTree& tree, PacedStop* pace, TakeNear take_near) {
+    if (elementary_.first_rungs() && neighbours_count_)
+      pairs_.prove_apart(motion_, tree, pace, take_near);
   }
   const Sheets* sheets() const { return pairs_.sheets(); }
   bool find_few() const { return pairs_.find_few(); }

@@ -264,13 +264,17 @@ class FeaturePairs {
   }
   const FloatGrid& grid() const { return points_.grid(); }
   // Proves pairs apart over the whole step, mostly neighbours. Sheets are looked for only if all
-  // triangles have one type: else most pairs are not asked for. REQUIRES that the last fit() was to
-  // this motion.
-  void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace) {
+  // triangles have one type: else most pairs are not asked for. Fans are looked for if sheets do
+  // not leave few pairs; then it calls fit_to_motion(), after which fit() has to be to this motion.
+  template <class Fit>
+  void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace,
+                   Fit fit_to_motion) {
     constexpr std::size_t worth_sheets = 4096;
     if (!asks_by_types_ && motion.is_at_rest() && mesh_.triangles.size() >= worth_sheets)
       sheets_.emplace(mesh_, tree, motion.vertices_t0, pace);
-    if (!sheets_ || !sheets_->hold_most()) fans_.prove(mesh_, points_, pace);
+    if (sheets_ && sheets_->hold_most()) return;
+    fit_to_motion();
+    fans_.prove(mesh_, points_, pace);
   }
   // Returns whether sheets leave so few pairs that each may look up the features that it stands
   // for.

@@ -63,13 +63,13 @@ struct Sheets::Builder {
   void look(std::size_t t) {
     const auto& [u, v, w] = mesh.triangles[t];
     const Point a = point_of(x, u), b = point_of(x, v), c = point_of(x, w);
-    const Vector normal = cross(Vector{b[0] - a[0], b[1] - a[1], b[2] - a[2]},
-                                Vector{c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+    std::array<int, 3> sure;
+    const Vector normal = normal_and_sides(a, b, c, sure);
     const auto size = [&](std::size_t axis) { return std::abs(normal[axis]); };
     const double least = .4 * std::max({size(0), size(1), size(2)});
     unsigned sides = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int side = sure_side(a, b, c, axis) * int{size(axis) >= least};
+      const int side = sure[axis] * int{size(axis) >= least};
       sides |= unsigned{side > 0} << axis | unsigned{side < 0} << (3 + axis);
     }
     open_sides[t] = static_cast<std::uint8_t>(sides);

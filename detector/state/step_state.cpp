@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "detector/mesh/for_all.h"
+#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 namespace {
@@ -20,6 +21,7 @@ bool is_packed(const PositionsView& x) { return x.outerStride() == 3; }
 
 void StepState::keep(const PositionsView& x, const PacedStop& pace) {
   positions.resize(x.rows(), 3);
+  ask_for_large_pages(positions.data(), row_bytes * static_cast<std::size_t>(x.rows()));
   if (!is_packed(x)) {
     positions = x;
     return;

@@ -31,7 +31,7 @@ bool find_static_contacts(const GivenStep& step, StepCost& cost,
   if (cost.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
   FeatureContacts contacts(mesh, step.motion.at_start(), step.elementary, Want::yes_no, &cost.pace);
-  contacts.prove_apart(step.tree.wide(), &cost.pace);
+  contacts.prove_apart(step.tree.wide(), &cost.pace, [] {});
   if (cost.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
