@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 
@@ -41,7 +40,7 @@ struct BoundingVolumeTree::Builder {
   // Places lie between 2^29 and 3 * 2^29. If their bits are read as floats, these are normal
   // numbers in the same order.
   using Spot = LaneTruth;
-  using Spots = std::unique_ptr<Spot[]>;
+  using Spots = LargeArray<Spot>;
   // The triangles of a node, by their places in the lists.
   struct Range {
     std::int32_t node, below, component;  // below: the first of the nodes below it
@@ -61,7 +60,7 @@ struct BoundingVolumeTree::Builder {
   std::vector<Range> large, small;  // that are still to be split
 
   bool run() {
-    for (auto& list : lists) list = large_array<Spot>(mesh.triangles.size());
+    for (auto& list : lists) list = Spots(mesh.triangles.size());
     return grow_over_components() && find_spots(large) && find_spots(small) && cut_large() &&
            split_large() && grow_small();
   }
@@ -132,7 +131,7 @@ struct BoundingVolumeTree::Builder {
   // Finds the spots of these ranges, each of a whole component. It sums eighths of coordinates,
   // which do not overflow. If a component is a few units in the last place wide, the sums are
   // rounded by up to three times its size, so a place has up to 29 bits and a sign.
-  bool find_spots(const std::vector<Range>& ranges) const {
+  bool find_spots(const std::vector<Range>& ranges) {
     constexpr std::uint64_t work_of_spot = 3;
     constexpr int cell_bits = 27, least_exponent = -990, origin_place = 1 << 30;
     for (const auto& range : ranges) {
@@ -214,8 +213,8 @@ struct BoundingVolumeTree::Builder {
 
   // Splits a range in two. REQUIRES more than `few` triangles.
   Halves split(const Range& range) {
-    Spot* const from = lists[range.list].get() + range.begin;
-    Spot* const to = lists[1 - range.list].get() + range.begin;
+    Spot* const from = lists[range.list].data() + range.begin;
+    Spot* const to = lists[1 - range.list].data() + range.begin;
     const std::uint32_t half = half_of(range.size());
     divide(from, to, range.size(), half);
     return children_of(range, half);
@@ -396,11 +395,11 @@ struct BoundingVolumeTree::Builder {
   bool cut(const Range& range) {
     constexpr std::size_t of_piece = 16'384;
     constexpr std::uint64_t work_to_cut = 2;
-    const Spot* const from = lists[range.list].get() + range.begin;
-    Spot* const to = lists[1 - range.list].get() + range.begin;
+    const Spot* const from = lists[range.list].data() + range.begin;
+    Spot* const to = lists[1 - range.list].data() + range.begin;
     const Cuts cuts(from, range.size());
     const std::size_t parts = std::size_t{1} << cuts.levels;
-    const auto part_of = large_array<std::uint16_t>(range.size());
+    LargeArray<std::uint16_t> part_of(range.size());
     // By piece and part: how many triangles there are, then where the next of them goes.
     std::vector<std::uint32_t> next((range.size() / of_piece + 1) * parts);
     const auto count = [&](std::size_t i, std::size_t end, std::size_t) {
@@ -480,7 +479,7 @@ struct BoundingVolumeTree::Builder {
   // Returns the work that it took.
   std::uint64_t grow(const Range& range) {
     if (range.size() <= few) {
-      grow_few(range.node, range.below, range.component, lists[range.list].get() + range.begin,
+      grow_few(range.node, range.below, range.component, lists[range.list].data() + range.begin,
                range.size());
       return levels_of_few * work_to_split * range.size();
     }
@@ -491,9 +490,9 @@ struct BoundingVolumeTree::Builder {
 
 BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x,
                                        PacedStop* pace) {
-  resize_large(child_, 2 * mesh.triangles.size() - 1);
-  parent_ = large_array<std::int32_t>(mesh.triangles.size() - 1);
-  leaf_ = large_array<std::int32_t>(mesh.triangles.size());
+  child_.resize(2 * mesh.triangles.size() - 1);
+  parent_.resize(mesh.triangles.size() - 1);
+  leaf_.resize(mesh.triangles.size());
   if (mesh.components.size() > 1) component_.resize(child_.size());
   component_root_.resize(mesh.components.size());
   Builder builder{*this, mesh, x, pace, {}, {}, 0, {}, {}};
@@ -550,7 +549,7 @@ bool BoundingVolumeTree::join_boxes(PacedStop* pace) const {
   if (boxes_are_joined_) return true;
   constexpr std::uint64_t work_of_node = 2;
   constexpr std::size_t nodes_of_piece = 512;
-  if (!boxes_) boxes_ = large_array<MovingBox>(node_count());
+  boxes_.resize(node_count());
   const auto take_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) {
       const auto n = static_cast<std::int32_t>(begin);

@@ -73,9 +73,9 @@ class WideTree {
   // Returns the boxes of the last refit.
   BoxRows children(std::int32_t n) const {
     const Node& node = nodes_[at(n)];
-    return {boxes_.get() + rows() * node.first_slot, node.count, end_};
+    return {boxes_.data() + rows() * node.first_slot, node.count, end_};
   }
-  const float* box(std::int32_t n) const { return own_.get() + rows() * at(n); }
+  const float* box(std::int32_t n) const { return own_.data() + rows() * at(n); }
 
   // Allocates memory for the boxes. A mesh that is looked at only at rest takes half as much.
   void make_room(bool at_rest);
@@ -95,11 +95,10 @@ class WideTree {
   // Parents come before their children.
   std::vector<Node> nodes_;
   std::vector<std::int32_t> binary_of_;  // by node
-  std::vector<Slot> slots_;
-  std::unique_ptr<float[]> boxes_, own_;  // the first refit writes them
-  std::size_t room_ = 0;                  // of boxes_: the most that refits have asked for
-  std::size_t end_ = 0;                   // the first row of a box's bounds at t=1 (BoxRows)
-  std::vector<std::int32_t> inner_;       // the nodes that hold nodes, ascending
+  LargeArray<Slot> slots_;
+  LargeArray<float> boxes_, own_;    // the first refit writes them
+  std::size_t end_ = 0;              // the first row of a box's bounds at t=1 (BoxRows)
+  std::vector<std::int32_t> inner_;  // the nodes that hold nodes, ascending
 };
 
 // The component of a node that holds triangles of several components.
@@ -208,12 +207,12 @@ class BoundingVolumeTree {
   static constexpr std::int32_t nodes_of_block = 2048;
   void make_blocks();
 
-  std::vector<std::int32_t> child_;             // the first child of a node; for a leaf ~triangle
-  std::unique_ptr<std::int32_t[]> parent_;      // by pair of siblings
-  std::unique_ptr<std::int32_t[]> leaf_;        // by triangle
-  std::vector<std::int32_t> component_;         // by node; empty if there is one component
-  std::vector<std::int32_t> component_root_;    // by component
-  mutable std::unique_ptr<MovingBox[]> boxes_;  // by node; nothing until they are first joined
+  LargeArray<std::int32_t> child_;            // the first child of a node; for a leaf ~triangle
+  LargeArray<std::int32_t> parent_;           // by pair of siblings
+  LargeArray<std::int32_t> leaf_;             // by triangle
+  std::vector<std::int32_t> component_;       // by node; empty if there is one component
+  std::vector<std::int32_t> component_root_;  // by component
+  mutable LargeArray<MovingBox> boxes_;       // by node; nothing until they are first joined
   mutable bool boxes_are_joined_ = false;
   WideTree wide_;
   double separation_ = 0;

@@ -34,7 +34,7 @@ bool RoundedPositions::assign(const SteppedMesh& motion, PacedStop& pace) {
   if (pace.stopped()) return false;
   ends_ = motion.is_at_rest() ? 1 : 2;
   const auto count = static_cast<std::size_t>(motion.size());
-  points_ = large_array<FloatLanes>(ends_ * count);
+  points_ = LargeArray<FloatLanes>(ends_ * count);
   return for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto [t0, t1] = grid_(motion, static_cast<std::int32_t>(v));
     points_[ends_ * v] = t0;

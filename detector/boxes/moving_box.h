@@ -186,7 +186,7 @@ class RoundedPositions {
   const FloatGrid& grid() const { return grid_; }
   bool are_at_rest() const { return ends_ == 1; }
   RoundedPoint operator[](std::int32_t vertex) const {
-    const FloatLanes* const first = points_.get() + ends_ * at(vertex);
+    const FloatLanes* const first = points_.data() + ends_ * at(vertex);
     return {first[0], first[ends_ - 1]};
   }
   MovingBox box(const std::array<std::int32_t, 3>& triangle) const {
@@ -196,7 +196,7 @@ class RoundedPositions {
  private:
   FloatGrid grid_;
   std::size_t ends_ = 2;  // places of each vertex: 2, or 1 at rest
-  std::unique_ptr<FloatLanes[]> points_;
+  LargeArray<FloatLanes> points_;
 };
 
 // A step cut off at a time `until`, for boxes that need to cover no more than this part.

@@ -114,7 +114,7 @@ WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
   const std::size_t triangles = binary.node_count() / 2 + 1, expected = triangles / 6 + width;
   nodes_.reserve(expected);
   binary_of_.reserve(expected);
-  reserve_large(slots_, triangles + expected);
+  slots_.reserve(triangles + expected);
   Builder builder{*this, binary, pace};
   builder.add({BoundingVolumeTree::root, 1, static_cast<std::int32_t>(binary.node_count())});
   const auto cut = [](auto& list) {
@@ -129,16 +129,15 @@ WideTree::WideTree(const BoundingVolumeTree& binary, PacedStop* pace) {
 void WideTree::make_room(bool at_rest) {
   end_ = at_rest ? 0 : box_lanes::rows / 2;
   const std::size_t room = rows() * slots_.size() + width;
-  if (room_ >= room) return;
-  boxes_ = large_array<float>(room);
-  own_ = large_array<float>(rows() * nodes_.size());
-  room_ = room;
+  if (boxes_.size() >= room) return;
+  boxes_ = LargeArray<float>(room);
+  own_ = LargeArray<float>(rows() * nodes_.size());
 }
 
 void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPositions& points,
                           FloatLanes by) {
   const Node& node = nodes_[at(n)];
-  float* const first = boxes_.get() + rows() * node.first_slot;
+  float* const first = boxes_.data() + rows() * node.first_slot;
   MovingBox whole;
   for (std::size_t i = 0; i < node.count; ++i) {
     const auto child = slots_[node.first_slot + i].child;
@@ -148,14 +147,14 @@ void WideTree::refit_node(std::int32_t n, const Topology& mesh, const RoundedPos
     write_rows(box_of_child, end_ != 0, first + i, node.count);
     whole = i == 0 ? box_of_child : join(whole, box_of_child);
   }
-  write_rows(whole, end_ != 0, own_.get() + rows() * at(n), 1);
+  write_rows(whole, end_ != 0, own_.data() + rows() * at(n), 1);
 }
 
 bool WideTree::refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by,
                      PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 16;
   constexpr std::size_t nodes_of_piece = 256;
-  std::fill_n(boxes_.get() + rows() * slots_.size(), width, 0.0F);
+  std::fill_n(boxes_.data() + rows() * slots_.size(), width, 0.0F);
   const auto fit_leaves = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) {
       if (nodes_[begin].holds_triangles)

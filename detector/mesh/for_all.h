@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "detector/mesh/large_array.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/topology.h"
 #include "detector/parallel/workers.h"
@@ -127,7 +126,7 @@ bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence&
   starts.assign(rows + 2, 0);
   if (!for_all_in_rows([&](std::int32_t, std::size_t row) { ++starts[row + 2]; })) return false;
   for (std::size_t row = 2; row < starts.size(); ++row) starts[row] += starts[row - 1];
-  resize_large(lists.items, static_cast<std::size_t>(starts.back()));
+  lists.items.resize(at(starts.back()));
   starts.pop_back();
   return for_all_in_rows([&](std::int32_t item, std::size_t row) {
     lists.items[static_cast<std::size_t>(starts[row + 1]++)] = item;

@@ -1,15 +1,19 @@
 // Arrays that may be large. The system is asked to back them with large pages:
 //
-//   const std::unique_ptr<float[]> boxes = large_array<float>(6'000'000);
+//   LargeArray<float> boxes(6'000'000);  // the values are not set
 //
 // The kernel clears each page at its first touch. With pages of 4 KiB that is a fifth of the time
-// of a mesh of 10^6 triangles that is asked once; with pages of 2 MiB it is half of that. Where a
-// system has no such pages, nothing is asked. Small arrays are left alone.
+// of a mesh of 10^6 triangles that is asked once; with pages of 2 MiB it is a quarter of that.
+// Large arrays begin and end with a page, so no part of them lies on small pages. Where a system
+// has no such pages, nothing is asked. Small arrays are like any other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 #ifdef __linux__
 #include <sys/mman.h>
@@ -17,36 +21,60 @@
 
 namespace assay::detector {
 
-// Only whole large pages inside the array are asked for, so nothing beside it is changed. The
-// answer is not looked at: without large pages the array is the same, only slower to make.
+inline constexpr std::size_t large_page = 1 << 21;
+
+// Asks for the large pages inside of an array. The answer is not looked at: without large pages the
+// array is the same, only slower to make.
 inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  constexpr std::uintptr_t page = 1 << 21;
-  const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page,
-             last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page * page;
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  const auto place = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = (place + large_page - 1) / large_page * large_page,
+                       end = (place + bytes) / large_page * large_page;
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 #endif
 }
 
-// Returns an array whose values are not set.
+// Values without constructors are not set, because large arrays are written as a whole.
 template <class Value>
-std::unique_ptr<Value[]> large_array(std::size_t count) {
-  auto array = std::make_unique_for_overwrite<Value[]>(count);
-  ask_for_large_pages(array.get(), count * sizeof(Value));
-  return array;
-}
+struct LargeAllocator {
+  using value_type = Value;
+
+  LargeAllocator() = default;
+  template <class Other>
+  LargeAllocator(const LargeAllocator<Other>&) {}
+
+  Value* allocate(std::size_t count) {
+    if (!is_large(count)) return std::allocator<Value>().allocate(count);
+    const std::size_t bytes = (count * sizeof(Value) + large_page - 1) / large_page * large_page;
+    void* const begin = ::operator new (bytes, std::align_val_t{large_page});
+    ask_for_large_pages(begin, bytes);
+    return static_cast<Value*>(begin);
+  }
+  void deallocate(Value* begin, std::size_t count) {
+    if (!is_large(count)) return std::allocator<Value>().deallocate(begin, count);
+    ::operator delete (begin, std::align_val_t{large_page});
+  }
+  template <class Made>
+  void construct(Made* place) {
+    ::new (static_cast<void*>(place)) Made;
+  }
+  template <class Made, class... From>
+  void construct(Made* place, From&&... from) {
+    ::new (static_cast<void*>(place)) Made(std::forward<From>(from)...);
+  }
+  friend bool operator==(const LargeAllocator&, const LargeAllocator&) { return true; }
+
+ private:
+  // At least half of the first page has to be used.
+  static bool is_large(std::size_t count) { return count >= large_page / 2 / sizeof(Value); }
+};
 
 template <class Value>
-void reserve_large(std::vector<Value>& list, std::size_t count) {
-  list.reserve(count);
-  ask_for_large_pages(list.data(), count * sizeof(Value));
-}
+using LargeArray = std::vector<Value, LargeAllocator<Value>>;
 
-// Sets the size of an empty list. Its values are 0.
 template <class Value>
-void resize_large(std::vector<Value>& list, std::size_t count) {
-  reserve_large(list, count);
-  list.resize(count);
+bool operator==(const LargeArray<Value>& a, const std::vector<Value>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 }  // namespace assay::detector

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 namespace {
@@ -125,10 +124,10 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   const std::size_t at_once =
       of_piece * (has_workers(&pace) ? pieces_of_worker * pace.workers()->count() : 1);
   const std::size_t uses = 3 * mesh.triangles.size();
-  resize_large(mesh.triangle_edges, mesh.triangles.size());
-  resize_large(mesh.edge_triangles.items, uses);
-  reserve_large(mesh.edges, uses / 2 + vertex_count / 16);  // a closed mesh has half as many
-  reserve_large(mesh.edge_triangles.starts, uses / 2 + vertex_count / 16 + 1);
+  mesh.triangle_edges.resize(mesh.triangles.size());
+  mesh.edge_triangles.items.resize(uses);
+  mesh.edges.reserve(uses / 2 + vertex_count / 16);  // a closed mesh has half as many
+  mesh.edge_triangles.starts.reserve(uses / 2 + vertex_count / 16 + 1);
   std::vector<std::optional<EdgesOfVertices>> pieces(at_once / of_piece);
   std::size_t edges = 0, placed = 0;
   for (std::size_t first = 0; first < vertex_count; first += at_once) {
@@ -159,7 +158,7 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   return true;
 }
 
-std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
+std::int32_t root_of(LargeArray<std::int32_t>& parent, std::int32_t v) {
   while (parent[at(v)] != v) {
     parent[at(v)] = parent[at(parent[at(v)])];
     v = parent[at(v)];
@@ -169,13 +168,14 @@ std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
 
 // Makes the only component, which is the usual case: nothing has to be looked up. number: 0 for
 // each of its `vertices` vertices.
-bool make_only_component(Topology& mesh, const std::vector<std::int32_t>& number,
+bool make_only_component(Topology& mesh, const LargeArray<std::int32_t>& number,
                          std::size_t vertices, PacedStop& pace) {
   auto& all = mesh.components.emplace_back();
-  resize_large(all.triangles, mesh.triangles.size());
+  all.triangles.resize(mesh.triangles.size());
   all.vertices.reserve(vertices);
   const auto take_triangle = [&](std::size_t t) {
     all.triangles[t] = static_cast<std::int32_t>(t);
+    mesh.component_of_triangle[t] = 0;
   };
   const auto take_vertex = [&](std::size_t v) {
     if (number[v] == 0) all.vertices.push_back(static_cast<std::int32_t>(v));
@@ -185,7 +185,7 @@ bool make_only_component(Topology& mesh, const std::vector<std::int32_t>& number
 }
 
 bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
-  std::vector<std::int32_t> parent(vertex_count);
+  LargeArray<std::int32_t> parent(vertex_count);
   std::iota(parent.begin(), parent.end(), 0);
   const auto join = [&](std::size_t t) {
     const auto& corners = mesh.triangles[t];
@@ -197,7 +197,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   };
   if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, join)) return false;
   // Components are numbered by lowest vertex; vertices of no triangle belong to none.
-  std::vector<std::int32_t> number(vertex_count, -1);
+  LargeArray<std::int32_t> number(vertex_count, -1);
   struct Size {
     std::size_t vertices = 0, triangles = 0;
   };
@@ -214,7 +214,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     ++sizes[at(number[v])].vertices;
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
-  resize_large(mesh.component_of_triangle, mesh.triangles.size());
+  mesh.component_of_triangle.resize(mesh.triangles.size());
   if (sizes.size() == 1) return make_only_component(mesh, number, sizes[0].vertices, pace);
   const auto number_triangle = [&](std::size_t t) {
     const auto c = number[at(mesh.triangles[t][0])];
@@ -260,7 +260,7 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace) {
   Topology mesh;
   const auto vertices = static_cast<std::size_t>(vertex_count);
-  resize_large(mesh.triangles, static_cast<std::size_t>(triangles.rows()));
+  mesh.triangles.resize(static_cast<std::size_t>(triangles.rows()));
   const auto copy = [&](std::size_t i) {
     const auto t = static_cast<Eigen::Index>(i);
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};

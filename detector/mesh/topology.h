@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/mesh/large_array.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/types.h"
 
@@ -18,7 +19,7 @@ namespace assay::detector {
 
 // Rows of varying length in one array. Row i is items[starts[i]] to items[starts[i+1] - 1].
 struct Incidence {
-  std::vector<std::int32_t> starts, items;
+  LargeArray<std::int32_t> starts, items;
   std::span<const std::int32_t> row(std::int32_t i) const {
     const auto begin = static_cast<std::size_t>(starts[static_cast<std::size_t>(i)]);
     const auto end = static_cast<std::size_t>(starts[static_cast<std::size_t>(i) + 1]);
@@ -28,8 +29,8 @@ struct Incidence {
 
 // A component: triangles connected through shared vertices.
 struct Component {
-  std::vector<std::int32_t> triangles;  // ascending
-  std::vector<std::int32_t> vertices;   // ascending
+  LargeArray<std::int32_t> triangles;  // ascending
+  LargeArray<std::int32_t> vertices;   // ascending
   // True if every directed edge (u,v) occurs as often as (v,u). Only then do L3 to L5 hold as they
   // stand. 4 or 6 triangles at an edge are fine if they match in this way.
   bool is_cycle = false;
@@ -43,13 +44,13 @@ struct UnmatchedEdge {
 };
 
 struct Topology {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::array<std::int32_t, 2>> edges;           // (u,v), u < v, ascending
-  std::vector<std::array<std::int32_t, 3>> triangle_edges;  // edge opposite to corner i at place i
+  LargeArray<std::array<std::int32_t, 3>> triangles;
+  LargeArray<std::array<std::int32_t, 2>> edges;           // (u,v), u < v, ascending
+  LargeArray<std::array<std::int32_t, 3>> triangle_edges;  // edge opposite to corner i at place i
   Incidence vertex_triangles, edge_triangles;
   std::vector<UnmatchedEdge> unmatched;  // ascending by edge
   std::vector<Component> components;     // ascending by their lowest vertices
-  std::vector<std::int32_t> component_of_triangle;
+  LargeArray<std::int32_t> component_of_triangle;
   // If false, no two triangles have the same three vertices: every edge has one triangle, or two
   // that differ in their third vertex.
   bool may_repeat_triangles = false;

@@ -160,7 +160,7 @@ bool Representatives::update(const Topology& mesh, const std::vector<TriangleTyp
   });
 }
 
-TypeSet Representatives::choose(const std::vector<std::array<std::int32_t, 3>>& lists,
+TypeSet Representatives::choose(std::span<const std::array<std::int32_t, 3>> lists,
                                 std::span<const std::int32_t> holders, std::int32_t index,
                                 int first_bit, const std::vector<TriangleType>& types) {
   TypeSet set = 0;
@@ -276,7 +276,7 @@ void FeaturePoints::assign(const SteppedMesh& motion, PacedStop* pace, double se
   margin_.axes = grid_.margin(separation);
   const auto count = static_cast<std::size_t>(motion.size());
   const std::size_t ends = motion.is_at_rest() ? 1 : 2;
-  if (ends_ < ends) points_ = large_array<FeaturePoint>(ends * count);
+  if (ends_ < ends) points_ = LargeArray<FeaturePoint>(ends * count);
   ends_ = ends;
   for_all_paced(count, work_of_point, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);

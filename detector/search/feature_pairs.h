@@ -94,7 +94,7 @@ class Representatives {
   // Makes the lowest triangle of each type in `holders` represent the feature numbered `index`,
   // and returns the types. lists: the corners or the edges of each triangle, among which the
   // feature is found. first_bit: 0 for corners, 3 for edges.
-  TypeSet choose(const std::vector<std::array<std::int32_t, 3>>& lists,
+  TypeSet choose(std::span<const std::array<std::int32_t, 3>> lists,
                  std::span<const std::int32_t> holders, std::int32_t index, int first_bit,
                  const std::vector<TriangleType>& types);
 
@@ -181,7 +181,7 @@ class FeaturePoints {
 
  private:
   std::size_t ends_ = 0;
-  std::unique_ptr<FeaturePoint[]> points_;
+  LargeArray<FeaturePoint> points_;
   FeatureMargin margin_;
   FloatGrid grid_;
 };

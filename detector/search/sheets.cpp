@@ -50,7 +50,7 @@ struct Sheets::Builder {
   const Topology& mesh;
   const PositionsView& x;
   PacedStop* pace;
-  std::vector<Places>& places;
+  LargeArray<Places>& places;
   // By triangle: the sides from which it is seen and for which it is in no proved sheet yet.
   std::vector<std::uint8_t> open_sides;
   std::size_t comparisons;  // that may still be made
@@ -167,7 +167,7 @@ struct Sheets::Builder {
 };
 
 Sheets::Sheets(const Topology& mesh, const WideTree& tree, const PositionsView& x, PacedStop* pace)
-    : of_triangle_(mesh.triangles.size()), of_node_(tree.node_count()) {
+    : of_triangle_(mesh.triangles.size(), 0), of_node_(tree.node_count()) {
   constexpr std::size_t work_of_look = 4, few_comparisons = 10'000, few_triangles = 16;
   const std::size_t count = mesh.triangles.size();
   Builder builder{

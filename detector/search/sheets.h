@@ -76,7 +76,7 @@ class Sheets {
   }
   struct Builder;
 
-  std::vector<Places> of_triangle_, of_node_;
+  LargeArray<Places> of_triangle_, of_node_;
   bool hold_most_ = false;
 };
 

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "detector/mesh/for_all.h"
-#include "detector/mesh/large_array.h"
 
 namespace assay::detector {
 namespace {
