@@ -56,6 +56,7 @@ struct BoundingVolumeTree::Builder {
   PacedStop* pace;
   std::array<Spots, 2> lists;       // component after component
   std::vector<Bounds> bounds;       // by component
+  bool is_cut = false;
   std::uint32_t placed = 0;         // triangles of the components whose ranges are made
   std::vector<Range> large, small;  // that are still to be split
 
@@ -265,14 +266,30 @@ struct BoundingVolumeTree::Builder {
     tree.leaf_[at(triangle)] = node;
   }
 
+  // Makes the nodes below one whose triangles stand in one wide node, in no order.
+  void split_below(std::int32_t below, std::int32_t component, const Spot* spots,
+                   std::uint32_t count) {
+    const std::uint32_t half = half_of(count);
+    const auto grow = [&](std::int32_t node, std::int32_t first, const Spot* own,
+                          std::uint32_t size) {
+      if (size == 1) return set_leaf(node, component, (*own)[3]);
+      set_component(node, component);
+      set_children(node, first);
+      split_below(first, component, own, size);
+    };
+    grow(below, below + 2, spots, half);
+    grow(below + 1, below + 2 * static_cast<std::int32_t>(half), spots + half, count - half);
+  }
+
   // Makes the nodes of a few triangles.
   static constexpr std::uint32_t few = 32, levels_of_few = 5;
   void grow_few(std::int32_t node, std::int32_t below, std::int32_t component, Spot* spots,
                 std::uint32_t count) {
     if (count == 1) return set_leaf(node, component, spots[0][3]);
-    const std::size_t axis = extent_of(spots, count).axis;
     set_component(node, component);
     set_children(node, below);
+    if (count <= box_lanes::width && is_cut) return split_below(below, component, spots, count);
+    const std::size_t axis = extent_of(spots, count).axis;
     if (count == 2) {
       const bool turned = place_along(spots[1], axis) < place_along(spots[0], axis);
       set_leaf(below, component, spots[turned][3]);
@@ -387,6 +404,8 @@ struct BoundingVolumeTree::Builder {
         large.push_back(range);
       } else if (!cut(range)) {
         return false;
+      } else {
+        is_cut = true;
       }
     }
     return true;
@@ -495,7 +514,7 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   leaf_.resize(mesh.triangles.size());
   if (mesh.components.size() > 1) component_.resize(child_.size());
   component_root_.resize(mesh.components.size());
-  Builder builder{*this, mesh, x, pace, {}, {}, 0, {}, {}};
+  Builder builder{*this, mesh, x, pace, {}, {}, false, 0, {}, {}};
   if (!builder.run()) return;
   builder.lists = {};  // gives their memory back
   make_blocks();
