@@ -44,6 +44,7 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
                        std::to_string(vertex_count) + " vertices, indices number " +
                        std::to_string(most_triangles) + " and " + std::to_string(most_vertices)};
   }
+  std::optional<Eigen::Index> repeated;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t v = triangles(t, corner);
@@ -53,14 +54,11 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
                                                            std::to_string(vertex_count)};
       }
     }
-  }
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
-    if (a == b || b == c || c == a) {
-      return Problem{InputError::repeated_index, at_triangle(t) + " names a vertex twice"};
-    }
+    if (!repeated && (a == b || b == c || c == a)) repeated = t;
   }
-  return std::nullopt;
+  if (!repeated) return std::nullopt;
+  return Problem{InputError::repeated_index, at_triangle(*repeated) + " names a vertex twice"};
 }
 
 // Compares triangles with the same lowest vertex, because those with the same three vertices have

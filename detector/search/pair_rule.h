@@ -155,11 +155,11 @@ struct Marks {
   // At first all triangles are V+: every node has the flag P and no other.
   explicit Marks(const BoundingVolumeTree& tree);
 
-  std::vector<TriangleType> types;       // of the last marking, by triangle
-  std::vector<std::uint8_t> node_flags;  // by node
+  std::vector<TriangleType> types;      // of the last marking, by triangle
+  LargeArray<std::uint8_t> node_flags;  // by node
   // Triangles whose type the last marking changed, ascending. Its capacity is all triangles from
   // the start, so that marking allocates nothing.
-  std::vector<std::int32_t> changed;
+  LargeArray<std::int32_t> changed;
 
   std::uint8_t flags(std::int32_t triangle) const {
     return flags_of(types[static_cast<std::size_t>(triangle)]);
