@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ using Corners = std::array<std::int32_t, 3>;
 inline detector::Triangles triangles(std::initializer_list<Corners> rows) {
   return matrix_of<detector::Triangles>(rows);
 }
-inline detector::Triangles triangles(const std::vector<Corners>& rows) {
+inline detector::Triangles triangles(std::span<const Corners> rows) {
   return matrix_of<detector::Triangles>(rows);
 }
 

@@ -175,7 +175,6 @@ bool make_only_component(Topology& mesh, const LargeArray<std::int32_t>& number,
   all.vertices.reserve(vertices);
   const auto take_triangle = [&](std::size_t t) {
     all.triangles[t] = static_cast<std::int32_t>(t);
-    mesh.component_of_triangle[t] = 0;
   };
   const auto take_vertex = [&](std::size_t v) {
     if (number[v] == 0) all.vertices.push_back(static_cast<std::int32_t>(v));
@@ -214,7 +213,7 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     ++sizes[at(number[v])].vertices;
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
-  mesh.component_of_triangle.resize(mesh.triangles.size());
+  mesh.component_of_triangle.assign(mesh.triangles.size(), 0);
   if (sizes.size() == 1) return make_only_component(mesh, number, sizes[0].vertices, pace);
   const auto number_triangle = [&](std::size_t t) {
     const auto c = number[at(mesh.triangles[t][0])];

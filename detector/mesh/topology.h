@@ -50,7 +50,7 @@ struct Topology {
   Incidence vertex_triangles, edge_triangles;
   std::vector<UnmatchedEdge> unmatched;  // ascending by edge
   std::vector<Component> components;     // ascending by their lowest vertices
-  LargeArray<std::int32_t> component_of_triangle;
+  std::vector<std::int32_t> component_of_triangle;
   // If false, no two triangles have the same three vertices: every edge has one triangle, or two
   // that differ in their third vertex.
   bool may_repeat_triangles = false;
