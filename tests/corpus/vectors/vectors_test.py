@@ -404,7 +404,7 @@ class Committed(unittest.TestCase):
         self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
 
     def test_the_rationals_are_those_of_the_groups(self):
-        self.assertEqual(len(list((ROOM / "csv").glob("*/*.csv"))), 11)
+        self.assertEqual(len(list((ROOM / "csv").glob("*/*.csv"))), 12)
         with tempfile.TemporaryDirectory() as scratch:
             back = Path(scratch) / "back.csv"
             for file in (ROOM / "csv").glob("*/*.csv"):
