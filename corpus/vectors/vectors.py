@@ -101,10 +101,10 @@ class VectorSet:
             for case in group["cases"]:
                 want(case["id"] not in ids, file, f"case {case['id']} is there twice")
                 ids.add(case["id"])
-            asked = [c for c in group["cases"] if not only or {group["group"], *c["flags"]} & {*only}]
-            if asked:
+            cases = [c for c in group["cases"] if not only or {group["group"], *c["flags"]} & {*only}]
+            if cases:
                 self.groups.append(group)
-                self.cases += [Case(group, case) for case in asked]
+                self.cases += [Case(group, case) for case in cases]
         if hashlib.sha256(lines.encode()).hexdigest() != self.info["digest"]:
             raise Wrong(f"{self.folder / 'set.json'}: its digest is not that of its groups")
         if len(ids) != self.info["cases"]:
