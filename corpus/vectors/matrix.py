@@ -85,8 +85,8 @@ contact, be it by the last digit. An <b>alarm</b> is a contact that there is not
 cases that ended undecided, by an error, a crash, or no answer in time. <b>Unsupported</b> is what the
 product was not asked, because its contract leaves it out. Where features only touch, be it at the end
 of the step, both answers are right; these are counted below. <b>To run it again</b>:
-<code>vectors.py run --detector LIB.so</code> asks all, with <code>--group NAME</code> one group;
-<code>vectors.py flags</code> says what each flag means.</p>\n"""
+<code>vectors.py run --detector LIB.so</code> asks a product all cases, and those of a row with what
+stands in it; <code>vectors.py flags</code> says what each flag means.</p>\n"""
 
 TOUCHING = """<h2>Where features only touch</h2>
 <p>By closed sets these cases are contacts; who counts only what overlaps answers free. Both are \
@@ -213,16 +213,17 @@ def page(asked, every):
     info = asked.info
     flags, groups = asked.members()
 
-    def wrong(flag):
-        return f"<br><small>{escaped(info['flags'][flag]['wrong'])}</small>"
+    def again(name, words=""):
+        return f"<br><small>{escaped(words)} <code>--group {escaped(name)}</code></small>"
     html = (f"{HEAD}<h1>Who misses what</h1>\n<p>{info['cases']:,} small hard cases of continuous "
             "collision detection, whose answers are known exactly. <span class=\"quiet\">Set "
             f"{escaped(info['version'])} ({escaped(info['profile'])}), digest <code>"
             f"{info['digest']}</code></span></p>\n" + WORDS + products_html(every) +
             "<h2>By what makes a case hard</h2>\n" + LEGEND +
-            matrix_html("flag: what goes wrong", flags, every, wrong) + "<h2>By group</h2>\n" +
-            matrix_html("group", groups, every, lambda name: "") + touching_html(every) +
-            "<h2>The misses</h2>\n")
+            matrix_html("flag: what goes wrong", flags, every,
+                        lambda flag: again(flag, info["flags"][flag]["wrong"])) +
+            "<h2>By group</h2>\n" + matrix_html("group", groups, every, again) +
+            touching_html(every) + "<h2>The misses</h2>\n")
     cases = {case.id: case for case in asked.cases}
     for i, judged in enumerate(every):
         html += product_html(judged, vectors.letter_of(i), cases)

@@ -84,10 +84,9 @@ class VectorSet:
         self.folder = Path(folder) if folder else Path(__file__).resolve().parent
         self.info = read_json(self.folder / "set.json")
         check_set(self.info, self.folder / "set.json")
-        names = [Path(g["file"]).stem for g in self.info["groups"]]
-        for name in only or []:
-            if name not in names:
-                raise Wrong(f"no group {name}; there are: {' '.join(names)}")
+        names = [*(Path(g["file"]).stem for g in self.info["groups"]), *self.info["flags"]]
+        for name in sorted({*(only or [])} - {*names}):
+            raise Wrong(f"no group {name}; there are: {' '.join(names)}")
         self.groups, self.cases = [], []
         lines, ids = "", set()
         for entry in self.info["groups"]:
@@ -100,12 +99,12 @@ class VectorSet:
             group = parse_json(data, file)
             check_group(group, file, self.info, entry)
             for case in group["cases"]:
-                if case["id"] in ids:
-                    raise Wrong(f"{file}: case {case['id']} is there twice")
+                want(case["id"] not in ids, file, f"case {case['id']} is there twice")
                 ids.add(case["id"])
-            if not only or group["group"] in only:
+            cases = [c for c in group["cases"] if not only or {group["group"], *c["flags"]} & {*only}]
+            if cases:
                 self.groups.append(group)
-                self.cases += [Case(group, case) for case in group["cases"]]
+                self.cases += [Case(group, case) for case in cases]
         if hashlib.sha256(lines.encode()).hexdigest() != self.info["digest"]:
             raise Wrong(f"{self.folder / 'set.json'}: its digest is not that of its groups")
         if len(ids) != self.info["cases"]:
@@ -1038,7 +1037,7 @@ def parser_of_all():
     one = verbs.add_parser("run", help="ask a program")
     one.add_argument("--set", metavar="DIR", help="the set (default: the folder of this file)")
     one.add_argument("--out", metavar="FILE", default="results.json", help="default: results.json")
-    one.add_argument("--group", nargs="+", metavar="G", help="these groups alone")
+    one.add_argument("--group", nargs="+", metavar="G", help="these groups, or flags, alone")
     one.add_argument("--timeout", type=float, default=10, metavar="S",
                      help="seconds for an answer (default: 10)")
     one.add_argument("--restart", action="store_true", help="start the program anew for each case")

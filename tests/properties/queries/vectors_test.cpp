@@ -172,7 +172,7 @@ constexpr const char* groups[] = {"vertex-face-double",   "vertex-face-distance-
                                   "steps-float32",        "limits-float32",
                                   "vertex-face-findings", "vertex-face-distance-findings",
                                   "edge-edge-findings",   "steps-findings",
-                                  "limits-findings"};
+                                  "limits-findings",      "vertex-face-float32-findings"};
 INSTANTIATE_TEST_SUITE_P(Groups, Vectors, testing::ValuesIn(groups), [](const auto& group) {
   std::string name = group.param;
   std::replace(name.begin(), name.end(), '-', '_');
