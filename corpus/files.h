@@ -35,7 +35,7 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 
 // Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole
-// new one, and several writers may write the same file at the same time. If any of this fails, the
+// new one. Several writers of the same file write one after another. If any of this fails, the
 // problem states the system's reason, and nothing is left behind. The next writer takes up the file
 // that a killed writer leaves beside `path`. REQUIRES a file system that locks files (flock).
 Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);

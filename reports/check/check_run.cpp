@@ -511,6 +511,7 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
     return corpus::problem_of_triangles(*input.steps, input.file, *bad);
+  if (question.distance) return check_separation(question, input, listener);
   const bool is_plugin = !input.recorded && !question.detector.library.empty();
   if (is_plugin) {
     BOOST_OUTCOME_TRY(whole, input.steps->read_whole());

@@ -86,6 +86,14 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
 using BodyWords = std::vector<std::vector<std::string>>;
 corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles rest);
 
+// Finite lengths of 0 or more, in the mesh's units.
+struct AskedDistance {
+  double separation = 0;
+  // By body. If there are offsets, the distance for two triangles is the exact sum of the offsets
+  // of their bodies, in place of `separation`.
+  std::vector<double> offsets;
+};
+
 struct CheckQuestion {
   // The files of the input, for reports and replay lines; bodies are empty if it has none.
   std::vector<std::string> files;
@@ -107,6 +115,10 @@ struct CheckQuestion {
   std::string ply_file;         // file for the mesh with its contacts marked; empty: none
   std::string again;            // the line to paste that asks this again; empty if there is none
   bool shows_all_steps = true;  // false: only steps that are not as claimed
+  // Only the oracle is asked, for this distance (check_separation), in place of a detector. Then
+  // only files, jobs, limits and the report count besides. REQUIRES as many offsets as bodies, or
+  // none.
+  std::optional<AskedDistance> distance;
 };
 
 // A step that breaks a claim, or differs from the oracle.
@@ -139,29 +151,11 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
 
-// Runs `check --separation D` or `--offset` on one mesh: whether triangles that share no vertex
-// come within D of each other, which, when first, and how near any two come. Only the oracle is
-// asked.
-
-// Finite lengths of 0 or more, in the mesh's units.
-struct AskedDistance {
-  double separation = 0;
-  // By body. If there are offsets, the distance for two triangles is the exact sum of the offsets
-  // of their bodies, in place of `separation`.
-  std::vector<double> offsets;
-};
-
-struct SeparationAnswer {
-  int exit_code = 0;              // 3 if a limit was reached; else 5 if near and asked for; else 0
-  nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
-};
-
-// Asks the oracle for each step. Only those members of the question are used that concern the
-// oracle: files, jobs, limits, and whether a report is wanted. `fail_when_near`: exit code 5 if a
-// step is near. REQUIRES as many offsets as bodies, or none.
-Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const AskedDistance& d,
-                                            bool fail_when_near, CheckInput& input,
-                                            const CheckListener& listener);
+// Does the same for the distance of the question, which REQUIRES one: asks the oracle whether
+// triangles that share no vertex come within it, which, when first, and how near any two come. The
+// outcome's collision is the first step in which some do.
+Expected<CheckAnswer> check_separation(const CheckQuestion& question, CheckInput& input,
+                                       const CheckListener& listener);
 
 // Keeps failing steps: for each the part of the mesh that shows the failure, as files that other
 // programs read (steps/case_export.h).

@@ -106,35 +106,34 @@ StepDistance ask(const detector::SteppedMesh& motion, const detector::TrianglesV
   return {std::move(near.answer), std::move(least.answer), near.milliseconds + least.milliseconds};
 }
 
-class SeparationRun {
- public:
-  SeparationRun(const CheckQuestion& question, const AskedDistance& d, CheckInput& input,
-                const CheckListener& listener)
-      : question_(question),
-        distance_(d),
-        steps_(*input.steps),
-        mesh_(detector::make_topology(steps_.triangles(), steps_.first_frame().rows())),
-        is_at_rest_(input.is_at_rest),
-        bodies_(steps_.counted(), steps_.triangles()),
-        listener_(listener),
-        limits_(question.time_limit, question.memory_limit) {}
+struct SeparationRun {
+  const CheckQuestion& question_;
+  CheckInput& input_;
+  const CheckListener& listener_;
+  const AskedDistance& distance_ = *question_.distance;
+  corpus::StepSource& steps_ = *input_.steps;
+  const detector::Topology mesh_ =
+      detector::make_topology(steps_.triangles(), steps_.first_frame().rows());
+  const properties::BodyNames bodies_{steps_.counted(), steps_.triangles()};
+  Limits limits_{question_.time_limit, question_.memory_limit};
+  Json entries_ = Json::array();
+  std::size_t near_pairs_ = 0;        // of the first step that is near
+  std::optional<double> least_ = {};  // over all steps; empty if one is undecided
+  CheckOutcome outcome_ = {};         // its collision is the first step that is near
 
-  Expected<void> run() {
+  Expected<CheckAnswer> run() {
     announce();
     for (std::size_t s = 0; s < steps_.count(); ++s) {
       BOOST_OUTCOME_TRY(run_step(s));
     }
-    if (undecided_) least_.reset();
+    if (outcome_.undecided) least_.reset();
     listener_.say(summary());
-    return outcome::success();
+    auto report = question_.wants_report ? make_report() : Json();
+    return CheckAnswer{std::move(outcome_), std::move(report)};
   }
 
-  int exit_code(bool fail_when_near) const {
-    if (undecided_) return exit_undecided;
-    return fail_when_near && near_step_ ? exit_collision : exit_holds;
-  }
-
-  Json report() {
+ private:
+  Json make_report() {
     const auto files = steps_.text().files;
     const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
     return {{"schema", "assay-check/1"},
@@ -144,17 +143,16 @@ class SeparationRun {
             {"components", mesh_.components.size()},
             {"separation", distance_.offsets.empty() ? Json(distance_.separation) : Json()},
             {"offsets", distance_.offsets.empty() ? Json() : Json(distance_.offsets)},
-            {"outcome", undecided_   ? "undecided"
-                        : near_step_ ? "near"
-                                     : "apart"},
+            {"outcome", outcome_.undecided        ? "undecided"
+                        : outcome_.collision_step ? "near"
+                                                  : "apart"},
             {"limit_reached", or_null(limits_.limit_text())},
             {"least_distance", least_ ? Json(*least_) : Json()},
             {"peak_memory_bytes", peak_resident_bytes()},
             {"steps", std::move(entries_)},
-            {"at_rest", is_at_rest_}};
+            {"at_rest", input_.is_at_rest}};
   }
 
- private:
   std::string distance_text() const {
     return distance_.offsets.empty() ? fmt::format("{}", distance_.separation)
                                      : "the offsets of two bodies together";
@@ -178,7 +176,7 @@ class SeparationRun {
         "triangles that share no vertex\n",
         text.title, text.title.empty() ? "" : ": ", mesh_.triangles.size(),
         steps_.first_frame().rows(), components, components == 1 ? "" : "s",
-        steps_text(steps_.count(), is_at_rest_, text.title), distance_text()));
+        steps_text(steps_.count(), input_.is_at_rest, text.title), distance_text()));
     for (const auto& remark : text.remarks) listener_.say(remark + "\n");
     if (!question_.announced_file.empty())
       listener_.say(fmt::format("writes {}\n", question_.announced_file));
@@ -203,63 +201,43 @@ class SeparationRun {
     const auto step = ask({bodies.value().x_t0, bodies.value().x_t1}, steps_.triangles(),
                           distance_.separation, options, limits_);
     progress.finish();
-    undecided_ |= !step.complete();
-    if (step.near.complete && step.is_near() && !near_step_) {
-      near_step_ = s;
-      near_time_ = step.near.first;
+    outcome_.undecided |= !step.complete();
+    if (step.near.complete && step.is_near() && !outcome_.collision_step) {
+      outcome_.collision_step = s;
+      outcome_.collision_time = step.near.first;
       near_pairs_ = step.near.pairs.size();
     }
     if (step.least.complete && step.least.where)
       least_ = std::min(least_.value_or(step.least.distance), step.least.distance);
-    listener_.say(text_of({s + 1, is_at_rest_, bodies_}, step));
+    listener_.say(text_of({s + 1, input_.is_at_rest, bodies_}, step));
     if (question_.wants_report) entries_.push_back(json_of(step, bodies_));
     return outcome::success();
   }
 
   std::string summary() const {
-    std::string text = undecided_ ? "not near so far"
-                                  : fmt::format("apart: {} within {}",
-                                                is_at_rest_ ? "nothing" : "never", distance_text());
-    if (near_step_ && is_at_rest_) {
+    const auto& [near_step, near_time] = std::tie(outcome_.collision_step, outcome_.collision_time);
+    std::string text = outcome_.undecided
+                           ? "not near so far"
+                           : fmt::format("apart: {} within {}",
+                                         input_.is_at_rest ? "nothing" : "never", distance_text());
+    if (near_step && input_.is_at_rest) {
       text = fmt::format("within {}: {}", distance_text(), pairs_text(near_pairs_));
-    } else if (near_step_) {
-      text = fmt::format("near at t = {} of step {}", time_text(near_time_), *near_step_ + 1);
+    } else if (near_step) {
+      text = fmt::format("near at t = {} of step {}", time_text(near_time), *near_step + 1);
     }
     if (least_) text += fmt::format("; least distance {}", *least_);
-    if (undecided_)
+    if (outcome_.undecided)
       text += fmt::format("; undecided: {} reached",
                           limits_.limit_text().empty() ? "a limit" : limits_.limit_text());
     return text + "\n";
   }
-
-  const CheckQuestion& question_;
-  const AskedDistance distance_;
-  corpus::StepSource& steps_;
-  const detector::Topology mesh_;
-  const bool is_at_rest_;
-  const properties::BodyNames bodies_;
-  const CheckListener& listener_;
-  Limits limits_;
-  Json entries_ = Json::array();
-  std::optional<std::size_t> near_step_;  // the first, from 0
-  detector::TimeEnclosure near_time_;
-  std::size_t near_pairs_ = 0;
-  std::optional<double> least_;  // over all steps; empty if one is undecided
-  bool undecided_ = false;
 };
 
 }  // namespace
 
-Expected<SeparationAnswer> check_separation(const CheckQuestion& question, const AskedDistance& d,
-                                            bool fail_when_near, CheckInput& input,
-                                            const CheckListener& listener) {
-  const auto vertices = input.steps->first_frame().rows();
-  if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return corpus::problem_of_triangles(*input.steps, input.file, *bad);
-  SeparationRun run(question, d, input, listener);
-  BOOST_OUTCOME_TRY(run.run());
-  return SeparationAnswer{run.exit_code(fail_when_near),
-                          question.wants_report ? run.report() : Json()};
+Expected<CheckAnswer> check_separation(const CheckQuestion& question, CheckInput& input,
+                                       const CheckListener& listener) {
+  return SeparationRun{question, input, listener}.run();
 }
 
 }  // namespace assay::reports

@@ -104,6 +104,9 @@ CheckQuestion question_of(const py::dict& args) {
   take(args, "jobs", question.jobs);
   take(args, "time", question.time_limit);
   take(args, "files", question.files);
+  std::optional<double> separation;
+  take(args, "separation", separation);
+  if (separation) question.distance = {*separation, {}};
   question.wants_report = true;
   return question;
 }
@@ -151,10 +154,8 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
 }
 
 // Returns the report as JSON, the printed text, and the exit code.
-py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py::dict& args,
-                      const std::string& worker, const py::object& listener) {
-  std::optional<double> separation;
-  take(args, "separation", separation);
+py::tuple check_input(CheckInput& input, const CheckQuestion& question, const std::string& worker,
+                      const py::object& listener) {
   std::string text;
   const auto tell = [&](const std::string& remark) {
     text += remark;
@@ -162,23 +163,19 @@ py::tuple check_input(CheckInput& input, const CheckQuestion& question, const py
     const py::gil_scoped_acquire interpreter;
     listener(remark);
   };
-  using Answer = reports::SeparationAnswer;
-  const auto answer = interruptible([&](const auto& stop) -> reports::Expected<Answer> {
-    if (separation)
-      return reports::check_separation(question, {*separation, {}}, false, input, {tell, stop});
-    BOOST_OUTCOME_TRY(mesh, reports::check_mesh(question, input, worker, {tell, stop}));
-    return Answer{mesh.outcome.exit_code(false), std::move(mesh.report)};
+  const auto answer = interruptible([&](const auto& stop) {
+    return reports::check_mesh(question, input, worker, {tell, stop});
   });
   if (!answer) throw py::value_error(answer.error().message);
   return py::make_tuple(
       answer.value().report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
-      text, answer.value().exit_code);
+      text, answer.value().outcome.exit_code(false));
 }
 
 py::tuple check_arrays(const py::object& triangles, const py::list& frames, const py::dict& args,
                        const std::string& worker, const py::object& listener) {
   auto input = input_of(triangles, frames, args);
-  return check_input(input, question_of(args), args, worker, listener);
+  return check_input(input, question_of(args), worker, listener);
 }
 
 // Checks a case file, or files of frames.
@@ -188,7 +185,7 @@ py::tuple check_files(const std::vector<std::string>& files, const py::dict& arg
   question.files = files;
   auto input = reports::read_check_input(files);
   if (!input) throw py::value_error(input.error().message);
-  return check_input(input.value(), question, args, worker, listener);
+  return check_input(input.value(), question, worker, listener);
 }
 
 py::tuple mesh_and_frames(detector::Triangles& triangles,

@@ -253,19 +253,12 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
   question.announced_file = request.json_file;
   question.again = this_command(PastePlace::any_folder);
   question.shows_all_steps = !is_log || request.all_steps;
+  if (request.separation || !request.offsets.empty())
+    question.distance = {request.separation.value_or(0), request.offsets};
   CheckListener terminal{[](const std::string& text) {
     fmt::print("{}", text);
     std::fflush(stdout);
   }};
-  if (request.separation || !request.offsets.empty()) {
-    const AskedDistance d = {request.separation.value_or(0), request.offsets};
-    BOOST_OUTCOME_TRY(near,
-                      check_separation(question, d, request.fail_on_collision, input, terminal));
-    if (question.wants_report) {
-      BOOST_OUTCOME_TRY(write_json_file(request.json_file, near.report));
-    }
-    return near.exit_code;
-  }
   bool has_failed = false;
   terminal.on_failure = [&](const StepFailure&) {
     has_failed = true;

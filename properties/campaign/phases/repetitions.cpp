@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <functional>
+#include <iterator>
 #include <map>
-#include <memory>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "properties/campaign/ledger/database.h"
@@ -134,79 +134,51 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// Tells whether the contract lets a contact be tested, as far as the features that meet first show.
-using IsTested = std::function<bool(const PairContact&)>;
-IsTested tested_contacts(const Contract& contract, const Case& c) {
-  const auto own = std::make_shared<const CountedPairs>(tested_pairs(contract, c.frames.front()));
-  return [&contract, own,
-          counts = counted_under(contract, c.triangles, {own.get()})](const PairContact& contact) {
+// Returns the oracle's judgement of each step if the built-in detector's answers are right. Of a
+// contact only the features that meet first are known, so these decide whether it is tested.
+std::vector<StepJudgement> truth_by(const CaseRun& answers, const Case& c,
+                                    const Contract& contract) {
+  const auto own = tested_pairs(contract, c.frames.front());
+  const auto counts = counted_under(contract, c.triangles, {&own});
+  const auto is_tested = [&](const PairContact& contact) {
     const bool is_edge_edge = contact.feature.kind == FeatureKind::edge_edge;
     const bool is_of_kind = contract.features == TestedFeatures::both ||
                             is_edge_edge == (contract.features == TestedFeatures::edge_edge);
     return is_of_kind && counts(contact.pair.a, contact.pair.b);
   };
+  std::vector<StepJudgement> truth;
+  for (const auto& result : answers.steps) {
+    auto& judgement = truth.emplace_back();
+    judgement.answer = result.answer;
+    judgement.complete = true;
+    judgement.first = result.first;
+    judgement.pairs = result.pairs;
+    std::ranges::copy_if(result.pairs, std::back_inserter(judgement.asked_pairs), is_tested);
+  }
+  return truth;
 }
 
-// Returns the oracle's judgement of the step if the built-in detector's result is right.
-StepJudgement truth_by(const StepResult& result, const IsTested& is_tested) {
-  StepJudgement judgement;
-  judgement.answer = result.answer;
-  judgement.complete = true;
-  judgement.first = result.first;
-  judgement.pairs = result.pairs;
-  for (const auto& contact : result.pairs) {
-    if (is_tested(contact)) judgement.asked_pairs.push_back(contact);
+// Returns the steps for the oracle to judge: those in which the run breaks a claim if `truth` is
+// right, with the fewest contacts and not more than most_differing; the colliding step with the
+// fewest contacts that count; and the first step without any.
+std::vector<std::size_t> steps_to_judge(const Case& c, const DetectorUnderTest& detector,
+                                        CaseRun run, const std::vector<StepJudgement>& truth) {
+  run.limits.clear();  // the oracle alone judges these
+  const auto verdict = judge_run(c, run, truth, detector.claims, detector.contract);
+  std::vector<std::size_t> differing, colliding, free, contacts;
+  for (std::size_t s = 0; s < truth.size(); ++s) {
+    contacts.push_back(truth_of(c, truth[s], detector.contract).pairs.size());
+    (contacts[s] > 0 ? colliding : free).push_back(s);
+    if (s < verdict.steps.size() && verdict.steps[s].outcome == Outcome::defect)
+      differing.push_back(s);
   }
-  return judgement;
-}
-
-// Returns the steps in which the run breaks a claim if the built-in detector, whose run is
-// `answers`, is right: those with the fewest contacts, and not more than most_differing.
-std::vector<std::size_t> differing_steps(const Case& c, const DetectorUnderTest& detector,
-                                         const CaseRun& run, const CaseRun& answers) {
-  const auto& contract = detector.contract;
-  const auto is_tested = tested_contacts(contract, c);
-  const auto script = steps_of(c);
-  std::vector<std::size_t> places;
-  for (std::size_t s = 0; s < std::min(run.steps.size(), answers.steps.size()); ++s) {
-    auto answer = step_alone(run, s);
-    answer.limits.clear();  // the oracle alone judges these
-    const auto diff = judge_step(answer, 0,
-                                 {{start_of(c, script[s]), end_of(c, script[s])},
-                                  c.triangles,
-                                  {},
-                                  truth_by(answers.steps[s], is_tested),
-                                  detector.claims,
-                                  contract});
-    if (diff.outcome == Outcome::defect) places.push_back(s);
-  }
-  std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) {
-    return answers.steps[a].pairs.size() < answers.steps[b].pairs.size();
-  });
-  places.resize(std::min(places.size(), most_differing));
-  return places;
-}
-
-// Returns, for a case that the contract takes, the colliding step with the fewest contacts that
-// count, and the first step without any. `answers` is the run of the built-in detector.
-std::vector<std::size_t> plain_steps(const Case& c, const Contract& contract,
-                                     const CaseRun& answers) {
-  const auto is_tested = tested_contacts(contract, c);
-  std::optional<std::size_t> colliding, free;
-  std::size_t fewest = 0;
-  for (std::size_t s = 0; s < answers.steps.size(); ++s) {
-    const auto count = truth_of(c, truth_by(answers.steps[s], is_tested), contract).pairs.size();
-    if (count == 0 && !free) free = s;
-    if (count > 0 && (!colliding || count < fewest)) {
-      colliding = s;
-      fewest = count;
-    }
-  }
-  std::vector<std::size_t> places;
-  for (const auto& place : {colliding, free}) {
-    if (place) places.push_back(*place);
-  }
-  return places;
+  std::ranges::stable_sort(differing, {}, [&](std::size_t s) { return truth[s].pairs.size(); });
+  differing.resize(std::min(differing.size(), most_differing));
+  std::set<std::size_t> places(differing.begin(), differing.end());
+  if (!colliding.empty())
+    places.insert(*std::ranges::min_element(colliding, {}, [&](auto s) { return contacts[s]; }));
+  if (!free.empty()) places.insert(free.front());
+  return {places.begin(), places.end()};
 }
 
 // Returns the first step in which the two runs differ. Nothing if they differ only outside of
@@ -325,12 +297,7 @@ struct Repetitions {
     if (const double d = contract().separation; d > 0)
       chooser = {"bvh", {.culling = Culling::bvh, .separation = d}};
     const auto answers = run_alone(built_in_, c, chooser);
-    auto places = differing_steps(c, request_.detector, run, answers);
-    const auto plain = plain_steps(c, contract(), answers);
-    places.insert(places.end(), plain.begin(), plain.end());
-    std::ranges::sort(places);
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    return places;
+    return steps_to_judge(c, request_.detector, run, truth_by(answers, c, contract()));
   }
 
   void judge_steps(const Case& c, const std::vector<std::size_t>& places, const CaseRun& run,

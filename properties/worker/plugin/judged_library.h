@@ -46,10 +46,9 @@ class JudgedLibrary {
   corpus::Expected<std::string> digest_;
 };
 
-// Returns the libraries that a library's file names as needed, without running its code. These are
-// the libraries found by its own paths (RPATH, RUNPATH, $ORIGIN) or by LD_LIBRARY_PATH, those that
-// these need in the same way, and so on. Libraries in the system's folders (/lib, /usr/lib, ...)
-// are left out. Empty for a file that is no library of this machine.
+// Returns the libraries that the system's loader would load with a library, without running its
+// code. Libraries in the system's folders (/lib, /usr/lib, ...) are left out. Empty for a file that
+// the loader does not take, and if the loader does not find all that the file needs.
 std::vector<std::filesystem::path> needed_files(const std::filesystem::path& library);
 
 // A detector in Python is named by `python:MODULE:CLASS` in place of a library. It is served by a

@@ -74,18 +74,17 @@ TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {
                                           frame("c.obj", "0.5")};
   for (const bool stops : {false, true}) {
     auto input = std::move(reports::read_check_input(files).value());
-    reports::CheckQuestion question;
-    question.files = files;
-    question.wants_report = true;
+    const reports::CheckQuestion question{
+        .files = files, .wants_report = true, .distance = reports::AskedDistance{2, {}}};
     std::string told;
-    const auto answer = value_of(
-        reports::check_separation(question, {2, {}}, false, input,
-                                  {[&](const std::string& text) { told += text; },
-                                   [&] { return stops && contains(told, "step 1: near"); }}));
+    const auto answer =
+        value_of(reports::check_mesh(question, input, "",
+                                     {[&](const std::string& text) { told += text; },
+                                      [&] { return stops && contains(told, "step 1: near"); }}));
     EXPECT_EQ(answer.report["steps"][0]["least_distance"], 1.0);
     EXPECT_EQ(answer.report["least_distance"], stops ? json() : json(0.5)) << told;
     EXPECT_NE(contains(told, "of step 1; least distance"), stops) << told;
-    EXPECT_EQ(answer.exit_code, stops ? 3 : 0);
+    EXPECT_EQ(answer.outcome.exit_code(false), stops ? 3 : 0);
   }
 }
 
