@@ -33,7 +33,7 @@ function byCases(faults: Fault[]): { label: string; value: number }[] {
     rows.push({ label, value: medians.filter((n) => lo <= n && n <= hi).length });
   }
   const bySomeSeeds = faults.filter((f) => f.median_cases === null && f.found_at_random).length;
-  if (bySomeSeeds > 0) rows.push({ label: "under fewer than half of the seeds", value: bySomeSeeds });
+  if (bySomeSeeds > 0) rows.push({ label: "found under fewer than half of the seeds", value: bySomeSeeds });
   return rows;
 }
 
