@@ -141,8 +141,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     const auto i = place_of_difference(order);
     const auto [a, b] = short_names(paths[i], order[i].path);
     remarks.push_back(fmt::format(
-        "frames are taken as given, {} before {}: whether their numbers are decimals is unclear", a,
-        b));
+        "frames are taken as given, {} before {}: their numbers may be whole or decimal", a, b));
     names = decimals;
   } else if (paths_of(names) != paths) {
     const bool is_of_a_shell = is_order_of_a_shell(paths);

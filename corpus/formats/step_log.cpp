@@ -351,7 +351,7 @@ Expected<void> StepLog::begin() {
   if (text(value_of(body, "type")) != "begin") return wrong("it does not begin a log");
   if (const auto version = integer(value_of(body, "log")); version != 1)
     return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
-                         : "log is missing or no number");
+                         : "its field `log` is missing or no number");
   head_.name = text(value_of(body, "name"));
   head_.version = text(value_of(body, "version"));
   if (const auto field = read_description(body, head_.description); !field.empty())

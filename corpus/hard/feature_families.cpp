@@ -109,7 +109,7 @@ Case grazing(Variation& vary, int exponent, int kind) {
 std::vector<HardFamily> feature_families() {
   return {{"near-coplanar", "two flat tetrahedra face to face: through, turning back, gliding over",
            "height of each over the plane", "ulp", 44, -1, 44, 3, 1, near_coplanar},
-          {"near-parallel", "two edges that all but line up: through, turning back, beside",
+          {"near-parallel", "two edges nearly parallel: through, turning back, passing beside",
            "angle of the edges, as height over 2^45 ulp", "ulp", 44, -1, 44, 3, 1, near_parallel},
           {"slivers", "a vertex through a sliver, or as far beside it as it is wide",
            "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 2, 2, slivers},

@@ -236,9 +236,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   } else if (with_query) {
     request.plan = properties::with_queries(std::move(request.plan));
   } else if (asks_queries(request.plan)) {
-    return Problem{
-        fmt::format("campaign {}: its strata are queries, for the query of a plug-in alone",
-                    request.plan.name)};
+    return Problem{fmt::format(
+        "campaign {}: its strata are queries, which only the query of a plug-in answers",
+        request.plan.name)};
   }
   return request;
 }

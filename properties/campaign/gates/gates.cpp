@@ -106,7 +106,8 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
   }
   if (request.certificate && f.quota() == 0) gate.add_lasting("the campaign plans no trial");
   if (f.quota() > 0 && f.tally.judged_trials() == 0 && f.tally.trials() == f.quota())
-    gate.add_lasting("no case was judged: the contract or the detector takes none of any family");
+    gate.add_lasting(
+        "no case was judged: the contract or the detector takes no case of any family");
   if (request.certificate && f.tally.judged_trials() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
     gate.add_lasting("no claim of the detector was judged");
@@ -151,8 +152,7 @@ void check_search(const RunFindings& f, GateFindings& gate) {
   const auto cases = f.shares_of(f.run.plan.search);
   const auto lanes = f.evidence.sum_of(Source::search);
   if (lanes.planned < cases)
-    gate.add_to_do(
-        fmt::format("the search has finished lanes of {} of {} cases", lanes.planned, cases));
+    gate.add_to_do(fmt::format("the search has finished {} of its {} cases", lanes.planned, cases));
   if (cases > 0 && lanes.planned == cases && lanes.cases == 0)
     gate.add_lasting("the contract takes no case of the search");
   if (lanes.undecided > 0)

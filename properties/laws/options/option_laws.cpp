@@ -292,10 +292,10 @@ void check_options(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
-     "In a configuration that is drawn so that every two values of culling, arithmetic, start, "
-     "pairs, threads, separation, relation, question, state before the case, mesh and size meet, "
-     "the claims hold. Limits are asked for too, and steps and limits are stopped. A caller "
-     "vouches only for a start that is clean.",
+     "The claims hold in drawn configurations, in which every two values of culling, arithmetic, "
+     "start, pairs, threads, separation, relation, question, state before the case, mesh and size "
+     "meet. Some ask for limits; some stop steps or limits. Start clean is drawn only where the "
+     "start is clean.",
      "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
 };
 

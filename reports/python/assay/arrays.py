@@ -33,7 +33,7 @@ def queries(given, name):
 
 def _array(given, name):
     if isinstance(given, np.ma.MaskedArray):
-        raise TypeError(f"{name}: a masked array is not taken: what is masked has no place")
+        raise TypeError(f"{name}: a masked array is not taken: a masked coordinate has no value")
     try:
         return np.asarray(given)
     except ValueError as error:  # rows of different lengths

@@ -75,7 +75,7 @@ def class_of(module, name):
     finally:
         _imported = None
     if not hasattr(found, name):
-        late = ": it judges another one before, without if __name__ == '__main__'" if judges else ""
+        late = ": the module judges a detector before it defines this one; put that under if __name__ == '__main__'" if judges else ""
         raise ValueError(f"{module} has no class {name}{late}")
     sys.modules[module] = found
     return getattr(found, name)
@@ -116,7 +116,7 @@ def described(claims, contract, claim_words, members):
     numbers = dict.fromkeys(members, 0)
     for member, value in contract.items():
         if member not in members:
-            raise ValueError(f"contract: {member!r} is none of its members")
+            raise ValueError(f"contract: {member!r} is not a member of it")
         words = members[member]
         numbers[member] = _place(value, words, f"contract: {member}") if words else value
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
@@ -168,7 +168,7 @@ def parts_of(result, answers=ANSWERS):
         get(name) is None for name in ("answer", "first", "pairs", "times")
     )
     if is_bare:  # False, say, or a number
-        raise ValueError(f"{result!r} is no answer: None (free), or what has answer, first, pairs or times")
+        raise ValueError(f"{result!r} is no answer: return None (free), or an object with answer, first, pairs or times")
     answer = _place("collision" if told is None else told, answers, "answer")
     lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)
     pairs, times = pairs_of(get("pairs")), get("times")

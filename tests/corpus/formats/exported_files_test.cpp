@@ -166,8 +166,8 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
   expect("a.glb", "glTF", "a glTF file");
   expect("a.npz", "PK", "a NumPy file; OBJ, PLY and OFF are read: ask from Python");
   expect("a.fbx", "Kaydara FBX Binary  ", "an FBX file");
-  expect("a.xyz", "0 0 0\n", "other formats are not read");
-  expect("a.us", "0 0 0\n", "other formats are not read");
+  expect("a.xyz", "0 0 0\n", "this is neither PLY nor OFF");
+  expect("a.us", "0 0 0\n", "this is neither PLY nor OFF");
   expect("utf16.obj", std::string_view("\xFF\xFEv\0", 4), "(UTF-16): save it as UTF-8");
 }
 

@@ -257,7 +257,7 @@ const Change search_planned = [](auto& f) { f.run.plan.search = 1000; };
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   expect_certified({search_planned, lane("001", 500), lane("002", 500)});
   expect_incomplete({search_planned, lane("001", 500)},
-                    "the search has finished lanes of 500 of 1000 cases");
+                    "the search has finished 500 of its 1000 cases");
   expect_incomplete({search_planned, lane("001", 500), lane("002", 500, 3)},
                     "3 cases of the search have no verdict");
   const Change none_taken = [](auto& f) {

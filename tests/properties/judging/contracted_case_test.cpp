@@ -102,7 +102,7 @@ TEST(ContractedCase, WhoStopsByAShareGetsNoWayThatOverflows) {
   contract.limit_gives = LimitGives::start_plus;
   expect_taken(near, contract);
   expect_left_out(far, contract,
-                  "stops at start-plus: the way of a vertex is beyond the largest number");
+                  "stops at start-plus: a vertex moves farther than the largest number");
   contract.limit_gives = LimitGives::blend;
   expect_taken(far, contract);
 }
@@ -131,7 +131,7 @@ TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
   expect_left_out(case_of_query(q, "short"), range,
                   "frame 1 of 2: edge 3-1 is 0.25 long, below least_nonzero, 0.5");
   expect_left_out(case_of_query(q, "other"), {.features = TestedFeatures::edge_edge},
-                  "features edge-edge: the query is one of vertex-face");
+                  "features edge-edge: this query is vertex-face");
 }
 
 TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {

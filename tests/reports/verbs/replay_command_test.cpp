@@ -158,7 +158,7 @@ TEST(Replay, WhyTellsOfADistanceWhereTheCaseHasASeparation) {
              {"moving boxes grown by 1.5 meet\n",
               "oracle: never within 1.5; least distance 1.7320508075688774\n"});
   expect_why("1.5", "0,2",
-             {"a common vertex: not asked with a separation; ", "oracle: not asked\n"});
+             {"a common vertex: a separation leaves such pairs out; ", "oracle: not asked\n"});
 }
 
 TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {
