@@ -98,7 +98,7 @@ std::string unevenness(const Names& names) {
   const auto [a, b] = short_names(names[i].path, names[i + 1].path);
   return fmt::format("frames are {}: {} follows {}{}",
                      gaps[i] == 0 ? "repeated" : "unevenly numbered", b, a,
-                     odd == 1 ? "" : fmt::format(", and {} more places", odd - 1));
+                     odd == 1 ? "" : fmt::format(", and likewise at {} more places", odd - 1));
 }
 
 // Returns whether a shell may have listed the paths in this order: letter by letter, or, as in most

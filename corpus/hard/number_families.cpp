@@ -135,7 +135,7 @@ std::vector<HardFamily> time_families() {
           {"triple-root", "three roots close together, or one root beside a complex pair, or none",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
           {"long-steps", "a spike through a face, or past it",
-           "length of the motion over the usual_size", "", 0, 1, 40, 2, 1, long_step},
+           "length of the motion over the usual size", "", 0, 1, 40, 2, 1, long_step},
           {"short-steps", "a spike into a face, or toward it", "length of the motion", "ulp", 44,
            -1, 44, 2, 2, short_step}};
 }
@@ -215,7 +215,7 @@ std::vector<HardFamily> number_families() {
   return {
       {"far-offset", "a motion of one to four ulp, far from the origin",
        "distance from the origin over 64 times the size", "", 0, 1, 40, 4, 0, far_offset},
-      {"scales", "an easy case, made larger or smaller", "factor, or one over it", "", 0, 10, 50, 8,
+      {"scales", "an easy case, made larger or smaller", "factor, or its inverse", "", 0, 10, 50, 8,
        0, scales},
       {"mixed-scales", "an easy case, one axis stretched and another shrunk",
        "factor of one axis; another axis is divided by it", "", 0, 10, 50, 4, 0, mixed_scales},

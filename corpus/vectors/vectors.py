@@ -932,7 +932,7 @@ def read_csv(file, truth):
 
 
 def from_csv(files, out, features, truth):
-    want(not truth or len(files) == 1, truth, "--truth is of one file")
+    want(not truth or len(files) == 1, truth, "--truth goes with one file")
     files = [Path(f) for f in files]
     common = Path(os.path.commonpath([f.absolute().parent for f in files]))
     groups = []
@@ -972,7 +972,7 @@ def write_set(out, info, groups):
         text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
         name = f"{group['group']}.json"
         want(name not in texts and name != "set.json", out / name,
-             "two groups have this name, or it is that of the set")
+             "two groups have this name, or it is set.json")
         texts[name] = text
         entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
                          "cases": len(cases), **{key: group[key] for key in KIND}}

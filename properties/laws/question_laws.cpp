@@ -103,7 +103,7 @@ void check_stops(CaseFacts& facts, LawTally& tally) {
       is_stopped = questions >= stop_at;
       if (!is_stopped) break;
       if (answer.answer != Answer::undecided) wrong = "the answer of a stopped step";
-      if (!player.value().detector().commit()) wrong = "a stopped step is committed, which";
+      if (!player.value().detector().commit()) wrong = "the refusal to commit a stopped step";
     }
     const StepResult after = player.value().play(s);
     alone.value().play(s);

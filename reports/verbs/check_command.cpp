@@ -410,7 +410,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   verb.add_flag(
       "--fail-on-collision", request.fail_on_collision,
       "Exit code 5 if detector and oracle agree on a collision, or if a step comes within "
-      "--separation; for a log if a collision is recorded and no answer breaks a claim");
+      "--separation; for a log, if a collision is recorded and no answer breaks a claim");
   add(verb, "--keep DIR", request.keeping.folder,
       "Keep failing steps here: the part of the mesh that shows the failure, as case, OBJ and C++; "
       "for a plug-in, shrunk")

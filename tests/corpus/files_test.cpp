@@ -231,7 +231,7 @@ TEST(FramesInOrder, DecimalsAreNumbersToo) {
 TEST(FramesInOrder, GapsAndRepeatsAreTold) {
   expect_as_given({"f1.obj", "f2.obj", "f4.obj"}, "unevenly numbered: f4.obj follows f2.obj");
   expect_as_given({"f1.obj", "f2.obj", "f4.obj", "f5.obj", "f9.obj"},
-                  "f4.obj follows f2.obj, and 1 more places");
+                  "f4.obj follows f2.obj, and likewise at 1 more places");
   expect_as_given({"f0.obj", "f10.obj", "f20.obj", "f30.obj"}, "");
   expect_as_given({"f0.obj", "f10.obj", "f20.obj", "f25.obj"}, "f25.obj follows f20.obj");
   expect_as_given({"f1.obj", "f1.obj", "f2.obj"}, "repeated: f1.obj follows f1.obj");

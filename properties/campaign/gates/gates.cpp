@@ -174,7 +174,7 @@ GateFindings check_harness(const RunFindings& f, const VerbRequest& request) {
   const auto contradictions = f.evidence.sum_of(Source::self_test).defects;
   if (request.certificate && contradictions > 0)
     lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
-  if (f.evidence.canaries.empty()) gate.not_judged = "no canary was met";
+  if (f.evidence.canaries.empty()) gate.not_judged = "no canary was tried";
   return gate;
 }
 
@@ -226,7 +226,7 @@ GateFindings check_complete(const RunFindings& f, const VerbRequest& request) {
                     fmt::join(shares, ", ")));
   }
   check_trials(f, request, gate);
-  if (f.evidence.canaries.empty()) gate.add_to_do("no canary was met");
+  if (f.evidence.canaries.empty()) gate.add_to_do("no canary was tried");
   check_faults(f, gate);
   check_repetitions(f, gate);
   check_search(f, gate);

@@ -139,10 +139,10 @@ bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Dete
 std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& state,
                     CasePlayer& other) {
   auto busy = busy_detector(facts);
-  if (!busy) return "no detector for the state:";
-  if (is_taken_with_one_too_few(state, *busy)) return "a state that does not fit is taken, which";
-  if (busy->restore(state)) return "the restored state is refused, which";
-  if (!busy->commit()) return "an evaluation outlives what is restored, which";
+  if (!busy) return "whether there is a detector for the state";
+  if (is_taken_with_one_too_few(state, *busy)) return "the refusal of a state that does not fit";
+  if (busy->restore(state)) return "whether the restored state is taken";
+  if (!busy->commit()) return "the refusal to commit an earlier evaluation";
   if (busy->state() != state) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);

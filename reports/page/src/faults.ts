@@ -17,7 +17,7 @@ function verdict(f: Fault): string {
 function canaryText(canaries: Power["canaries"]): string {
   const cases = (c: { found_after: number | null }): number => c.found_after ?? Infinity;
   const worst = [...canaries].sort((a, b) => cases(b) - cases(a))[0];
-  if (!worst) return "No canary was met.";
+  if (!worst) return "No canary was tried.";
   return worst.found_after === null
     ? `The canary (${worst.fault}) was NOT FOUND: the harness sees nothing.`
     : `The canary (${worst.fault}) was found after ${counted(worst.found_after, "case")}.`;

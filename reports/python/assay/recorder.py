@@ -54,7 +54,7 @@ class Recorder:
         rest_distance: float = 0,
     ):
         if every < 0:
-            raise ValueError("every is a number of steps")
+            raise ValueError("every: a number of steps is wanted")
         rest = _frame(positions, "positions", True)
         self._vertices = len(rest)
         body = None if bodies is None else hosting.int32_of(bodies, "bodies")
