@@ -157,7 +157,7 @@ std::string text(const MethodAnswer& answer, const QueryTask& task) {
   const auto& proof = answer.proof;
   const std::string relation = task.within ? "near" : "contact";
   if (answer.decision == Decision::open)
-    return proof ? "cannot tell, not near up to " + text(proof->after) : "cannot tell";
+    return proof ? "cannot tell, but not near up to " + text(proof->after) : "cannot tell";
   if (answer.decision == Decision::no) return task.within ? "never near" : "no contact";
   if (proof) return fmt::format("near in ({}, {}]", text(proof->after), text(proof->by));
   return answer.first ? relation + " at " + text(*answer.first) : relation;

@@ -39,9 +39,9 @@ std::string remedy_of(const GateFindings& gate) {
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
   constexpr std::string_view other = "other seeds, a larger campaign or another contract may";
   if (lasting == all)
-    return fmt::format("the same command, run again, mends none of this; {}", other);
+    return fmt::format("the same command, run again, cannot mend this; {}", other);
   return fmt::format(
-      "the same command, run again, goes on with what is missing, and does not mend: {}{}; {}",
+      "the same command, run again, goes on with what is missing, but cannot mend: {}{}; {}",
       gate.lasting.front(), lasting == 1 ? "" : fmt::format(" (and {} more)", lasting - 1), other);
 }
 
