@@ -4,13 +4,13 @@
   make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
                 [--flags FLAG...] [--breaks PRODUCT...]
 
-The group goes to DIR/GROUP.json, and set.json of that folder names it beside those that are there;
+The group goes to DIR/GROUP.json, and DIR/set.json names it beside the groups that it names already;
 a folder without a set gets one. A case is two features (its option `query`) or a mesh:
 corpus/README.md has the form. First times, pairs and least distances are those of the Python
 module `assay`; whether features pass or only touch, and by which polynomial, is found in whole
 numbers (exact.py).
 
-Of the flags it sets those that go by numbers, times and pairs; --flags adds to every case.
+It sets the flags that follow from numbers, times and pairs; --flags adds others to every case.
 """
 import argparse
 import json

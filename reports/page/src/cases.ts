@@ -1,4 +1,4 @@
-// What the cases were: laws met, sizes, contacts, set pairs.
+// Describes the cases: laws met, sizes, contacts, set pairs.
 import { folded, html, section, table } from "./dom";
 import { barPlot } from "./plots";
 import type { Findings, Run } from "./report";

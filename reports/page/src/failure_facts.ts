@@ -1,4 +1,4 @@
-// What is known of a failure besides its picture, and the line that replays it.
+// Shows the facts about a failure besides its picture, and the line that replays it.
 import { facts, folded, html } from "./dom";
 import type { Answer, Failure, Run } from "./report";
 import { counted, size, time } from "./words";

@@ -1,4 +1,4 @@
-// Planted faults: what the harness was shown to find.
+// Planted faults: which the harness has found, and how many cases each took.
 import { folded, html, section, table } from "./dom";
 import { barPlot, shares } from "./plots";
 import type { Findings } from "./report";

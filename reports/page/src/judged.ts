@@ -1,5 +1,5 @@
-// What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
-// apart, the campaign; and what a plug-in does whatever it claims.
+// Shows the scope of the verdict: the detector's claims, its contract, a plug-in's isolation, and
+// the campaign. Then come the measures of a plug-in, which do not depend on its claims.
 import type { Rate, TimesOff } from "../made/certificate";
 import { facts, html, section, table } from "./dom";
 import { seedsText } from "./overview";

@@ -1,6 +1,6 @@
-"""Arguments that are no array of the right kind already: converted once, exactly, or refused.
+"""Converts arguments that are not yet arrays of the right kind.
 
-A number that float64 or int32 cannot hold exactly is refused, for the answers are those of exact
+A number that float64 or int32 cannot hold exactly is refused, because answers are those of exact
 arithmetic on the numbers given.
 """
 

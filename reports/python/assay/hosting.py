@@ -1,20 +1,20 @@
-"""A detector in Python as the plug-in calls it that serves `--detector python:MODULE:CLASS`.
+"""Calls a detector in Python, for the plug-in that serves `--detector python:MODULE:CLASS`.
 
     class Mine:
         claims = ["free-sound", "total"]                  # words of detector/plugin/README.md
-        contract = {"adjacency": "no-shared-vertex"}      # members of it; none leaves nothing out
-        def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): its own
+        contract = {"adjacency": "no-shared-vertex"}      # without it, nothing is left out
+        def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): copies
         def evaluate(self, x_t0, x_t1): ...               # float64 (n, 3) each
 
-evaluate() answers with None (free) or a result: a dict, or an object that has one of these at least
-(so that a False, or a number, is an error and not an answer):
+evaluate() answers with None (free) or a result: a dict, or an object that has at least one of these
+members (so False, or a number, is an error and not an answer):
 
-    answer   "free", "collision", "undecided"; where there is none a collision
-    first    (lo, hi), or one number; not known without it
-    pairs    (k, 2) triangles; none without it
-    times    (k, 2) or (k,) their first times; not told without it
+    answer   "free", "collision", "undecided"; if missing, "collision"
+    first    (lo, hi), or one number; if missing, not known
+    pairs    (k, 2) triangles; if missing, none
+    times    (k, 2) or (k,) their first times; if missing, not stated
 
-so what assay.Detector answers is one. Beside these a class may have name, version, commit(self) and
+A result of assay.Detector has them. Besides, a class may have name, version, commit(self) and
 
     def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
     def limit(self, x_t0, x_t1): ...                      # how far the step may be taken
@@ -23,9 +23,9 @@ so what assay.Detector answers is one. Beside these a class may have name, versi
     @staticmethod
     def use_threads(count): ...
 
-limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with what has
-`share` or `positions`, as assay.Limit has. Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken, and
-BeyondCapacity, of any but query(), one that is more than the detector holds.
+limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with an
+assay.Limit or the like. An exception is an error of its step. create() may raise Refused for a mesh,
+and every function but query() BeyondCapacity for a mesh or a step that is more than it holds.
 """
 
 import importlib

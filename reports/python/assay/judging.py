@@ -1,4 +1,4 @@
-"""The oracle, and a detector's steps against it."""
+"""Judges meshes, and the steps of a detector, by the oracle."""
 
 from __future__ import annotations
 

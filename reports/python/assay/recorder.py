@@ -1,4 +1,4 @@
-"""What a simulator does, recorded for `assay check`."""
+"""Records what a simulator does, for `assay check`."""
 
 from __future__ import annotations
 
