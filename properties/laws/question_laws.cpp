@@ -124,7 +124,7 @@ constexpr Law question_law_table[] = {
     {"L17_LimitsAreFreeAndGoFar", "L17",
      "A limit allows a way that is free and, unless rounding prevents it, nine tenths or more of "
      "what is possible; a free step is allowed whole; the state stays as it is.",
-     "contacts, and those of the way", check_limits, one_case_in_64},
+     "contacts in the step, and on the allowed way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
      "A step that is stopped is undecided and cannot be committed; evaluated whole afterwards, it "
      "gives the same bytes and the same state.",
