@@ -534,7 +534,7 @@ class Checking(InScratch):
         other = self.changed(lambda group: group["cases"][0].update(about="Another."))
         self.refused(["score", file, "--set", other], "results of another set")
         for name, answer, line in (("vf-d-9999", {"answer": "free"}, "no such case"),
-                                   ("vf-d-0001", {"answer": "share", "share": 0.5}, "another question"),
+                                   ("vf-d-0001", {"answer": "share", "share": 0.5}, "no answer to the question"),
                                    ("vf-d-0001", {"answer": "perhaps"}, "answer is not one of"),
                                    ("vf-d-0001", {"answer": "collision", "time": [1, 0]}, "time is"),
                                    ("st-d-0001", {"steps": [{"answer": "free"}]}, "not 3 steps"),
