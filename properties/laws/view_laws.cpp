@@ -144,10 +144,9 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   }
   if (r.view_positive != positive || r.view_negative != negative || r.view_zero != zero ||
       r.against_all != against_all || r.violated != violated || r.dirty != dirty) {
-    return fmt::format(
-        "sizes {} {} {} {} ({} violated, {} dirty), by triangle {} {} {} {} ({}, {})",
-        r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated, r.dirty, positive,
-        negative, zero, against_all, violated, dirty);
+    return fmt::format("sizes {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
+                       r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated,
+                       r.dirty, positive, negative, zero, against_all, violated, dirty);
   }
   return holds();
 }

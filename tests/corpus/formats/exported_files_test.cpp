@@ -174,7 +174,7 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
 TEST_F(Exported, RefusalsSayWhatWasFoundAndTheWayOn) {
   const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_TRUE(
-      says(mesh_problem("comma.obj", "v 0,5 0 0\n"), "is no number: decimals have a point"));
+      says(mesh_problem("comma.obj", "v 0,5 0 0\n"), "is no number: write decimals with a point"));
   EXPECT_TRUE(says(mesh_problem("wire.obj", v3 + "l 1 2\nl 2 3\n"),
                    "3 vertices and no triangle; not looked at: 2 lines (l)"));
   EXPECT_TRUE(says(mesh_problem("strips.ply",
