@@ -109,7 +109,7 @@ constexpr SceneInfo infos[] = {
      true, false, deformed<sphere_shape, dent>},
     {"bend", "a closed tube is bent into a ring until its ends meet", 1640, 21, true, true,
      deformed_any<closed_tube, bend>},
-    {"twist", "a closed tube is twisted by one turn; no contact of its own shape", 1640, 21, true,
+    {"twist", "a closed tube is twisted by one turn; no contact without --mesh", 1640, 21, true,
      true, deformed_any<closed_tube, twist>},
     {"open-tube", "a tube open at both ends gets a waist; no contact", 1600, 11, false, false,
      deformed<open_tube, narrow>},

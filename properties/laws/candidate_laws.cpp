@@ -267,8 +267,8 @@ constexpr Law normal_cone_law_table[] = {
      "projected along this direction, stays a simple polygon, no two of them are in contact.",
      "pair set", each_step<certified_patches_are_free, is_nearly_edge_on>},
     {"L13_EveryContactIsACandidate", "L13",
-     "In a step with such a patch the search by normal cones, which leaves such patches out, still "
-     "finds every pair in contact.",
+     "In a step with patches that are free by L13 the search by normal cones leaves these out, and "
+     "still finds every pair in contact.",
      "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
     {"L14_NoContactIsAmongWhatIsProved", "L14",
      "Culling auto, with views or without, leaves out what normal cones and contours prove apart, "

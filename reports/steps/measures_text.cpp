@@ -157,8 +157,8 @@ std::string found_text(const Json& power) {
 std::string measures_head(bool of_queries) {
   const char* noun = of_queries ? "queries" : "steps";
   return fmt::format(row_format, fmt::format("free {} answered collision", noun), "answered free",
-                     "spurious", fmt::format("late: {} by median to worst", noun),
-                     fmt::format("early: {} by median to worst", noun), "left out",
+                     "spurious", fmt::format("late: {} by median, to worst", noun),
+                     fmt::format("early: {} by median, to worst", noun), "left out",
                      "candidates / least");
 }
 
