@@ -95,7 +95,7 @@ void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
   // All cullings over bvh, for users who want to choose by themselves.
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto threads = match.subjects[i].configuration.options.threads;
-    add(fmt::format("{}, {} thread{}: sum over bvh's", culling(i), threads,
+    add(fmt::format("{}, {} thread{}: time over bvh's", culling(i), threads,
                     threads == 1 ? "" : "s"),
         ratio_in_common(sums[i], sums[0]), {},
         fmt::format("{:.2f} ms a step", median_of(sums[i]).value / static_cast<double>(steps)));
