@@ -139,8 +139,8 @@ TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
                   "start free: triangles 0 and 1 are in contact where the step starts");
   expect_left_out(
       at_heights({1.25, 1, 2}), {.start = StartRule::apart, .start_distance = 1.5},
-      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and every other "
-      "step starts so");
+      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and likewise "
+      "for every other step");
   auto large = at_heights({1, 2});
   expect_taken(large, {.coordinates = Coordinates::float32});
   large.frames[0](0, 0) = 1e300;

@@ -125,7 +125,7 @@ def test_an_answer_may_be_that_of_a_detector(path, pair):
     with assay.Recorder(path, pair.triangles, pair.x_t0, **MINE) as recorder:
         recorder.step(pair.x_t0, pair.x_t1, answer=result)
         recorder.step(x1=pair.x_t0)
-        with pytest.raises(ValueError, match="has its own"):
+        with pytest.raises(ValueError, match="states them itself"):
             recorder.step(x1=pair.x_t0, answer=result, first=0.5)
     first, second = records(path)[1:3]
     assert (first["first_lo"], first["first_hi"]) == result.first
@@ -151,7 +151,7 @@ def test_what_is_wrong_is_refused_in_one_line(path, pair):
         ({"contract": {"adjacent": 1}}, "'adjacent' is not a member"),
         ({"contract": {"start": "never"}}, "contract: start: 'never' is none of"),
         ({"bodies": [0]}, r"bodies: shape \(1,\) is not \(8,\)"),
-        ({"every": -1}, "every is a number"),
+        ({"every": -1}, "every: a number of steps is wanted"),
     ):
         with pytest.raises(ValueError, match=text):
             assay.Recorder(path, pair.triangles, pair.x_t0, **MINE, **words)
