@@ -30,8 +30,8 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 
 // Reads the first `count` bytes of the content, or all if there are fewer, at the same cost for a
 // file of any size. Refuses what read_bytes refuses, as far as the start of the file shows it.
-// Returns nothing if the first `count` + 256 KiB of a gzip stream are damaged or give fewer bytes,
-// and more follows.
+// Of a gzip stream it reads `count` + 256 KiB. If these are damaged, or give fewer than `count`
+// bytes although more follow, it returns an empty text.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 
 // Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole

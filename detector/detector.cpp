@@ -302,8 +302,8 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {
     return Problem{InputError::foreign_state,
-                   "the state is of a detector of another mesh, or of one that looks for contacts "
-                   "within other bodies"};
+                   "the state is of another mesh, or of one with other bodies that do not "
+                   "meet themselves"};
   }
   const bool has_views = uses_views(context.options.culling);
   const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,

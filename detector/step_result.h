@@ -40,14 +40,14 @@ constexpr auto names_of(ViewUse) {
   using enum ViewUse;
   return std::to_array<Named<ViewUse>>(
       {{used, "used"},
-       {not_asked_for, "the culling has none"},
+       {not_asked_for, "the culling uses none"},
        {resting, "they have not paid in the steps before"},
-       {start_unknown, "too little is seen to be clean at a start that nothing is known of"},
-       {hopeless, "of a few triangles doubles can tell too few signs"},
+       {start_unknown, "too few triangles are known to be clean at this start"},
+       {hopeless, "doubles can tell too few signs in a sample of triangles"},
        {saving_too_little, "too few triangles are of one sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "steps before have not saved what they cost"}});
+       {saving_up, "the steps before have not saved their cost"}});
 }
 
 struct StepResult {

@@ -168,7 +168,7 @@ template <class Json, Zeros zeros = Zeros::stay, class T>
 Json json_of_fields(const T& x) {
   Json json;
   JsonFields<Json, zeros, false> writer(json);
-  // A writer does not change the object; `fields` takes it not const because readers use it too.
+  // A writer changes nothing. `fields` takes an object that is not const, because readers use it.
   fields(writer, const_cast<T&>(x));
   return json;
 }

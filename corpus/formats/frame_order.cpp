@@ -98,7 +98,7 @@ std::string unevenness(const Names& names) {
   const auto [a, b] = short_names(names[i].path, names[i + 1].path);
   return fmt::format("frames are {}: {} follows {}{}",
                      gaps[i] == 0 ? "repeated" : "unevenly numbered", b, a,
-                     odd == 1 ? "" : fmt::format(", and {} more places", odd - 1));
+                     odd == 1 ? "" : fmt::format(", and likewise at {} more places", odd - 1));
 }
 
 // Returns whether a shell may have listed the paths in this order: letter by letter, or, as in most
@@ -141,8 +141,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     const auto i = place_of_difference(order);
     const auto [a, b] = short_names(paths[i], order[i].path);
     remarks.push_back(fmt::format(
-        "frames are taken as given, {} before {}: whether their numbers are decimals is unclear", a,
-        b));
+        "frames are taken as given, {} before {}: their numbers may be whole or decimal", a, b));
     names = decimals;
   } else if (paths_of(names) != paths) {
     const bool is_of_a_shell = is_order_of_a_shell(paths);

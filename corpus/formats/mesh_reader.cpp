@@ -83,10 +83,10 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
   const auto line = bytes.substr(0, bytes.find_first_of("\r\n"));
   const bool is_text = std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
   return problem_in(
-      path, fmt::format("{}: neither PLY nor OFF by its first line, nor .obj by its name; other "
-                        "formats are not read. Nor is it a case file, a log or a query file "
-                        "(assay check --help)",
-                        is_text ? "it begins with " + excerpt(line) : "no text"));
+      path,
+      fmt::format("{}: this is neither PLY nor OFF, its name does not end with .obj, and it is no "
+                  "case file, log or query file (assay check --help)",
+                  is_text ? "it begins with " + excerpt(line) : "no text"));
 }
 
 Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& path) {

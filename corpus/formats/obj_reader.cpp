@@ -43,7 +43,7 @@ Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& 
     if (!value) {
       const bool has_comma = words[k + 1].find(',') != std::string_view::npos;
       return builder.problem(place, excerpt(words[k + 1]) + " is no number" +
-                                        (has_comma ? ": decimals have a point" : ""));
+                                        (has_comma ? ": write decimals with a point" : ""));
     }
     x[k] = *value;
   }

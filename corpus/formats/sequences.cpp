@@ -23,8 +23,8 @@ std::string shown(const detector::Triangles& triangles, Eigen::Index t) {
 
 Problem SequenceReader::other_mesh(std::string_view how) const {
   return problem_in(files_[next_],
-                    fmt::format("{}: frames are of one mesh; two meshes are --body {} --body {}",
-                                how, files_[0].string(), files_[next_].string()));
+                    fmt::format("{}: all frames are of one mesh; for two: --body {} --body {}", how,
+                                files_[0].string(), files_[next_].string()));
 }
 
 Expected<detector::Positions> SequenceReader::next() {

@@ -351,7 +351,7 @@ Expected<void> StepLog::begin() {
   if (text(value_of(body, "type")) != "begin") return wrong("it does not begin a log");
   if (const auto version = integer(value_of(body, "log")); version != 1)
     return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
-                         : "log is missing or no number");
+                         : "its field `log` is missing or no number");
   head_.name = text(value_of(body, "name"));
   head_.version = text(value_of(body, "version"));
   if (const auto field = read_description(body, head_.description); !field.empty())
@@ -422,7 +422,7 @@ std::string StepLog::take(const Json& body) {
   const auto place = static_cast<std::uint64_t>(step.value_or(0));
   if (type == "note") notes_.emplace(place, text(value_of(body, "text")));
   if (type == "step") {
-    if (!steps_.empty() && place <= steps_.back().number) return "a step that was there before";
+    if (!steps_.empty() && place <= steps_.back().number) return "a step not after the one before";
     steps_.push_back({scanned_, place});
   }  // records of later versions are passed over
   is_ended_ |= is_end;

@@ -199,8 +199,8 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
     triangles = corners.welded(std::move(triangles));
     if (const auto bad = detector::check_triangles(triangles, first.rows()))
       return problem_in({},
-                        fmt::format("--weld: {}, where corners that stand at one place in every "
-                                    "frame count as one: remove such faces",
+                        fmt::format("--weld: {} once corners at one place in every frame are one "
+                                    "vertex: remove such faces",
                                     bad->message));
   } else {
     corners.add(first);

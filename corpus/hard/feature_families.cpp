@@ -109,9 +109,9 @@ Case grazing(Variation& vary, int exponent, int kind) {
 std::vector<HardFamily> feature_families() {
   return {{"near-coplanar", "two flat tetrahedra face to face: through, turning back, gliding over",
            "height of each over the plane", "ulp", 44, -1, 44, 3, 1, near_coplanar},
-          {"near-parallel", "two edges that all but line up: through, turning back, beside",
+          {"near-parallel", "two edges nearly parallel: through, turning back, passing beside",
            "angle of the edges, as height over 2^45 ulp", "ulp", 44, -1, 44, 3, 1, near_parallel},
-          {"slivers", "a vertex through a sliver, or as far beside it as it is wide",
+          {"slivers", "a vertex goes through a sliver, or passes one width beside it",
            "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 2, 2, slivers},
           {"grazing", "vertex past an edge, edge past an end: just missing, just meeting", "gap",
            "ulp", 40, -1, 40, 4, 2, grazing}};
@@ -216,7 +216,7 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
 }  // namespace
 
 std::vector<HardFamily> crowd_families() {
-  return {{"simultaneous", "spikes that come to one face together: through, or not to it",
+  return {{"simultaneous", "spikes move to one face together: through it, or not up to it",
            "contacts at one time", "", 0, 1, 6, 2, 1, simultaneous},
           {"duplicates", "a triangle and its copy: apart, through each other",
            "distance of the copies", "ulp", 40, -1, 40, 2, 3, duplicates},

@@ -146,11 +146,11 @@ std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
 // Adds the block under a wide face; its fourth corner is `depth` deep, near the axis.
 void add_block(GridMesh& mesh, Variation& vary, std::int64_t reach, std::int64_t depth);
 
-// The side of its tip that a spike may reach to.
+// The side to which a spike extends from its tip.
 enum class Side { all_around, positive_y, negative_y };
 
-// Adds a tetrahedron that moves along with its tip. The other corners are up to `reach` away along
-// x and y, to this side only, and `height` to 3 `height` above the tip.
+// Adds a tetrahedron that moves along with its tip. The other corners are up to `reach` away from
+// the tip along x and y, only to this side, and `height` to 3 `height` above it.
 void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int64_t reach,
                std::int64_t height, Side side);
 

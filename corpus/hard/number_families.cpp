@@ -128,14 +128,14 @@ Case short_step(Variation& vary, int exponent, int kind) {
 std::vector<HardFamily> time_families() {
   return {{"contact-at-start", "a spike leaves a face: from just above, from just inside",
            "distance at t=0", "ulp", 40, -1, 40, 2, 1, at_the_start},
-          {"contact-at-end", "a spike reaches a face: just not, just before the end",
+          {"contact-at-end", "a spike almost reaches a face, or reaches it just before the end",
            "distance at t=1", "ulp", 40, -1, 40, 2, 1, at_the_end},
-          {"double-root", "height over a turning face is a square, less or plus a little",
+          {"double-root", "height over a turning face is a square in time, less or plus a little",
            "least height", "ulp", 40, -2, 20, 2, 1, double_root},
-          {"triple-root", "three roots nearly together, one beside a complex pair, none",
+          {"triple-root", "three roots close together, or one root beside a complex pair, or none",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
           {"long-steps", "a spike through a face, or past it",
-           "length of the motion over the usual_size", "", 0, 1, 40, 2, 1, long_step},
+           "length of the motion over the usual size", "", 0, 1, 40, 2, 1, long_step},
           {"short-steps", "a spike into a face, or toward it", "length of the motion", "ulp", 44,
            -1, 44, 2, 2, short_step}};
 }
@@ -215,10 +215,10 @@ std::vector<HardFamily> number_families() {
   return {
       {"far-offset", "a motion of one to four ulp, far from the origin",
        "distance from the origin over 64 times the size", "", 0, 1, 40, 4, 0, far_offset},
-      {"scales", "an easy case, made larger or smaller", "factor, or one over it", "", 0, 10, 50, 8,
+      {"scales", "an easy case, made larger or smaller", "factor, or its inverse", "", 0, 10, 50, 8,
        0, scales},
       {"mixed-scales", "an easy case, one axis stretched and another shrunk",
-       "factor of one axis, and one over that of another", "", 0, 10, 50, 4, 0, mixed_scales},
+       "factor of one axis; another axis is divided by it", "", 0, 10, 50, 4, 0, mixed_scales},
       {"denormals", "an easy case whose coordinates lose their normal range",
        "unit of the coordinates, which have up to 27 bits", "", -1022, -4, 13, 4, 0, denormals}};
 }

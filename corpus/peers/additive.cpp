@@ -19,8 +19,8 @@
 // Expected before the first run: both stop before contacts, and announce features that come near.
 // Parallel edges: where the lines' distance is rounded to 0, both go by the corners ("this must be
 // some far away nearly parallel edges"), which may be farther apart than the edges are: a miss.
-// (That run did not yet leave out starts nearer than the contract allows. They gave what was
-// expected; and CodimIpc never ends if a vertex starts at a face.)
+// (That run did not yet leave out starts nearer than the contract allows. Such starts gave what was
+// expected, and CodimIpc never ended where a vertex starts at a face.)
 #include <cmath>
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>

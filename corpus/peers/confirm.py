@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Confirms FINDINGS.md, as its numbers are printed, and meshes/, by arithmetic that nothing else
-here uses: fractions, polynomials through values at five times, and Sturm's theorem.
+"""Confirms the numbers printed in FINDINGS.md, and the cases of meshes/, by arithmetic that nothing
+else here uses: fractions, polynomials through values at five times, and Sturm's theorem.
 
-It prints a line for each, and ends with 1 if one is refuted.
+It prints a line for each finding, and ends with 1 if one is refuted.
 """
 import json
 import math

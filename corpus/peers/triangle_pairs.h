@@ -188,7 +188,7 @@ class TrianglePairs {
       for (const auto& at : path.at) {
         for (const double* p : at) box.take(p);
       }
-      // Half would do but for rounding.
+      // Half of it would be enough without rounding.
       box.grow(separation_);
       boxes_.push_back(box);
     }

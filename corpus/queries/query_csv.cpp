@@ -66,7 +66,7 @@ class CsvReader {
       rows[filled] = row;
       const bool is_labelled_alike = row.label == rows[0].label;
       if (!is_labelled_alike || row.separation != rows[0].separation) {
-        return wrong(fmt::format("this row's {} is not that of its query's first row, {} before",
+        return wrong(fmt::format("its {} differs from the query's first row, {} rows before",
                                  is_labelled_alike ? "separation" : "label", filled));
       }
       ++filled;
@@ -105,10 +105,10 @@ class CsvReader {
     const auto columns = columns_of(line);
     const std::size_t count = columns.size();
     if (count < 3 || count > 8) {
-      return wrong(fmt::format(
-          "{} columns; a row of a query has x,y,z, or numerator,denominator of each: 3 or 6, then "
-          "perhaps a label, then perhaps a separation",
-          count));
+      return wrong(
+          fmt::format("{} columns; a row has 3 (x,y,z) or 6 (numerator and denominator of each), "
+                      "then perhaps a label, then perhaps a separation",
+                      count));
     }
     const std::size_t numbers = count < 6 ? 3 : 6;
     Row row;
@@ -183,8 +183,8 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (!kind) {
     return problem_in(
         csv,
-        "vertex-face or edge-edge queries? The path should have a folder of that "
-        "name, or the file's name should begin so, or end in vf or ee, as posted_vf.csv");
+        "vertex-face or edge-edge queries? Name a folder of the path so, or begin the "
+        "file's name so, or end it in vf or ee, as in posted_vf.csv");
   }
   BOOST_OUTCOME_TRY(bytes, read_bytes(csv));
   BOOST_OUTCOME_TRY(queries, CsvReader(bytes, csv, *kind).read());

@@ -1,6 +1,6 @@
 """Exact facts of two moving features, in whole numbers: whether they pass or only touch, and the
-polynomials of their times. What coplanarity, sides and gaps are stands in
-oracle/query/contact_events.h as F, L and D; they are found in another way here.
+polynomials of their times. oracle/query/contact_events.h defines coplanarity, sides and gaps, as F,
+L and D; here they are computed in another way.
 
 A polynomial is a list of whole numbers: c0 + c1 t + ...
 """

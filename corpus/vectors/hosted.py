@@ -11,7 +11,7 @@ except ImportError as problem:
 
 
 def demand_module():
-    want(assay, "PYTHONPATH", "wanted is the Python module assay, for the Python that it was built for "
+    want(assay, "PYTHONPATH", "the module assay is missing, or built for another Python "
          f"(reports/python/README.md): {why_absent if not assay else ''}")
 
 

@@ -4,13 +4,13 @@
   make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
                 [--flags FLAG...] [--breaks PRODUCT...]
 
-The group goes to DIR/GROUP.json, and set.json of that folder names it beside those that are there;
+The group goes to DIR/GROUP.json, and DIR/set.json names it beside the groups that it names already;
 a folder without a set gets one. A case is two features (its option `query`) or a mesh:
 corpus/README.md has the form. First times, pairs and least distances are those of the Python
 module `assay`; whether features pass or only touch, and by which polynomial, is found in whole
 numbers (exact.py).
 
-Of the flags it sets those that go by numbers, times and pairs; --flags adds to every case.
+It sets the flags that follow from numbers, times and pairs; --flags adds others to every case.
 """
 import argparse
 import json
@@ -172,7 +172,7 @@ def read_case(file):
 def case_of(file, given, features, known):
     case = read_case(file)
     want(case["options"].get("query", "mesh") == features, file,
-         f"is no case of {features}, as the first one is")
+         f"is no case of {features}, but the first one is")
     if features == "mesh":
         stated, flags = mesh_facts(case, given.float)
     else:
@@ -194,12 +194,12 @@ def main(words):
     parser.add_argument("--name", required=True, metavar="GROUP")
     parser.add_argument("--out", required=True, metavar="DIR", help="the folder of the set")
     parser.add_argument("--distance", type=float, default=0, metavar="D",
-                        help="ask of coming within D")
+                        help="ask whether features come within D")
     parser.add_argument("--limit", action="store_true", help="ask how far a step may be taken")
     parser.add_argument("--float", action="store_true", help="the coordinates are floats")
     parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
     parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",
-                        help="who fails on them")
+                        help="products that fail on them")
     given = parser.parse_args(words)
     demand_module()
     out = Path(given.out)

@@ -78,19 +78,20 @@ LEGEND = """<ul class="legend">
 """
 
 WORDS = """<p>A <b>miss</b> is the answer free where features meet, or a share of a step that is not
-safe. It counts whether the product promises to find such contacts or not: some test vertices against
-faces alone, or say themselves that they miss. What those of <code>corpus/peers</code> promise is told
-there, and in its FINDINGS.md the causes of defects. A <b>late</b> time is a first time after the
-contact, be it by the last digit. An <b>alarm</b> is a contact that there is not. <b>Unanswered</b> are
-cases that ended undecided, by an error, a crash, or no answer in time. <b>Unsupported</b> is what the
-product was not asked, because its contract leaves it out. Where features only touch, be it at the end
-of the step, both answers are right; these are counted below. <b>To run it again</b>:
-<code>vectors.py run --detector LIB.so</code> asks a product all cases, and those of a row with what
-stands in it; <code>vectors.py flags</code> says what each flag means.</p>\n"""
+safe. It counts even if the product does not promise to find such contacts: some products test only
+vertices against faces, or state that they miss contacts. <code>corpus/peers</code> states what its
+products promise, and its FINDINGS.md what causes the defects. A <b>late</b> time is a first time
+after the contact, even if only in the last digit. An <b>alarm</b> is a contact that does not exist.
+<b>Unanswered</b> cases ended undecided, by an error, a crash, or no answer in time.
+<b>Unsupported</b> cases were not asked, because the product's contract leaves them out. Where features
+only touch, be it at the end of the step, both answers are right: a section below counts such answers.
+<b>To run it again</b>: <code>vectors.py run --detector LIB.so</code> asks a product all cases, and
+those of a row with the options that stand in the row; <code>vectors.py flags</code> says what each flag
+means.</p>\n"""
 
 TOUCHING = """<h2>Where features only touch</h2>
-<p>By closed sets these cases are contacts; who counts only what overlaps answers free. Both are \
-right, and a product should hold to one of them.</p>\n<ul>\n"""
+<p>For closed sets these cases are contacts; a product that counts only overlaps answers free. Both \
+are right, and a product should hold to one of them.</p>\n<ul>\n"""
 
 # What is counted of a product, and the words that stand before the ids.
 LISTED = (("late", "Late times"), ("alarm", "Alarms"), ("crash", "Crashes"),

@@ -106,10 +106,10 @@ class VectorSet:
                 self.groups.append(group)
                 self.cases += [Case(group, case) for case in cases]
         if hashlib.sha256(lines.encode()).hexdigest() != self.info["digest"]:
-            raise Wrong(f"{self.folder / 'set.json'}: its digest is not that of its groups")
+            raise Wrong(f"{self.folder / 'set.json'}: its digest does not fit its groups")
         if len(ids) != self.info["cases"]:
-            raise Wrong(f"{self.folder / 'set.json'}: {self.info['cases']} cases stated, "
-                        f"{len(ids)} there")
+            raise Wrong(f"{self.folder / 'set.json'}: it states {self.info['cases']} cases, "
+                        f"and its groups hold {len(ids)}")
 
     def label(self):
         return {key: self.info[key] for key in ("version", "profile", "digest")}
@@ -246,11 +246,11 @@ def check_mesh(case, group, place):
     frames = case.get("frames")
     want(isinstance(frames, list) and frames and isinstance(frames[0], list) and
          is_list(frames, None, lambda f: is_list(f, len(frames[0]), TRIPLE)), place,
-         "frames are not lists of as many points each")
+         "frames are not lists of points, all of one length")
     index = (lambda x: is_count(x, len(frames[0])))
     want(case.get("triangles") and is_list(
         case["triangles"], None, lambda t: is_list(t, 3, index) and len(set(t)) == 3), place,
-        "triangles are not three different indices of points each")
+        "a triangle is not three different indices of points")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
          and steps, place, "steps are not a list (of one, where a limit is asked)")
@@ -268,7 +268,7 @@ def check_mesh(case, group, place):
         for pair in pairs:
             want(is_list(pair, 4, is_number) and triangle(pair[0]) and triangle(pair[1]) and
                  pair[0] < pair[1] and pair[2] <= pair[3], here,
-                 "pairs are not two triangles and two times each")
+                 "a pair is not two triangles and two times")
     results = [step["result"] for step in steps]
     want((case["result"] == "free") == all(r == "free" for r in results) and
          (case["result"] != "acceptable" or "acceptable" in results), place,
@@ -280,15 +280,15 @@ def check_truth(truth, place):
         want(isinstance(truth.get(name, []), list), place, f"{name} is no list")
     time_, polynomial = truth.get("first_time"), truth.get("polynomial")
     if truth["result"] == "free":
-        want(time_ is None and polynomial is None, place, "free, and yet with a first time")
+        want(time_ is None and polynomial is None, place, "it is free, but has a first time")
     if time_ is not None:
         want(is_list(time_, 2, is_number) and 0 <= time_[0] <= time_[1] <= 1, place,
              "first_time is not two times of the step")
         want(time_[1] == time_[0] or time_[1] == next_double(time_[0]), place,
-             "first_time is neither a double nor two that are neighbours")
+             "first_time is neither one double nor two neighbouring ones")
     if polynomial is not None:
         want(is_list(polynomial, None, lambda c: is_text(c) and re.fullmatch(r"-?\d+", c)), place,
-             "polynomial is not a list of whole numbers in texts")
+             "polynomial is not a list of whole numbers written as texts")
 
 
 def is_float32(x):
@@ -375,21 +375,21 @@ def check_halves(cases):
     for case in cases.values():
         if "split_of" in case.json:
             want(case.json["split_of"] in cases, f"case {case.id}",
-                 "half of a case that is not there")
+                 "it is half of a case that is missing")
             halves[case.json["split_of"]].append(case.json)
     for name, case in cases.items():
         whole, both = case.json, halves[name]
         if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
             continue
-        want("SplitInvariant" in case.flags, f"case {name}", "has halves, and no flag says so")
-        want(len(both) == 2, f"case {name}", "has not two halves")
+        want("SplitInvariant" in case.flags, f"case {name}", "it has halves, but not the flag SplitInvariant")
+        want(len(both) == 2, f"case {name}", "it does not have two halves")
         ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
                  for p, q in zip(h["t0"], h["t1"])] for h in both]
         want(ways[0] == ways[1] and both[0]["t0"] == whole["t0"] and
              both[0]["t1"] == both[1]["t0"] and both[1]["t1"] == whole["t1"], f"case {name}",
-             "its halves are none")
+             "its halves do not make up its step")
         want((whole["result"] == "free") == all(h["result"] == "free" for h in both),
-             f"case {name}", "another result whole than in halves")
+             f"case {name}", "its result differs from that of its halves")
 
 
 # --- asking -------------------------------------------------------------------------------------
@@ -774,7 +774,7 @@ def check_answer(answer, case, place):
     want_fields(answer, {"answer": one_of(*ANSWERS)}, place)
     if answer["answer"] in ("free", "collision", "share"):
         want((answer["answer"] == "share") == (case.question == "limit"), place,
-             f"{answer['answer']} answers another question")
+             f"{answer['answer']} is no answer to the question {case.question}")
     if answer["answer"] == "share":
         want(is_number(answer.get("share")) and 0 <= answer["share"] <= 1, place,
              "share is not a number from 0 to 1")
@@ -784,7 +784,7 @@ def check_answer(answer, case, place):
     if "pairs" in answer:
         end = len(case.triangles or [])
         want(is_list(answer["pairs"], None, lambda p: is_list(p, 2, lambda i: is_count(i, end))),
-             place, "pairs are not two triangles each")
+             place, "a pair is not two triangles")
 
 
 def letter_of(i):
@@ -931,7 +931,7 @@ def read_csv(file, truth):
 
 
 def from_csv(files, out, features, truth):
-    want(not truth or len(files) == 1, truth, "--truth is of one file")
+    want(not truth or len(files) == 1, truth, "--truth goes with one file")
     files = [Path(f) for f in files]
     common = Path(os.path.commonpath([f.absolute().parent for f in files]))
     groups = []
@@ -971,7 +971,7 @@ def write_set(out, info, groups):
         text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
         name = f"{group['group']}.json"
         want(name not in texts and name != "set.json", out / name,
-             "two groups have this name, or it is that of the set")
+             "two groups have this name, or it is set.json")
         texts[name] = text
         entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
                          "cases": len(cases), **{key: group[key] for key in KIND}}
@@ -1045,7 +1045,7 @@ def parser_of_all():
                      help="ask a plug-in of Assay, or a class: python:MODULE:CLASS")
     one.add_argument("--arithmetic", metavar="WORD",
                      help="ask the built-in detector: exact, bounded, double or float")
-    one = verbs.add_parser("score", help="what results come to")
+    one = verbs.add_parser("score", help="compare results with the exact answers")
     one.add_argument("results", nargs="+")
     one.add_argument("--set", metavar="DIR")
     one.add_argument("--out", metavar="FILE.html", help="write the matrix of all products here")
@@ -1069,7 +1069,7 @@ def asked_by(given, command):
     """What answers: a program, or a detector of Assay."""
     ways = [way for way in (command, given.detector, given.arithmetic) if way]
     want(len(ways) == 1, "run", "who answers? -- COMMAND ARGS..., --detector or --arithmetic")
-    want(0 < given.timeout < math.inf, "--timeout", "wanted is a number above 0")
+    want(0 < given.timeout < math.inf, "--timeout", "it has to be a number above 0")
     write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
     if command:
         return Program(command, given.timeout, given.restart)

@@ -120,8 +120,8 @@ bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence&
     }
     return true;
   };
-  // Row r is counted two places on. When the counts are summed up, place r + 1 says where the next
-  // item of the row goes; in the end that is where row r + 1 begins.
+  // The items of row r are counted at place r + 2. After summing up, place r + 1 says where the
+  // next item of row r goes. After the last item, this is where row r + 1 begins.
   auto& starts = lists.starts;
   starts.assign(rows + 2, 0);
   if (!for_all_in_rows([&](std::int32_t, std::size_t row) { ++starts[row + 2]; })) return false;

@@ -41,7 +41,7 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
   if (triangles.rows() > most_triangles || vertex_count > most_vertices) {
     return Problem{InputError::mesh_too_large,
                    "the mesh has " + std::to_string(triangles.rows()) + " triangles and " +
-                       std::to_string(vertex_count) + " vertices, indices number " +
+                       std::to_string(vertex_count) + " vertices; the most are " +
                        std::to_string(most_triangles) + " and " + std::to_string(most_vertices)};
   }
   std::optional<Eigen::Index> repeated;
@@ -207,8 +207,8 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "a list of pairs of triangles, in a relation of features"
-                                      : "a list of pairs of features, in a relation of triangles");
+    return wrong_relation(of_features ? "a relation of features lists pairs of triangles"
+                                      : "a relation of triangles lists pairs of features");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {

@@ -15,7 +15,7 @@
 
 namespace assay::detector {
 
-// Numbers are for ever (assay_builtin_detector.h). 11 was an error that is gone.
+// Numbers are for ever (assay_builtin_detector.h). 11 was an error that no longer exists.
 enum class InputError : std::uint8_t {
   no_triangles = 1,             // an empty mesh has no self-collision to detect
   index_out_of_range = 2,       // a triangle names a vertex that does not exist

@@ -32,8 +32,8 @@ extern "C" {
  * is never NULL and always valid. */
 const assay_detector_api* assay_builtin_detector(void);
 
-/* The errors. A number keeps its meaning for ever; new errors get new numbers, but not 11 or 65,
- * which errors had that are gone. */
+/* The errors. A number keeps its meaning for ever. New errors get new numbers; 11 and 65 belonged
+ * to errors that no longer exist. */
 enum {
   ASSAY_BUILTIN_NO_ERROR = 0,
   ASSAY_BUILTIN_NO_TRIANGLES = 1,          /* an empty mesh */

@@ -544,7 +544,7 @@ static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_s
     return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
   memcpy(r->path, s->path, length);
   if (!s->overwrite && assay_record_is_there_(r->path))
-    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is a file", r->path, 0);
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "this file exists", r->path, 0);
   assay_record_make_tables_(r);
   errno = 0;
   r->file = fopen(r->path, "wb");
@@ -607,7 +607,7 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
   for (i = 0; is_judged && i < result->pair_count; ++i) {
     const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
     if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
-      return assay_record_no_answer_(r, "a pair is no two triangles of the mesh");
+      return assay_record_no_answer_(r, "a pair is not two triangles of the mesh");
     if (result->pair_times &&
         !assay_record_is_time_(result->pair_times[2 * i], result->pair_times[2 * i + 1]))
       return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");

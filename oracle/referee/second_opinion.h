@@ -41,7 +41,7 @@ struct Contradiction {
 
 struct SecondOpinion {
   bool complete = false;      // false: stopped; what was compared until then counts
-  std::uint64_t queries = 0;  // of which:
+  std::uint64_t queries = 0;  // the next three add up to it, by the referee's verdict
   std::uint64_t contact = 0, no_contact = 0, open = 0;
   std::uint64_t static_checks = 0;
   std::vector<Contradiction> contradictions;  // in a fixed order

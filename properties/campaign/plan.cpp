@@ -45,7 +45,7 @@ std::vector<CampaignPlan> make_named_plans() {
   constexpr double minute = 60, hour = 60 * minute;
   CampaignPlan smoke;
   smoke.name = "smoke";
-  smoke.about = "a short form of the whole, 2 minutes on 2 cores; states its bounds and wants none";
+  smoke.about = "a little of everything, 2 minutes on 2 cores; states bounds, requires none";
   smoke.strata = strata(600, 200, 0, 0);
   smoke.law_premises = 20;
   smoke.fault_cases = 300;
@@ -86,7 +86,7 @@ std::vector<CampaignPlan> make_named_plans() {
 
   CampaignPlan release = nightly;
   release.name = "release";
-  release.about = "before a release; best in shares";
+  release.about = "before a release; best run in shares";
   release.strata = strata(120'000, 60'000, 2e-4, 2e-4);
   add_sizes(release, {200, 100, 20, 10});
   release.seconds = 72 * hour;

@@ -74,11 +74,9 @@ std::vector<Fault> boundary_faults() {
        "holes are not looked for: every mesh is taken as closed"},
       {wrong<TakenAsClosed<edges_used_evenly>>, "boundary/orientation-not-checked", "L12",
        "A5_one_face_flipped", 5,
-       "a mesh with an even number of triangles at each edge is taken as closed, however they are "
-       "oriented"},
+       "a mesh is taken as closed if each edge has an even number of triangles, however oriented"},
       {wrong<TakenAsClosed<no_edge_used_once>>, "boundary/fin-taken-as-closed", "L12", "F_fin", 5,
-       "a mesh without an edge of one triangle is taken as closed, though three at an edge are no "
-       "cycle"},
+       "a mesh is taken as closed if no edge has one triangle, even if some have three"},
       {wrong<ApexOfEnd<&SteppedMesh::vertices_t0>>, "boundary/apex-stays-behind", "L11",
        "F_apex_moves", 8, "an apex stays where it is at t=0 and jumps between two steps"},
       {wrong<ApexOfEnd<&SteppedMesh::vertices_t1>>, "boundary/apex-ahead", "L11", "F_apex_in_step",
@@ -242,7 +240,7 @@ struct NewStartNotSwept : BoundaryHandler {
 std::vector<Fault> ghost_faults() {
   return {
       {wrong<NothingSwept>, "boundary/no-ghost-sweep", "L11", "F_ghosts_swept", 12,
-       "no ghost touches anything"},
+       "ghosts are not swept: none touches anything"},
       {wrong<OverlapAtEnds>, "boundary/overlap-at-ends", "L11", "F_ghosts_between_ends", 12,
        "ghosts are tested at t=0 and t=1 only"},
       {wrong<GhostsNotMoved>, "boundary/ghosts-not-moved", "L11", "F_ghosts_move", 13,
@@ -254,7 +252,7 @@ std::vector<Fault> ghost_faults() {
       {wrong<SweptVertexFaceOnly>, "boundary/swept-vertex-face-only", "L11", "F_ghost_edges", 5,
        "ghosts are swept without edge-edge tests"},
       {wrong<PiercedGhostsIgnored>, "boundary/pierced-ghosts-ignored", "L11", "F_pierced_ghost", 8,
-       "what pierces a ghost at a new start is not looked for"},
+       "triangles that pierce a ghost at a new start are not looked for"},
       {wrong<NewStartNotSwept>, "boundary/new-start-not-swept", "L11", "D8_release_arm_sequence",
        22, "ghosts are not swept in a step whose start is new"},
       {wrong<LoopNeighboursSkipped<1>>, "boundary/loop-neighbours-skipped", "L11",

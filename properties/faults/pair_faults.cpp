@@ -192,7 +192,7 @@ std::vector<Fault> pair_faults() {
       {wrong<NoClosure>, "pair/no-closure", "all-pairs (L7)", "F_closure_one_side", 6,
        "K is claimed to be all pairs"},
       {wrong<ClosureFromOneSide>, "pair/closure-from-one-side", "all-pairs (L7)",
-       "F_closure_one_side", 6, "of a pair in contact only the lower triangle joins the closure"},
+       "F_closure_one_side", 6, "only the lower triangle of a pair in contact joins the closure"},
       {wrong<ClosureLeavesNegative>, "pair/closure-leaves-negative", "all-pairs (L7)",
        "C2_lost_minus_minus", 8, "the closure looks at V+ only, not at V-"},
       {wrong<NeighboursSkipped<1>>, "pair/vertex-sharing-skipped", "L3", "C3_skip_adjacent", 6,

@@ -185,12 +185,12 @@ std::vector<Fault> search_faults() {
       {wrong<GatheredFromFirstChild>, "marking/gathered-from-first-child", "L3",
        "F_gathered_from_first_child", 4, "clearing gives a node the flags of its first child"},
       {wrong<SkippedForOneSet>, "search/skipped-for-one-set", "L3", "F_skipped_for_one_set", 5,
-       "a node is left for its only child in one partial tree, whatever the others hold"},
+       "the search goes on with the only child in one partial tree, though others hold both"},
       {wrong<FittedOnce>, "search/fitted-once", "free-sound", "F_fitted_once", 6,
        "the tree is fitted to the first step and kept"},
       disturbed(Fault{
           wrong<GoesOnAfterStop>, "search/goes-on-after-stop", "deterministic", "F_after_stop", 7,
-          "a step that was stopped leaves its place in the search behind, for the next one"}),
+          "a stopped search is continued by the next step from the place where it stopped"}),
       disturbed(Fault{wrong<CountedTogether>, "search/counted-together", "deterministic",
                       "F_counted_together", 4,
                       "all detectors of the process count their box tests in one place"}),
@@ -291,10 +291,10 @@ constexpr Options auto_with_cones{Culling::automatic, Start::verified, Pairs::al
 std::vector<Fault> cone_faults() {
   return {
       {wrong<NormalsAtEnd>, "cone/normals-at-end", "all-pairs (L13)", "F_cone_normals_at_end", 4,
-       "a normal cone is that of the normals at t=1", with_cones},
+       "a normal cone is made of the normals at t=1 alone", with_cones},
       {wrong<NormalsAtBothEnds>, "cone/normals-at-both-ends", "all-pairs (L13)",
-       "F_cone_normals_at_both_ends", 4, "a normal cone is that of the normals at t=0 and t=1",
-       with_cones},
+       "F_cone_normals_at_both_ends", 4,
+       "a normal cone is made of the normals at t=0 and t=1 alone", with_cones},
       {wrong<EdgeOnFaced>, "cone/edge-on-faced", "all-pairs (L13)", "F_cone_edge_on", 4,
        "N.d >= 0 is taken for N.d > 0", with_cones},
       {wrong<NoContourTest>, "cone/no-contour-test", "all-pairs (L13)", "F_cone_no_contour_test", 5,

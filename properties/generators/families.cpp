@@ -209,7 +209,7 @@ RandomCase make_counted(Random& random, std::string id) {
 }
 
 constexpr Family counted_table[] = {
-    {"counted", "bodies, rings and distances at rest; closed and generic, or with holes and exact",
+    {"counted", "bodies, rings, distances at rest; closed generic meshes or exact ones with holes",
      false, true, make_counted}};
 
 RandomCase make_any(Random& random, std::string id) {
@@ -218,17 +218,17 @@ RandomCase make_any(Random& random, std::string id) {
 }
 
 constexpr Family question_table[] = {
-    {"limits", "of any family; the built-in is asked how far each step may be taken", false, true,
+    {"limits", "cases of any family; the built-in is asked how far each step may go", false, true,
      make_any},
-    {"within", "of any family; the built-in is asked what comes within 2^-6, and limited by it",
-     false, true, make_any}};
+    {"within", "cases of any family; the built-in keeps a distance of 2^-6", false, true,
+     make_any}};
 
 constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
      make<closed_generic>},
     {"closed-near-degenerate", "slivers, near coincidences, contacts missed or met by an ulp", true,
      false, make<closed_near>},
-    {"closed-degenerate", "small integers and dyadics, exact contacts, coplanar and collapsed",
+    {"closed-degenerate", "small integers and dyadics, exact contacts, coplanar or collapsed faces",
      true, true, make<closed_exact>},
     {"closed-far-large-step", "far from the origin, mixed scales, denormals, large steps", true,
      false, make<closed_far>},
@@ -237,11 +237,11 @@ constexpr Family family_table[] = {
     {"unclosed-degenerate", "as closed-degenerate, with holes", false, true, make<unclosed_exact>},
     {"unclosed-near-degenerate", "as closed-near-degenerate, with holes", false, false,
      make<unclosed_near>},
-    {"closed-everyday", "sizes, decimals, floats and turns of every day; a piece lands on another",
+    {"closed-everyday", "everyday sizes, decimals, floats and turns; one piece lands on another",
      true, false, make<closed_everyday>},
     {"unclosed-everyday", "as closed-everyday, with holes and single triangles", false, false,
      make<unclosed_everyday>},
-    {"broken", "no cycles, flipped, zero-area, open seams, 3 to 6 triangles at an edge", false,
+    {"broken", "flipped and zero-area triangles, open seams, 3 to 6 triangles at an edge", false,
      true, make<broken_meshes>},
 };
 

@@ -199,11 +199,11 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   const std::string start = contract.start == StartRule::apart ? "apart" : "free";
   if (says_query(c)) {
     const auto query = query_of(c);
-    if (!query) return "it says that it is a query, and is none";
+    if (!query) return "its options call it a query, but it is none";
     Contract of_any_start = contract;
     of_any_start.start = StartRule::any;
     if (!takes(of_any_start, *query))
-      return fmt::format("features {}: the query is one of {}", name_of(contract.features),
+      return fmt::format("features {}: this query is {}", name_of(contract.features),
                          query_word(*query));
     return fmt::format("start {}: the two features start {}", start, distance);
   }
@@ -213,15 +213,15 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
   if (Case displaced = contracted_case;
       contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
-    return "motion displacement: the end of every step is no double";
+    return "motion displacement: no step ends at doubles";
   if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
-    return "stops at start-plus: the way of a vertex is beyond the largest number";
+    return "stops at start-plus: a vertex moves farther than the largest number";
   if (!contract_relation(contracted_case, contract)) return "a place at rest has no float32";
   const auto pair = pair_too_near(x, contracted_case, contract);
   if (!pair) return "";
   return fmt::format(
       "start {}: triangles {} and {} are {} where {}", start, pair->a, pair->b, distance,
-      steps.size() > 1 ? "step 1 starts, and every other step starts so" : "the step starts");
+      steps.size() > 1 ? "step 1 starts, and likewise for every other step" : "the step starts");
 }
 
 bool start_apart(const FourPoints& q, double distance) {

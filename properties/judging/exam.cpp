@@ -313,7 +313,7 @@ struct CaseChecker {
     std::vector<corpus::ExpectedPair> pairs;
     for (const auto& contact : judgement.pairs) pairs.push_back({contact.pair, contact.time});
     if (pairs == *expected.pairs) return;
-    fail(fmt::format("{}{} pairs with their times, expected {}, or other pairs or times", where,
+    fail(fmt::format("{}{} pairs, expected {}; or other pairs or times than expected", where,
                      pairs.size(), expected.pairs->size()));
   }
 

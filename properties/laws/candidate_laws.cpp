@@ -127,8 +127,8 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
 
 constexpr Law pair_set_law_table[] = {
     {"L7_ClosureIsThePairSet", "L7",
-     "K, closed over the contacts that it finds, is the complete pair set of the step: the "
-     "oracle's pairs, and each first time in every bit.",
+     "Closing K over the contacts that it finds gives the complete pair set of the step: the "
+     "oracle's pairs, each with its first time to the last bit.",
      "pair set", each_step<closure_is_the_pair_set>},
     {"Claim_FreeSound", "claim", "Free is never answered when there is a contact.", "pair set",
      each_step<claim_holds<Claim::free_sound>>},
@@ -263,16 +263,16 @@ void check_what_is_proved(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law normal_cone_law_table[] = {
     {"L13_CertifiedPatchesAreFree", "L13",
-     "No two triangles of a patch are in contact in a step throughout which all of its triangles "
-     "face one direction and its contour, projected along it, stays a simple polygon.",
+     "If throughout a step all triangles of a patch face one direction and the patch's contour, "
+     "projected along this direction, stays a simple polygon, no two of them are in contact.",
      "pair set", each_step<certified_patches_are_free, is_nearly_edge_on>},
     {"L13_EveryContactIsACandidate", "L13",
-     "In a step with a patch as in L13 the search by normal cones, which leaves patches out, still "
-     "finds every pair in contact.",
+     "In a step with patches that are free by L13 the search by normal cones leaves these out, and "
+     "still finds every pair in contact.",
      "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
     {"L14_NoContactIsAmongWhatIsProved", "L14",
-     "In a step of culling auto that leaves out what normal cones and contours prove apart, with "
-     "views or without, every pair in contact is found.",
+     "Culling auto, with views or without, leaves out what normal cones and contours prove apart, "
+     "and still finds every pair in contact.",
      "pair set", check_what_is_proved},
 };
 

@@ -85,8 +85,8 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
       const bool dirty = (facts.result(s).doubts[at(t)] & detector::doubt::dirty) != 0;
       if (dirty && facts.starts_by_view_alone()) continue;
       if (dirty == (alone.clean[i] != 0)) {
-        return fmt::format("triangle {} is {}, in its component alone {}", t,
-                           dirty ? "dirty" : "clean", alone.clean[i] ? "clean" : "not");
+        return fmt::format("triangle {} is {}; where its component is alone it is {}", t,
+                           dirty ? "dirty" : "clean", alone.clean[i] ? "clean" : "not clean");
       }
     }
   }
@@ -99,10 +99,10 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
   if (alone.doubts.size() != own.size()) return "no answer alone";
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (among.signs[at(own[i])] != alone.signs[i]) {
-      return fmt::format("triangle {} has another sign alone", own[i]);
+      return fmt::format("triangle {} has another sign where its component is alone", own[i]);
     }
     if (among.doubts[at(own[i])] != alone.doubts[i]) {
-      return fmt::format("triangle {} has other doubts alone", own[i]);
+      return fmt::format("triangle {} has other doubts where its component is alone", own[i]);
     }
   }
   auto next = alone.pairs.begin();
@@ -147,8 +147,8 @@ constexpr Law component_law_table[] = {
      "clean and of one strict sign.",
      "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
     {"L10_ComponentsAreCleanByThemselves", "L10",
-     "At a new start with components in each other's boxes (nested, or interpenetrating) the same "
-     "triangles are dirty as if each were alone: layers count the own component.",
+     "At a new start, components in each other's boxes (nested, or interpenetrating) have the "
+     "dirty triangles that each has alone: its layers count only itself.",
      "layers of each component alone", each_step<components_are_clean_by_themselves>},
     {"L10_EachComponentAsIfAlone", "L10",
      "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "

@@ -103,7 +103,7 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
     if (!has_zero_area(facts, s, t)) continue;
     premise_held = true;
     if (facts.result(s).signs[at(t)] != ViewSign::zero) {
-      return fmt::format("triangle {} has no area at an end, and a sign", t);
+      return fmt::format("triangle {} has a sign, but no area at an end of the step", t);
     }
   }
   return premise_held ? holds() : not_met();
@@ -209,7 +209,7 @@ constexpr Law doubtful_input_law_table[] = {
     {"L12_BadInputIsNamedAndChangesNothing", "L12",
      "Bad input is refused by name (an index out of range or repeated, three vertices used twice, "
      "a frame of another size, a coordinate that is not finite, a wrong number of primitives, a "
-     "commit of no step), and the next valid step is answered as if it had not been given.",
+     "commit of no step), and changes nothing in the answer to the next valid step.",
      "nothing", check_bad_input, one_case_in_16},
 };
 

@@ -103,7 +103,7 @@ void check_stops(CaseFacts& facts, LawTally& tally) {
       is_stopped = questions >= stop_at;
       if (!is_stopped) break;
       if (answer.answer != Answer::undecided) wrong = "the answer of a stopped step";
-      if (!player.value().detector().commit()) wrong = "a stopped step is committed, which";
+      if (!player.value().detector().commit()) wrong = "the refusal to commit a stopped step";
     }
     const StepResult after = player.value().play(s);
     alone.value().play(s);
@@ -122,13 +122,12 @@ constexpr Law question_law_table[] = {
      "pairs, each at its time.",
      "what comes within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
-     "The way that a limit allows is free, and nine tenths or more of the possible one where "
-     "rounding lets it; a free step is taken whole; the state stays as it is.",
-     "contacts, and those of the way", check_limits, one_case_in_64},
+     "A limit allows a way that is free and, unless rounding prevents it, nine tenths or more of "
+     "what is possible; a free step is allowed whole; the state stays as it is.",
+     "contacts in the step, and on the allowed way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
-     "A step that is stopped is undecided and cannot be committed; evaluated whole it then gives "
-     "the "
-     "same bytes and the same state.",
+     "A step that is stopped is undecided and cannot be committed; evaluated whole afterwards, it "
+     "gives the same bytes and the same state.",
      "nothing", check_stops, one_case_in_16},
 };
 

@@ -124,8 +124,8 @@ Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) 
 
 constexpr Law state_law_table[] = {
     {"L8_CarriedCleanIsClean", "L8",
-     "The triangles that are clean at the start of a step that continues from a committed one "
-     "touch nothing of S there, and have one layer in each component.",
+     "At the start of a step that continues from a committed one, clean triangles touch nothing of "
+     "S and have one layer in each component.",
      "layers", each_step<carried_clean_is_clean>, 1, PremiseScope::each_culling},
     {"L8_WhatIsNotCleanStaysDirty", "L8",
      "A triangle that was dirty, in contact with its own component or touched by a ghost, and is "
@@ -138,14 +138,14 @@ constexpr Law state_law_table[] = {
      "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>, 1,
      PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
-     "The dirty triangles at the start of a step that continues from a committed one are exactly "
-     "those that were dirty, touched by a ghost or in contact with their own component until then, "
-     "and are not untouched and of the common layer of their component now.",
+     "At the start of a step that continues from a committed one, a triangle is dirty exactly if "
+     "it was dirty, touched by a ghost or in contact with its own component until then, and now "
+     "touches something or is not of the common layer of its component.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
      "At a verified new start the dirty triangles are those that touch something of S or are not "
-     "of the common layer of their component; under view-auto, without layers, at least these.",
+     "of the common layer of their component; under view-auto, which skips layers, at least these.",
      "layers", each_step<new_start_is_the_oracles_layers>, 1, PremiseScope::each_culling},
     {"L9_AllPositiveAtTheStartReleases", "L9",
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
@@ -153,9 +153,9 @@ constexpr Law state_law_table[] = {
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
      PremiseScope::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
-     "After a step without views, the dirty triangles are those that it left in doubt and that are "
-     "not now untouched and of the common layer. Of components with ghosts all were in doubt; of "
-     "closed ones, after a first step, those that are dirty by L9 at a verified start.",
+     "After a step without views, a triangle is dirty if the step left it in doubt and it now "
+     "touches something or is not of the common layer. It leaves in doubt all triangles of "
+     "components with ghosts; as a first step, also those of closed ones that L9 calls dirty.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };

@@ -68,7 +68,7 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
                                                     view.by_region(view.corner(2))};
     const auto [least, greatest] = std::ranges::minmax_element(at_corners);
     const ExactInteger inside = view.by_region(view.inner_point(any_weights(random)));
-    if (inside < *least || inside > *greatest) return "an inner value is beyond the corners'";
+    if (inside < *least || inside > *greatest) return "an inner value is out of the corners' range";
     return {};
   });
 }
@@ -140,14 +140,13 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   }
   const auto sum = r.view_positive + r.view_negative + r.view_zero + r.against_all;
   if (sum != facts.surface().mesh.triangles.size()) {
-    return fmt::format("{} triangles in the sets of {}", sum, r.doubts.size());
+    return fmt::format("the sets hold {} triangles of {}", sum, r.doubts.size());
   }
   if (r.view_positive != positive || r.view_negative != negative || r.view_zero != zero ||
       r.against_all != against_all || r.violated != violated || r.dirty != dirty) {
-    return fmt::format(
-        "sizes {} {} {} {} ({} violated, {} dirty), by triangle {} {} {} {} ({}, {})",
-        r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated, r.dirty, positive,
-        negative, zero, against_all, violated, dirty);
+    return fmt::format("sizes {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
+                       r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated,
+                       r.dirty, positive, negative, zero, against_all, violated, dirty);
   }
   return holds();
 }
@@ -179,8 +178,8 @@ constexpr Law view_law_table[] = {
      "Seen from a segment, the sign of each ghost over the step is the exact one.", "view signs",
      each_step<ghost_signs<false>>},
     {"Sets_AreDisjointAndCover", "sets",
-     "V+, V-, V0 and Vv hold each triangle of the mesh once, by its doubts and else by its sign; "
-     "the sizes reported are those of these sets.",
+     "Each triangle of the mesh is in one of V+, V-, V0 and Vv, by its doubts if it has any, "
+     "otherwise by its sign; the sizes reported are those of these sets.",
      "nothing", each_step<sets_are_disjoint_and_cover>},
 };
 
@@ -303,7 +302,7 @@ constexpr Law one_sign_law_table[] = {
      each_step<all_positive_is_free<false>>},
     {"L5_TheFreePathIsTaken", "L5",
      "The detector releases exactly the components that are positive with their ghosts and have "
-     "winding number 1, and answers free when that is all of them and no two components meet.",
+     "winding number 1, and answers free if these are all components and no two of them meet.",
      "pair set, view signs, winding number", each_step<detector_takes_the_free_path>},
 };
 

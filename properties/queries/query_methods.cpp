@@ -157,7 +157,7 @@ std::string text(const MethodAnswer& answer, const QueryTask& task) {
   const auto& proof = answer.proof;
   const std::string relation = task.within ? "near" : "contact";
   if (answer.decision == Decision::open)
-    return proof ? "cannot tell, not near up to " + text(proof->after) : "cannot tell";
+    return proof ? "cannot tell, but not near up to " + text(proof->after) : "cannot tell";
   if (answer.decision == Decision::no) return task.within ? "never near" : "no contact";
   if (proof) return fmt::format("near in ({}, {}]", text(proof->after), text(proof->by));
   return answer.first ? relation + " at " + text(*answer.first) : relation;
@@ -189,7 +189,7 @@ std::optional<std::string> not_as_known(const QueryTask& task) {
   for (const auto want : {Want::yes_no, Want::first_time}) {
     const auto answer = oracle_answer(task, want);
     if (answer.decision != truth->decision || (answer.first && answer.first != truth->first))
-      return fmt::format("`{}`: not the answer or time that is known", task.name);
+      return fmt::format("`{}`: its answer or time is wrong", task.name);
     const auto name_of = [](int rung) {
       return method_of("oracle")->rungs[static_cast<std::size_t>(rung)];
     };

@@ -169,7 +169,7 @@ std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const 
   if (step) return step_text(step(seed, index));
   const auto task = query(seed, index);
   return task ? exact_text(*task) + answers_text(*task)
-              : "no query at this place: an equal one stands elsewhere\n";
+              : "no query has this number: an equal one has another\n";
 }
 
 Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus) {

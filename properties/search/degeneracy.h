@@ -54,7 +54,7 @@ double nearness(const Gap& gap);
 // rounding of the degeneracy; lattice walks (moves.h) do the rest, and the oracle judges.
 
 enum class Degeneracy : std::uint8_t {
-  coplanar,     // F(t) = 0: a root at t, be it 0, 1 or in between
+  coplanar,     // F(t) = 0: a root at t, which may be 0 or 1
   double_root,  // F(t) = F'(t) = 0
   flat,         // F = 0 throughout
   side,         // L_i(t) = 0 on the axis of the greatest normal

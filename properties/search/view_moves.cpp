@@ -290,7 +290,7 @@ constexpr Move of_views[] = {
     {"aside", "Newton steps of a view primitive and a triangle", MoveKind::view, 4, look_aside},
     {"away", "a view primitive from which the triangles in focus face away", MoveKind::view, 5,
      face_away},
-    {"gaze", "of some view primitives, the one from which the first contacts look most alike",
+    {"gaze", "a view primitive, out of several, that makes the first contacts look most alike",
      MoveKind::view, 5, gaze},
     {"ray", "a vertex goes through a triangle along a ray of a view-point", MoveKind::view, 5,
      pass_by_ray},

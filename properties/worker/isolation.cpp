@@ -56,7 +56,7 @@ Expected<ScratchFolder> ScratchFolder::make() {
     }
   }
   return Problem{fmt::format("{}: no folder can be made for temporary files: {}", parent.string(),
-                             error ? error.message() : "others remove it")};
+                             error ? error.message() : "another process removes it")};
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -156,7 +156,7 @@ struct WorkerProcess::Parts {
          {program, files->file(), std::filesystem::temp_directory_path(ignored)}) {
       const auto real = std::filesystem::weakly_canonical(path, ignored);
       if (real.native().starts_with("/dev/"))
-        return real.string() + " is hidden behind it, as all of /dev";
+        return real.string() + " is hidden behind it, like all of /dev";
     }
     return fault_of_bubblewrap();
   }

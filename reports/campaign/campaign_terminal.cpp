@@ -219,9 +219,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   }
   if (!detector.built_in &&
       judged_claims(detector.claims, detector.contract, detector.of_queries).empty())
-    return Problem{fmt::format(
-        "{}: its contract leaves none of its claims to be judged; there is nothing to certify",
-        words.detector.library)};
+    return Problem{
+        fmt::format("{}: under its contract no claim can be judged; there is nothing to certify",
+                    words.detector.library)};
   const auto& plans = properties::named_plans();
   const bool is_named = std::any_of(plans.begin(), plans.end(),
                                     [&](const auto& one) { return one.name == request.plan.name; });
@@ -236,9 +236,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   } else if (with_query) {
     request.plan = properties::with_queries(std::move(request.plan));
   } else if (asks_queries(request.plan)) {
-    return Problem{
-        fmt::format("campaign {}: its strata are queries, for the query of a plug-in alone",
-                    request.plan.name)};
+    return Problem{fmt::format(
+        "campaign {}: its strata are queries, which only the query of a plug-in answers",
+        request.plan.name)};
   }
   return request;
 }

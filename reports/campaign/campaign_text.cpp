@@ -140,7 +140,7 @@ std::string search_text(const RunFindings& findings) {
 std::string worlds_text(const RunFindings& findings) {
   std::string out = "every motion of a tetrahedron on a grid, up to symmetry:\n";
   for (const auto& world : findings.evidence.worlds) {
-    out += fmt::format("  {:18} {} classes proved, of {} motions (of {}){}; {} collide\n",
+    out += fmt::format("  {:18} {} classes proved, which are {} of {} motions{}; {} collide\n",
                        world.world, world.classes, world.motions, world.all,
                        world.counterexample ? "; COUNTEREXAMPLE: " + *world.counterexample
                        : world.complete     ? ", all of it"

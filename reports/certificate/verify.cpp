@@ -178,7 +178,7 @@ std::string sent_alone(const std::filesystem::path& certificate) {
   if (const auto schema = statement.value().find("schema"); schema != statement.value().end())
     return fmt::format(
         "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
-        "assay certify; of a check that fails, assay check --keep DIR writes DIR/page.html",
+        "assay certify; assay check --keep DIR writes DIR/page.html about a check that fails",
         certificate.string(), schema->dump());
   return properties::stored_runs(folder_of(certificate)).has_value()
              ? ""

@@ -143,7 +143,7 @@ std::string KeptFailures::keep(const StepFailure& event) {
         properties::BodyNames(event.source.counted(), event.source.triangles()).text(*failure.pair);
   const std::string again = again_(event.number + 1);
   if (counts_[failure.signature()]++ >= most_of_a_kind)
-    return fmt::format("  not kept, {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
+    return fmt::format("  not kept, because {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
                        failure.signature(), again);
   const auto text = write_step(event, failure, again);
   if (text) return text.value();

@@ -72,7 +72,7 @@ std::string text_of(const StepNaming& naming, const StepDistance& step) {
     out += fmt::format("  least distance {}: {}\n", step.least.distance,
                        naming.contact(*step.least.where));
   } else if (step.least.complete) {
-    out += "  least distance: no two triangles count, or none within the greatest double\n";
+    out += "  least distance: none, because no pair counts, or none is within the largest double\n";
   }
   return out + fmt::format("  ms:   oracle {:.1f}; {} feature candidates\n", step.milliseconds,
                            step.near.feature_candidates);
@@ -155,7 +155,7 @@ struct SeparationRun {
 
   std::string distance_text() const {
     return distance_.offsets.empty() ? fmt::format("{}", distance_.separation)
-                                     : "the offsets of two bodies together";
+                                     : "the sum of two bodies' offsets";
   }
 
   std::vector<double> offsets_of_vertices() const {

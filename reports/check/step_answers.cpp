@@ -93,7 +93,7 @@ class Plugin : public StepAnswers {
 
   std::string title() const override {
     return plugin_text(subject_) +
-           (drops_relation_ ? "; it cannot be told which pairs count, so all do" : "");
+           (drops_relation_ ? "; it has no function `count`, so all pairs count" : "");
   }
 
   nlohmann::ordered_json to_json() const override {
@@ -166,8 +166,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
         shell_word(library))};
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
-        "{}: its contract leaves none of its claims to be judged; there is nothing to check",
-        library)};
+        "{}: under its contract no claim can be judged; there is nothing to check", library)};
   auto contracted_case = properties::contract_case(*input.steps->whole(), detector.contract);
   if (!contracted_case) {
     return Problem{fmt::format("{}: no step of it is within the contract of {}: {}", input.file,

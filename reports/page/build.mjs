@@ -1,4 +1,4 @@
-// Bundles src/ into one HTML file that asks nothing of a network. usage: node build.mjs [OUT.html]
+// Bundles src/ into one HTML file that needs no network. usage: node build.mjs [OUT.html]
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";

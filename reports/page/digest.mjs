@@ -1,4 +1,4 @@
-// The digest of what the page is made of. dist/page.html records it, and tests compare.
+// Computes the digest of the page's sources. dist/page.html records it, and tests compare.
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";

@@ -5,8 +5,8 @@ usage: sequences.py ASSAY OUT.svg [--data DIR] [--scenes NAME...] [--rounds N]
 
 Each scene has 19 steps and about 20,000 triangles; where contacts grow with the square of the
 triangles it has fewer. Both cullings go through a sequence in turn, N times, in one thread, in
-exact arithmetic and with all pairs. A step counts with the least time that it took, because what
-else the machine does only adds to it. Printed is a line for each sequence; OUT.svg is the chart.
+exact arithmetic and with all pairs. A step counts with the least time that it took, because other
+work of the machine only adds time. It prints a line for each sequence; OUT.svg is the chart.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""What setuptools builds of the package is built by CMake, in build/release as ever."""
+"""Makes setuptools build the package by CMake, in build/release."""
 
 import shutil
 import subprocess

@@ -249,7 +249,7 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
     };
     for (py::ssize_t i = 1; is_named(feature) && i <= vertices_of(feature[0]); ++i)
       fits &= is_of(0, feature[i]) || is_of(1, feature[i]);
-    if (!fits) throw py::value_error("features: no such kind, or a vertex that the pair has not");
+    if (!fits) throw py::value_error("features: no such kind, or a vertex that is not of the pair");
   }
 }
 

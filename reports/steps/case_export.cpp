@@ -176,7 +176,7 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
   std::string out =
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : join(phrases, ", "));
-  if (contract.separation > 0) out += "// To meet is here to come within that distance.\n";
+  if (contract.separation > 0) out += "// `Meet` means here: come within that distance.\n";
   if (c.counted) out += "// Only pairs that count: `counted` of case.json says which do.\n";
   const auto claims_text = asked_text(detector, query.has_value(), claim);
   const bool is_float = contract.coordinates == properties::Coordinates::float32;

@@ -41,7 +41,7 @@ inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int
 inline std::string read_result(const Case& c, const assay_result& raw, Found& found) {
   if (raw.answer == ASSAY_ERROR) return raw.message ? raw.message : "an error without a message";
   if (raw.answer == ASSAY_FREE) return raw.pair_count == 0 ? "" : "answers free and gives pairs";
-  if (raw.answer != ASSAY_COLLISION && raw.answer != ASSAY_UNDECIDED) return "its answer is none";
+  if (raw.answer != ASSAY_COLLISION && raw.answer != ASSAY_UNDECIDED) return "an unknown answer";
   found.is_answered = found.collision = raw.answer == ASSAY_COLLISION;
   if (found.collision) {
     found.lo = raw.first_lo;
@@ -150,7 +150,7 @@ class Plugin {
       if (succeeded("limit", api_->limit(handle, x_t0, way.data(), &raw), found)) {
         found.share = raw.share;
         if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1))
-          found.error = "its share is none";
+          found.error = "its share is not from 0 to 1";
         // If no positions are given, a share of 1 stands for the end, and any other for the start.
         const double* const stop = raw.positions    ? raw.positions
                                    : raw.share == 1 ? case_.frame(step.to)

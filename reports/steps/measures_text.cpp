@@ -76,8 +76,8 @@ std::string limits_text(const properties::LimitUse& use) {
   std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);
   if (use.contact == 0) return text + "\n";
   text += fmt::format(
-      "; {} others used {:.3g} in the median, {:.3g} in 99 of 100, {:.3g} at worst, of the time "
-      "until the contact; {} stalls{}\n",
+      "; {} steps with a contact used this share of the time until it: median {:.3g}, in 99 of 100 "
+      "at least {:.3g}, worst {:.3g}; {} stalls{}\n",
       use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
       use.excused > 0
           ? fmt::format("; {} less than claimed, perhaps because of rounding", use.excused)
@@ -157,8 +157,8 @@ std::string found_text(const Json& power) {
 std::string measures_head(bool of_queries) {
   const char* noun = of_queries ? "queries" : "steps";
   return fmt::format(row_format, fmt::format("free {} answered collision", noun), "answered free",
-                     "spurious", fmt::format("late: {} by median to worst", noun),
-                     fmt::format("early: {} by median to worst", noun), "left out",
+                     "spurious", fmt::format("late: {} by median, to worst", noun),
+                     fmt::format("early: {} by median, to worst", noun), "left out",
                      "candidates / least");
 }
 
@@ -188,7 +188,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (e.late.steps > 0) parts.push_back(off_sentence("late", e.late));
   if (e.early.steps > 0) parts.push_back(off_sentence("early", e.early));
   if (m.starts_near > 0)
-    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, counted in no n",
+    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, which no n counts",
                                 m.starts_near, m.starts_near == 1 ? "" : "s"));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
@@ -206,9 +206,9 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (findings.run.detector.built_in) return "";
   const bool alone = properties::asks_queries_alone(findings.run.plan);
   std::string out = fmt::format(
-      "whatever is claimed (intervals of 95 %, in per cent; late, early: how many first times are "
-      "after or before the oracle's, and by which share of the step: in the median, in 99 of 100 "
-      "at most, and at worst; left out: cases + steps)\n{:24} {}\n",
+      "whatever is claimed (rates in %, with intervals of 95 %; late, early: how many first times "
+      "are after or before the oracle's, and by which share of the step: median, 99 %, worst; left "
+      "out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -219,8 +219,8 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(
-        "in {} steps it does not report a contact, as its contract allows ({}): without that, "
-        "these were misses\n",
+        "in {} steps it does not report a contact, as its contract allows ({}): otherwise these "
+        "would be misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))

@@ -226,7 +226,7 @@ class PairStory {
     out += fmt::format("    {}; moving boxes{} {}\n", rule_text(result),
                        separation_ > 0 ? fmt::format(" grown by {}", separation_) : "",
                        boxes_apart ? "are apart: never tested" : "meet");
-    if (!counts_) out += "    the pair does not count: it is reported by neither\n";
+    if (!counts_) out += "    the pair does not count: neither oracle nor detector reports it\n";
     out += fmt::format("    oracle: {}\n", oracle_text({x_t0, x_t1}, truth));
     const bool reported = std::any_of(result.pairs.begin(), result.pairs.end(),
                                       [&](const auto& contact) { return contact.pair == pair_; });
@@ -289,7 +289,7 @@ class PairStory {
   }
 
   std::string rule_text(const detector::StepResult& result) const {
-    if (!is_asked_) return "a common vertex: not asked with a separation";
+    if (!is_asked_) return "a common vertex: a separation leaves such pairs out";
     if (!bodies_meet_) return "bodies that do not meet: not searched (L19)";
     if (component(pair_.a) != component(pair_.b)) return "two components: always a candidate (L10)";
     if (result.doubts.empty()) return "no view sets: every pair is a candidate";

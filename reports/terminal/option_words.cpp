@@ -184,7 +184,7 @@ CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const s
 CLI::Option* add_detector(CLI::App& verb, DetectorWords& detector, const std::string& about) {
   auto library = add_detector_alone(verb, detector, about);
   add(verb, "--threads N", detector.threads,
-      "How many threads the detector may use; a plug-in is told")
+      "How many threads the detector may use; a plug-in is told it")
       ->check(in_range(1, most_threads))
       ->capture_default_str()
       ->group(OptionGroup::detector);

@@ -111,7 +111,7 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
     }
     if (!last_row)
       return Problem{
-          fmt::format("{}is for {}, and this is {} ({}): leave it out, or assay check {} {}",
+          fmt::format("{}is for {}, but this is {} ({}): leave it out, or assay check {} {}",
                       name_in(word).substr(1), join(corpus::names_among(takers), " or "),
                       all[0].name, file, takers[0].input, word)};
     const auto is_beside = [&](const std::string& other) {
@@ -242,7 +242,7 @@ Expected<int> check_steps(Kind kind, const CheckRequest& request, std::string& s
   BOOST_OUTCOME_TRY(may_write({request.json_file, request.junit_file, question.ply_file}, inputs));
   const std::filesystem::path ply(question.ply_file);
   if (!ply.empty() && ply.extension() != ".ply")
-    return Problem{ply.string() + ": --ply writes PLY, and a name ends with .ply"};
+    return Problem{ply.string() + ": --ply writes PLY: its name has to end with .ply"};
   auto result = read_input(kind, request, question);
   if (!result) {
     if (is_log) suites += suite_of(request.inputs.front(), result.error());
@@ -356,7 +356,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "A,B: bodies that do not meet; A,A: a body that does not meet itself")
       ->check(one_of("A,B: two bodies by number", two_numbers));
   add(verb, "--rings K", request.rings,
-      "Pairs of triangles that fewer than K edges join do not count (1: those that share a "
+      "Leave out pairs of triangles that a path of fewer than K edges joins (1: those that share a "
       "vertex)")
       ->check(in_range(0, std::numeric_limits<std::int32_t>::max()));
   add(verb, "--rest-distance LENGTH", request.rest_distance,
@@ -375,7 +375,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "Judge the answers of this table (step,answer,time) in place of a detector");
   add_choice(verb, "--adjacency", question.adjacency, all_names<properties::Adjacency>(),
              from_name<properties::Adjacency>,
-             "Which neighbours --answers are about (default all)");
+             "Which neighbours the answers of --answers cover (default all)");
   auto& built_in = question.built_in;
   add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
              from_name<detector::Culling>, "How the detector culls (default auto)");
@@ -403,7 +403,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   verb.add_flag(
       "--fail-on-collision", request.fail_on_collision,
       "Exit code 5 if detector and oracle agree on a collision, or if a step comes within "
-      "--separation; for a log if a collision is recorded and no answer breaks a claim");
+      "--separation; for a log, if a collision is recorded and no answer breaks a claim");
   add(verb, "--keep DIR", request.keeping.folder,
       "Keep failing steps here: the part of the mesh that shows the failure, as case, OBJ and C++; "
       "for a plug-in, shrunk")
@@ -418,7 +418,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "only touch are amber")
       ->group(OptionGroup::output);
   verb.add_flag("--all-steps", request.all_steps,
-                "Print every step of a log, not only those that are not as claimed")
+                "Print every step of a log, not only those that break a claim")
       ->group(OptionGroup::output);
   add(verb, "--junit FILE", request.junit_file,
       "Write the result of each claim of a log here, as JUnit XML")

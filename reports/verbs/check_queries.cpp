@@ -215,8 +215,8 @@ class QueryScore {
       fmt::print("  {} query {}{}: answer {}, label {}{}\n", d.file, d.query,
                  within_text(d.separation), d.answer, d.label,
                  !d.label_disputed ? ""
-                 : method_ ? "; coplanar throughout, both exact methods agree against the label"
-                           : "; the oracle agrees against the label");
+                 : method_ ? "; coplanar throughout: both exact methods contradict the label"
+                           : "; the oracle contradicts the label as well");
     }
     if (r.differences.size() > most_listed)
       fmt::print("  ... {} more\n", r.differences.size() - most_listed);
@@ -308,7 +308,7 @@ class QueryPlugin {
     fmt::print("{}\n{}\n", measures_head(true), measures_row(measures_, true));
     if (left_out > 0) fmt::print("{} queries are left out by its contract\n", left_out);
     if (not_asked > 0)
-      fmt::print("{} queries were not asked: it had crashed {} times\n", not_asked, crashes_);
+      fmt::print("{} queries were not asked: the plug-in crashed {} times\n", not_asked, crashes_);
     for (const auto& way : std::span(failures).first(std::min(most_shown, failures.size())))
       fmt::print("DEFECT {}, met {}\n  {}: {}\n", way.signature, properties::times_text(way.met),
                  way.query, way.what);
@@ -414,7 +414,7 @@ Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet
   if (judged_claims(detector.claims, detector.contract, true).empty())
     return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
   if (task.separation.value_or(separation) != separation) {
-    return Problem{fmt::format("--separation {}: {} answers by that of its contract, {}",
+    return Problem{fmt::format("--separation {}: {} answers for the separation of its contract, {}",
                                *task.separation, detector.name, separation)};
   }
   fmt::print("{}\n", plugin_text(subject));

@@ -255,7 +255,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
-  if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
+  if (vouched) fmt::print("as in the campaign, the detector is told that its start is clean\n");
   print_steps(*contracted_case, truth, contract);
   int code = exit_holds;
   std::vector<RunText> texts;

@@ -64,7 +64,7 @@ void announce(const Families& families, const SelfTestRequest& request) {
       request.time_limit ? fmt::format("done, or {:.0f} s from now", *request.time_limit) : "done");
   for (const auto& family : families) {
     fmt::print("  {:<22}{}{}\n", family.name,
-               family.indices(request.queries) > 0 ? "" : "left out: more --queries wanted for ",
+               family.indices(request.queries) > 0 ? "" : "left out, needs more --queries: ",
                family.about);
   }
   fmt::print("{:<22}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",

@@ -59,7 +59,7 @@ Expected<int> run_trials_again(const std::string& certificate, const VerifyReque
   if (!again) return again.error();
   const auto& [trials, stored_trials, difference] = again.value();
   if (difference) {
-    fmt::print("{}\nNOT VERIFIED: {}, {} of {} trials run again, seed {}; it says nothing\n",
+    fmt::print("{}\nNOT VERIFIED: {}, {} of {} trials run again, seed {}; it proves nothing\n",
                *difference, certificate, trials, stored_trials, request_again.seed);
     return exit_defect;
   }
@@ -85,7 +85,7 @@ Expected<int> run_verify(const VerifyRequest& request) {
     const auto result = verify_certificate(file);
     for (const auto& line : result.differences) fmt::print("{}\n", line);
     if (!result.differences.empty()) {
-      fmt::print("NOT VERIFIED: {}, {} differences; it says nothing\n", file,
+      fmt::print("NOT VERIFIED: {}, {} differences; it proves nothing\n", file,
                  result.differences.size());
       return exit_defect;
     }

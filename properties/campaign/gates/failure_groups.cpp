@@ -388,8 +388,8 @@ std::string text_of(const FailureGroup& group, std::size_t kinds) {
                   ? fmt::format("all {} kinds of failure {}", kinds, group.does)
                   : fmt::format("{} of {} kinds of failure {}", count, kinds, group.does);
   if (!group.shared.empty())
-    text += fmt::format(": {} ({} of {} colliding cases that hold {} such a contact)",
-                        fmt::join(group.shared, ", "), group.holds_with, group.all_holds,
+    text += fmt::format(": {} (of {} colliding cases without a failure, {} {} such a contact)",
+                        fmt::join(group.shared, ", "), group.all_holds, group.holds_with,
                         group.holds_with == 1 ? "has" : "have");
   return text;
 }

@@ -39,9 +39,9 @@ std::string remedy_of(const GateFindings& gate) {
   if (lasting == 0) return "the same command, run again, goes on with what is missing";
   constexpr std::string_view other = "other seeds, a larger campaign or another contract may";
   if (lasting == all)
-    return fmt::format("the same command, run again, mends none of this; {}", other);
+    return fmt::format("the same command, run again, cannot mend this; {}", other);
   return fmt::format(
-      "the same command, run again, goes on with what is missing, and does not mend: {}{}; {}",
+      "the same command, run again, goes on with what is missing, but cannot mend: {}{}; {}",
       gate.lasting.front(), lasting == 1 ? "" : fmt::format(" (and {} more)", lasting - 1), other);
 }
 
@@ -106,7 +106,8 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
   }
   if (request.certificate && f.quota() == 0) gate.add_lasting("the campaign plans no trial");
   if (f.quota() > 0 && f.tally.judged_trials() == 0 && f.tally.trials() == f.quota())
-    gate.add_lasting("no case was judged: the contract or the detector takes none of any family");
+    gate.add_lasting(
+        "no case was judged: the contract or the detector takes no case of any family");
   if (request.certificate && f.tally.judged_trials() > 0 && f.run.detector.query_claims.empty() &&
       judged_claims(f).empty())
     gate.add_lasting("no claim of the detector was judged");
@@ -151,8 +152,7 @@ void check_search(const RunFindings& f, GateFindings& gate) {
   const auto cases = f.shares_of(f.run.plan.search);
   const auto lanes = f.evidence.sum_of(Source::search);
   if (lanes.planned < cases)
-    gate.add_to_do(
-        fmt::format("the search has finished lanes of {} of {} cases", lanes.planned, cases));
+    gate.add_to_do(fmt::format("the search has finished {} of its {} cases", lanes.planned, cases));
   if (cases > 0 && lanes.planned == cases && lanes.cases == 0)
     gate.add_lasting("the contract takes no case of the search");
   if (lanes.undecided > 0)
@@ -174,7 +174,7 @@ GateFindings check_harness(const RunFindings& f, const VerbRequest& request) {
   const auto contradictions = f.evidence.sum_of(Source::self_test).defects;
   if (request.certificate && contradictions > 0)
     lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
-  if (f.evidence.canaries.empty()) gate.not_judged = "no canary was met";
+  if (f.evidence.canaries.empty()) gate.not_judged = "no canary was tried";
   return gate;
 }
 
@@ -226,7 +226,7 @@ GateFindings check_complete(const RunFindings& f, const VerbRequest& request) {
                     fmt::join(shares, ", ")));
   }
   check_trials(f, request, gate);
-  if (f.evidence.canaries.empty()) gate.add_to_do("no canary was met");
+  if (f.evidence.canaries.empty()) gate.add_to_do("no canary was tried");
   check_faults(f, gate);
   check_repetitions(f, gate);
   check_search(f, gate);

@@ -167,8 +167,8 @@ struct FailureGroup {
 // in the folder of the findings no traits are named.
 std::vector<FailureGroup> failure_groups(const RunFindings& findings);
 
-// Returns "34 of 51 kinds of failure lose a contact: edge-edge (2 of 100 colliding cases that hold
-// have such a contact)"; `kinds` is the number of all kinds.
+// Returns "34 of 51 kinds of failure lose a contact: edge-edge (of 100 colliding cases without
+// a failure, 2 have such a contact)"; `kinds` is the number of all kinds.
 std::string text_of(const FailureGroup& group, std::size_t kinds);
 
 }  // namespace assay::properties

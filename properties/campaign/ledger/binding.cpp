@@ -140,7 +140,7 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
   read_fields(json, run);
   constexpr std::uint64_t most_shares = 1'000'000;
   if (run.shares < 1 || run.shares > most_shares)
-    return Problem{fmt::format("{}: no run does one of {} shares", file.string(), run.shares)};
+    return Problem{fmt::format("{}: wrong number of shares: {}", file.string(), run.shares)};
   return run;
 } catch (const Json::exception& wrong) {
   return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
@@ -178,7 +178,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
     if (part == "library") {
       differences.emplace_back("another build of the detector's library");
     } else if (part == "own_cases") {
-      differences.emplace_back("other cases of one's own");
+      differences.emplace_back("other own cases (--corpus)");
     } else if (!(is_other_build && part == "planted_faults")) {
       differences.push_back(first_difference(part, mine, its));
     }

@@ -137,10 +137,10 @@ struct FailureRecord {
   bool flaky = false;                  // its case alone, in a new process, has another result
   std::string printed{};               // by the plug-in as it failed; may differ between runs
 
-  // Return the texts for people. The id begins with the prefix of the source that its own source
-  // counts as, "corpus/NAME"; no trial's id does, because the name of a campaign has no '/'. The
-  // other two name a broken law, "law L3_..." and "view-point, law L3_...", because one case may
-  // break both a law and a claim in the same configuration.
+  // Return the texts for people. The id begins with a prefix of the source, such as "corpus/" in
+  // "corpus/NAME"; no trial's id does, because the name of a campaign has no '/'. The other two
+  // texts name a broken law, "law L3_..." and "view-point, law L3_...", because one case may break
+  // both a law and a claim in the same configuration.
   std::string id() const, signature() const, shown_configuration() const;
   std::string rule() const;  // law and claim, with which the signature begins
   // Returns the explanation of the smallest mesh, if there is one. For a flaky failure, which is

@@ -235,9 +235,9 @@ std::string difference_of_trials(const TrialRecord& first, const TrialRecord& no
     if (first.*member != now.*member)
       return fmt::format("{} {} now, {} stored", now.*member, name, first.*member);
   }
-  if (first.mesh != now.mesh) return "its mesh is another one";
-  if (first.outcomes != now.outcomes) return "outcomes of more configurations than there are";
-  if (first.counts != now.counts) return "its counts are others";
+  if (first.mesh != now.mesh) return "its mesh differs from the stored one";
+  if (first.outcomes != now.outcomes) return "it has more outcomes than configurations";
+  if (first.counts != now.counts) return "its counts differ from the stored ones";
   return "";
 }
 

@@ -120,8 +120,8 @@ std::string difference_in_form(const StepResult& of_case, const Form& form,
     return a.first == b.first && (!form.same_times || a.second == b.second);
   });
   return same ? ""
-              : fmt::format("{} pairs became {}, or others, or other times", before.size(),
-                            after.size());
+              : fmt::format("the {} pairs became {} pairs, of other triangles or at other times",
+                            before.size(), after.size());
 }
 
 void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change) {
@@ -179,8 +179,8 @@ constexpr Law law_of(std::string_view name, std::string_view statement,
 
 constexpr Law change_law_table[] = {
     {"L18_RefinedMeshHasTheSameContacts", "L18",
-     "If edges are split at exact places, in all triangles that have them, and no split triangle "
-     "loses its area, a mesh has the same times and pairs, if parts count as their triangle.",
+     "Splitting edges at exact places, in all of their triangles and without a loss of area, "
+     "changes no times and no pairs, if each part counts as the triangle that it is of.",
      "nothing", check_form<changes::split_edges>, one_case_in_16, PremiseScope::any_culling,
      &changes::split_edges},
     law_of<changes::vertex_numbers>(
@@ -206,7 +206,7 @@ constexpr Law change_law_table[] = {
         "With axes exchanged (turned over where that mirrors) all answers are the same."),
     law_of<changes::inside_out>(
         "Change_InsideOutSwapsSigns",
-        "With all triangles turned over V+ and V- change places; pairs and times stay, and so do "
+        "With all triangles turned over, V+ and V- change places; pairs and times stay, and so do "
         "the doubts of a verified start (L5 releases outward surfaces alone)."),
 };
 

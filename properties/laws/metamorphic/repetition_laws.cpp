@@ -50,7 +50,7 @@ std::string compare_pairs(const StepResult& whole, const StepResult& first,
   }
   if (in_halves.empty()) return {};
   const auto& pair = in_halves.begin()->first;
-  return fmt::format("({}, {}) is of a half alone", pair.a, pair.b);
+  return fmt::format("({}, {}) is in contact in a half, but not in the whole step", pair.a, pair.b);
 }
 
 // Compares every committed step of the case in two halves with the whole step, both rounded to a
@@ -139,10 +139,10 @@ bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Dete
 std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& state,
                     CasePlayer& other) {
   auto busy = busy_detector(facts);
-  if (!busy) return "no detector for the state:";
-  if (is_taken_with_one_too_few(state, *busy)) return "a state that does not fit is taken, which";
-  if (busy->restore(state)) return "the restored state is refused, which";
-  if (!busy->commit()) return "an evaluation outlives what is restored, which";
+  if (!busy) return "whether there is a detector for the state";
+  if (is_taken_with_one_too_few(state, *busy)) return "the refusal of a state that does not fit";
+  if (busy->restore(state)) return "whether the restored state is taken";
+  if (!busy->commit()) return "the refusal to commit an earlier evaluation";
   if (busy->state() != state) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
@@ -246,9 +246,9 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law repetition_law_table[] = {
     {"Change_StepHalved", "change",
-     "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
-     "the middle is exact), has the pairs of the whole, each at its time; with first contacts "
-     "alone it has the first time.",
+     "Taken in two halves, with the state carried, a step has the same pairs at the same times; if "
+     "only first contacts are asked for, it has the same first time. (Its coordinates are rounded "
+     "to a grid before, so that the middle is exact.)",
      "nothing", check_halves, one_case_in_16, PremiseScope::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
@@ -261,15 +261,13 @@ constexpr Law repetition_law_table[] = {
      "nothing", check_evaluate_changes_nothing, one_case_in_16, PremiseScope::any_culling,
      &changes::other_evaluations},
     {"Change_ThreadsDoNotShow", "change",
-     "A detector of three threads gives the same bytes as one of one thread, counts and state too, "
-     "and so does one that runs the pieces of its loops one by one, in a drawn order and in drawn "
-     "lanes.",
+     "Three threads give the same bytes as one, counts and state included; so does a detector that "
+     "runs the pieces of its loops one by one, in a drawn order and in drawn lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
-     "A state that is restored in another detector of the mesh, made from other positions and in "
-     "the "
-     "middle of another step, gives the same later results and states, and no evaluation outlives "
-     "it.",
+     "A state gives the same later results and states when it is restored in another detector of "
+     "the mesh, which was made from other positions and has evaluated another step; that "
+     "evaluation can no longer be committed.",
      "nothing", check_restored_state, one_case_in_16},
     {"Change_StepReversed", "change",
      "A sequence played back, each step from its end to its start, has the pairs of each step, and "

@@ -153,8 +153,8 @@ std::string ask_and_stop(Random& random, detector::Detector& detector, const Ask
   // With several threads the stop function may be called less often than before.
   std::string wrong = ask([&] { return ++questions == last; }, true);
   if (questions < last) return "";
-  if (wrong.empty() && !detector.commit()) wrong = "what was stopped is committed";
-  if (wrong.empty() && detector.state() != state) wrong = "what was stopped leaves a trace";
+  if (wrong.empty() && !detector.commit()) wrong = "a stopped call can be committed";
+  if (wrong.empty() && detector.state() != state) wrong = "a stopped call leaves a trace";
   return wrong;
 }
 
@@ -187,7 +187,7 @@ Reply ask_before(Question question, Random& random, CasePlayer& player, std::siz
     case Question::stopped_limit: {
       auto wrong = ask_and_stop(random, detector, stopped_limit);
       if (wrong.empty() && !is_the_same(whole, detector.limit(x_t0, x_t1)))
-        wrong = "a limit differs after one that was stopped";
+        wrong = "a limit differs after a stopped one";
       return {wrong, {}};
     }
   }
@@ -292,10 +292,10 @@ void check_options(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
-     "In a configuration that is drawn so that every two values of culling, arithmetic, start, "
-     "pairs, threads, separation, relation, question, state before the case, mesh and size meet, "
-     "the claims hold. Limits are asked for too, and steps and limits are stopped. A caller "
-     "vouches only for a start that is clean.",
+     "The claims hold in drawn configurations, in which every two values of culling, arithmetic, "
+     "start, pairs, threads, separation, relation, question, state before the case, mesh and size "
+     "meet. Some ask for limits; some stop steps or limits. Start clean is drawn only where the "
+     "start is clean.",
      "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
 };
 

@@ -30,13 +30,13 @@ std::string gap_in(const assay_detector_api& table) {
   if (!table.describe) return "a function is missing in its table: describe";
   const bool any = table.evaluate || table.commit || table.result;
   const bool all = table.evaluate && table.commit && table.result;
-  if (any != all) return "a function is missing in its table: evaluate, commit and result are one";
+  if (any != all) return "a function is missing in its table: evaluate, commit or result";
   if (!all && !table.query && !table.candidates && !table.limit)
     return "its table holds nothing to judge";
   const bool needs_handle = all || table.candidates || table.limit;
   if (needs_handle && !(table.create && table.destroy))
     return "a function is missing in its table: create or destroy";
-  if (table.count && !needs_handle) return "its table counts pairs, and takes no steps";
+  if (table.count && !needs_handle) return "its table has count, but no function for steps";
   return "";
 }
 

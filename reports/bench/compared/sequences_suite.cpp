@@ -95,7 +95,7 @@ void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
   // All cullings over bvh, for users who want to choose by themselves.
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto threads = match.subjects[i].configuration.options.threads;
-    add(fmt::format("{}, {} thread{}: sum over bvh's", culling(i), threads,
+    add(fmt::format("{}, {} thread{}: time over bvh's", culling(i), threads,
                     threads == 1 ? "" : "s"),
         ratio_in_common(sums[i], sums[0]), {},
         fmt::format("{:.2f} ms a step", median_of(sums[i]).value / static_cast<double>(steps)));
@@ -123,7 +123,7 @@ void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
   }
   add(name + ", median step", median_of(ratios), goal::auto_over_best_culling, culling(best));
   if (worst > 0) {
-    add(name + ", worst step of 1 ms", exactly(worst), goal::auto_step_over_best_culling,
+    add(name + ", worst step of 1 ms or more", exactly(worst), goal::auto_step_over_best_culling,
         fmt::format("step {}", worst_step));
   }
   add("auto over bvh, first step", ratio_in_common(runs[automatic].of_step(0), runs[0].of_step(0)),

@@ -44,7 +44,7 @@ void add_errors(std::span<const SubjectRow> rows, BenchReport& report) {
     };
     const std::string of = fmt::format("of {} steps, all cullings, all pairs and first", all.steps);
     add("wrong answers", all.missed + all.false_alarms, exact, of);
-    add("free against a contact", all.missed, is_proved, of);
+    add("answered free, with a contact", all.missed, is_proved, of);
     add("missing pairs", all.missing, is_proved, "");
     add("spurious pairs", all.spurious, exact, "");
     add("first times late", all.late.steps, is_proved, "steps");

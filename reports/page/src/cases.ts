@@ -1,4 +1,4 @@
-// What the cases were: laws met, sizes, contacts, set pairs.
+// Describes the cases: laws met, sizes, contacts, set pairs.
 import { folded, html, section, table } from "./dom";
 import { barPlot } from "./plots";
 import type { Findings, Run } from "./report";
@@ -33,7 +33,7 @@ export function laws({ findings: { laws: told }, law_statements: statements }: R
       {},
       html("strong", {}, `${counted(shown.length, "law")} of the theory were put to the cases: ${broken === 0 ? "none was broken" : `${broken} of them were broken`}.`),
       ` The premise of each held in ${counted(fewest, "step")} or more${wanted > 0 ? `, where ${count(wanted)} are wanted` : ""}. ` +
-        "A step is close when little was missing to break the law or to leave its premise.",
+        "A step is close if it almost broke the law or almost left its premise.",
     ),
     bad.length === 0 ? null : rowsOf("Laws that were broken, or met too seldom", bad),
     shown.length === bad.length ? null : folded(`What they say: ${counted(shown.length - bad.length, "law that holds", "laws that hold")}`, rowsOf("Laws, and how often each was met", shown.filter((l) => !isBad(l)))),

@@ -1,4 +1,4 @@
-// Elements made in one expression. All text goes in as text: nothing of the data is ever markup.
+// Makes an element in one expression. All data goes in as text, never as markup.
 
 export type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;

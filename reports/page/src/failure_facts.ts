@@ -1,4 +1,4 @@
-// What is known of a failure besides its picture, and the line that replays it.
+// Shows the facts about a failure besides its picture, and the line that replays it.
 import { facts, folded, html } from "./dom";
 import type { Answer, Failure, Run } from "./report";
 import { counted, size, time } from "./words";
@@ -71,7 +71,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
     ]);
   }
   if (failure.now && failure.now !== failure.what) rows.push(["In the mesh as met", failure.what]);
-  if (failure.flaky) rows.push(["Repeatable", "no: asked again by itself, it comes to something else"]);
+  if (failure.flaky) rows.push(["Repeatable", "no: its case alone gives another result"]);
   const others = failure.others.map((o) =>
     html("li", {}, `${o.id} (${o.configuration}): ${o.what}`, replayLine(o.replay)),
   );

@@ -1,4 +1,4 @@
-// Planted faults: what the harness was shown to find.
+// Planted faults: which the harness has found, and how many cases each took.
 import { folded, html, section, table } from "./dom";
 import { barPlot, shares } from "./plots";
 import type { Findings } from "./report";
@@ -17,7 +17,7 @@ function verdict(f: Fault): string {
 function canaryText(canaries: Power["canaries"]): string {
   const cases = (c: { found_after: number | null }): number => c.found_after ?? Infinity;
   const worst = [...canaries].sort((a, b) => cases(b) - cases(a))[0];
-  if (!worst) return "No canary was met.";
+  if (!worst) return "No canary was tried.";
   return worst.found_after === null
     ? `The canary (${worst.fault}) was NOT FOUND: the harness sees nothing.`
     : `The canary (${worst.fault}) was found after ${counted(worst.found_after, "case")}.`;
@@ -33,7 +33,7 @@ function byCases(faults: Fault[]): { label: string; value: number }[] {
     rows.push({ label, value: medians.filter((n) => lo <= n && n <= hi).length });
   }
   const bySomeSeeds = faults.filter((f) => f.median_cases === null && f.found_at_random).length;
-  if (bySomeSeeds > 0) rows.push({ label: "under fewer than half of the seeds", value: bySomeSeeds });
+  if (bySomeSeeds > 0) rows.push({ label: "found under fewer than half of the seeds", value: bySomeSeeds });
   return rows;
 }
 

@@ -1,5 +1,5 @@
-// What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
-// apart, the campaign; and what a plug-in does whatever it claims.
+// Shows the scope of the verdict: the detector's claims, its contract, a plug-in's isolation, and
+// the campaign. Then come the measures of a plug-in, which do not depend on its claims.
 import type { Rate, TimesOff } from "../made/certificate";
 import { facts, html, section, table } from "./dom";
 import { seedsText } from "./overview";
@@ -33,7 +33,7 @@ function repeated(list: NonNullable<Findings["repeated"]>): string[] {
 
 // What the search asked and found. Its cases are no trials.
 const searched = (s: NonNullable<Findings["search"]>): string =>
-  `${count(s.cases)} cases that were aimed, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; its archives hold ${count(s.causes.length)} causes of contact`;
+  `${count(s.cases)} aimed cases, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; its archives hold ${count(s.causes.length)} causes of contact`;
 
 // Sizes with the claims that were tried up to them, the largest first.
 function sizesOf(list: Findings["judged_up_to"]): string[] {
@@ -75,7 +75,7 @@ export function judged(f: Findings): HTMLElement {
   return section(
     "judged",
     "What was judged",
-    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody. Of meshes larger than those that tried a claim it says nothing, nor of what goes beyond the largest tried."),
+    html("p", {}, "The verdict speaks of these claims, under this contract. It says nothing about claims that were not judged, about meshes larger than those on which a claim was tried, or about cases beyond the largest tried."),
     facts(rows),
     ...measures(f),
   );
@@ -116,7 +116,7 @@ function measures(f: Findings): HTMLElement[] {
   const limits = rows.some(({ measures }) => measures.limits.free + measures.limits.contact > 0);
   const refuses = rows.some(({ measures }) => measures.left_out.refused > 0);
   return [
-    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early are shares of the step: the median of the steps that are, what 99 of 100 stay below, the worst."),
+    html("p", {}, "These counts do not depend on the claims. Intervals have a confidence of 95 %. Late and early are shares of the step: among the steps that are late or early, the median, the share that 99 of 100 stay below, and the worst."),
     table(
       "What the detector does, whatever it claims",
       [
@@ -126,8 +126,8 @@ function measures(f: Findings): HTMLElement[] {
         { head: "spurious pairs a step", cell: (r: Row) => r.measures.spurious_pairs_a_step.toPrecision(2), number: true },
         { head: "late", cell: (r: Row) => off(r.measures.late), number: true },
         { head: "early", cell: (r: Row) => off(r.measures.early), number: true },
-        ...(gives ? [{ head: "candidates, of at least", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
-        ...(limits ? [{ head: "limits: free steps cut; used until a contact: median, 99 of 100, worst", cell: (r: Row) => limitsText(r.measures.limits) }] : []),
+        ...(gives ? [{ head: "candidates, of the fewest possible", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
+        ...(limits ? [{ head: "limits: free steps cut; share used of the time until a contact: median, 99 of 100, worst", cell: (r: Row) => limitsText(r.measures.limits) }] : []),
         { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
         ...(refuses ? [{ head: "refused: capacity, steps", cell: (r: Row) => count(r.measures.left_out.refused), number: true }] : []),
       ],

@@ -1,5 +1,5 @@
-// The colours of the view sets, with how many triangles are in each at the shown step; of a detector
-// that shows none, those of the two triangles of the pair.
+// The legend: the colours of the view sets, each with its number of triangles at the shown step.
+// For a detector that shows no view sets it has the colours of the pair's two triangles.
 import { html } from "./dom";
 import type { Scene, SetName } from "./report";
 import { pairSets, setClass, setNames } from "./viewer/palette";

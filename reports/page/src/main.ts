@@ -1,4 +1,4 @@
-// The page: what it shows of each run, and which run it shows.
+// The page as a whole: the sections of a run, and the choice among several runs.
 import { addressIn, contents, failurePlace, goTo, namesOf, onFollow, parseAddress, remember } from "./address";
 import { cases, laws, worlds } from "./cases";
 import { certificate } from "./certificate";

@@ -1,4 +1,4 @@
-// The first screen: what a run comes to, what that speaks of, and beside a defect its smallest mesh.
+// The first screen: the verdict of a run, its detector and campaign, and the mesh of a defect.
 import { failurePlace } from "./address";
 import { facts, html } from "./dom";
 import type { Failure, Findings, Run } from "./report";

@@ -1,5 +1,5 @@
-// The pairs in contact of a scene: what the oracle has, what the detector has, and what its claims
-// and its contract make of that.
+// The pairs in contact of a scene, by the oracle and by the detector, and how the detector's claims
+// and contract judge each pair.
 import { html, table } from "./dom";
 import type { Contact, Scene } from "./report";
 import { time } from "./words";

@@ -1,4 +1,4 @@
-// What is folded on the screen is unfolded on paper, where nobody can open it.
+// Unfolds all folded parts for printing, because nobody can open them on paper.
 
 export function unfoldOnPaper(): void {
   const opened: HTMLDetailsElement[] = [];

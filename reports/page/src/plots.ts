@@ -1,5 +1,5 @@
-// Small plots, drawn by classes of the style sheet, whose letters keep their size in a narrow
-// window. Each has its data in a table or in words too.
+// Draws small plots by classes of the style sheet. Letters keep their size in a narrow window. The
+// data of each plot also stands in a table or in words.
 import { html } from "./dom";
 
 export interface LogRow {

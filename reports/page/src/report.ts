@@ -1,5 +1,5 @@
-// The data of the page: schema assay-report/3, reports/schemas/report.schema.json. What a run came to is
-// the predicate of a certificate, whose types are made from its schema (types.mjs).
+// The data of the page: schema assay-report/3, reports/schemas/report.schema.json. The findings of
+// a run are the predicate of a certificate, whose types are made from its schema (types.mjs).
 import type { Statement } from "../made/certificate";
 
 export type Point = [number, number, number];

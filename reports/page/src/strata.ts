@@ -34,9 +34,9 @@ function scope({ confidence }: Findings): HTMLElement {
     "div",
     { class: "scope" },
     html("p", {}, html("strong", {}, "What the bounds speak of: "),
-      "the share of cases, of this campaign\u2019s random generator, in which the detector would not hold. " +
+      "the share of cases of this campaign\u2019s random generator on which a claim does not hold. " +
       "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
-    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %, without those of the strata of sizes (size-\u2026), of which each stands alone ` +
+    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %. The bounds of the strata of sizes (size-\u2026) are not among them: each stands alone ` +
       "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
   );
 }
@@ -59,7 +59,7 @@ export function strata(f: Findings): HTMLElement {
     "Strata and bounds",
     scope(f),
     plot,
-    html("p", { class: "note" }, "A disc or a diamond: the bound; a diamond where there is a defect or the bound is not met; an upright bar: the bound wanted."),
+    html("p", { class: "note" }, "Each disc or diamond is a bound. It is a diamond if there is a defect or the bound is not met. An upright bar is the bound wanted."),
     table(
       "Trials and bounds by stratum",
       [

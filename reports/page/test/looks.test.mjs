@@ -1,6 +1,6 @@
-// How pages look: a certificate, a defect of a plug-in with a contract, a night of which shares are
-// missing, a run without a trial, and a built-in detector that fails; in light, in dark, on a
-// telephone and on paper. ASSAY_LOOKS is the folder that holds them. The pictures go into its folder
+// Tests how pages look: a certificate, a defect of a plug-in with a contract, a night with missing
+// shares, a run without a trial, and a built-in detector that fails; in light, in dark, on a
+// telephone and on paper. ASSAY_LOOKS is the folder of the pages. The pictures go into its folder
 // `looks`, for the eyes of a reviewer.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";

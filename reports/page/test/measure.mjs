@@ -1,5 +1,5 @@
-// Measures what a reader of a page would stumble over. It runs inside the page, and gives a list of
-// complaints: what is wider than the window, text that is cut off, letters that are small or pale.
+// Finds faults of layout. It runs inside the page and returns a list of complaints: elements wider
+// than the window, text that is cut off, letters that are small or pale.
 export const complaints = ({ onPaper }) => {
   const found = new Set();
   const complain = (what, element, more = "") => {

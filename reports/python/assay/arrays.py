@@ -1,6 +1,6 @@
-"""Arguments that are no array of the right kind already: converted once, exactly, or refused.
+"""Converts arguments that are not yet arrays of the right kind.
 
-A number that float64 or int32 cannot hold exactly is refused, for the answers are those of exact
+A number that float64 or int32 cannot hold exactly is refused, because answers are those of exact
 arithmetic on the numbers given.
 """
 
@@ -33,7 +33,7 @@ def queries(given, name):
 
 def _array(given, name):
     if isinstance(given, np.ma.MaskedArray):
-        raise TypeError(f"{name}: a masked array is not taken: what is masked has no place")
+        raise TypeError(f"{name}: a masked array is not taken: a masked coordinate has no value")
     try:
         return np.asarray(given)
     except ValueError as error:  # rows of different lengths

@@ -126,5 +126,5 @@ def _by_meshio(file: str) -> _Read:
     skipped = [block for block in mesh.cells if block.type in _NO_SURFACE]
     remarks = [f"not looked at: {len(block.data)} cells of type {block.type}" for block in skipped]
     if file.lower().endswith(".stl"):
-        remarks.append("meshio takes corners of an STL file that are equal as one vertex")
+        remarks.append("meshio merges equal corners of an STL file into one vertex")
     return Frames(corners, [np.ascontiguousarray(mesh.points, np.float64)], [file]), remarks

@@ -1,20 +1,20 @@
-"""A detector in Python as the plug-in calls it that serves `--detector python:MODULE:CLASS`.
+"""Calls a detector in Python, for the plug-in that serves `--detector python:MODULE:CLASS`.
 
     class Mine:
         claims = ["free-sound", "total"]                  # words of detector/plugin/README.md
-        contract = {"adjacency": "no-shared-vertex"}      # members of it; none leaves nothing out
-        def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): its own
+        contract = {"adjacency": "no-shared-vertex"}      # without it, nothing is left out
+        def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): copies
         def evaluate(self, x_t0, x_t1): ...               # float64 (n, 3) each
 
-evaluate() answers with None (free) or a result: a dict, or an object that has one of these at least
-(so that a False, or a number, is an error and not an answer):
+evaluate() answers with None (free) or a result: a dict, or an object that has at least one of these
+members (so False, or a number, is an error and not an answer):
 
-    answer   "free", "collision", "undecided"; where there is none a collision
-    first    (lo, hi), or one number; not known without it
-    pairs    (k, 2) triangles; none without it
-    times    (k, 2) or (k,) their first times; not told without it
+    answer   "free", "collision", "undecided"; if missing, "collision"
+    first    (lo, hi), or one number; if missing, not known
+    pairs    (k, 2) triangles; if missing, none
+    times    (k, 2) or (k,) their first times; if missing, not stated
 
-so what assay.Detector answers is one. Beside these a class may have name, version, commit(self) and
+A result of assay.Detector has them. Besides, a class may have name, version, commit(self) and
 
     def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
     def limit(self, x_t0, x_t1): ...                      # how far the step may be taken
@@ -23,9 +23,9 @@ so what assay.Detector answers is one. Beside these a class may have name, versi
     @staticmethod
     def use_threads(count): ...
 
-limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with what has
-`share` or `positions`, as assay.Limit has. Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken, and
-BeyondCapacity, of any but query(), one that is more than the detector holds.
+limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with an
+assay.Limit or the like. An exception is an error of its step. create() may raise Refused for a mesh,
+and every function but query() BeyondCapacity for a mesh or a step that is more than it holds.
 """
 
 import importlib
@@ -75,7 +75,7 @@ def class_of(module, name):
     finally:
         _imported = None
     if not hasattr(found, name):
-        late = ": it judges another one before, without if __name__ == '__main__'" if judges else ""
+        late = ": the module judges a detector before it defines this one; put that under if __name__ == '__main__'" if judges else ""
         raise ValueError(f"{module} has no class {name}{late}")
     sys.modules[module] = found
     return getattr(found, name)
@@ -116,7 +116,7 @@ def described(claims, contract, claim_words, members):
     numbers = dict.fromkeys(members, 0)
     for member, value in contract.items():
         if member not in members:
-            raise ValueError(f"contract: {member!r} is none of its members")
+            raise ValueError(f"contract: {member!r} is not a member of it")
         words = members[member]
         numbers[member] = _place(value, words, f"contract: {member}") if words else value
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
@@ -168,7 +168,7 @@ def parts_of(result, answers=ANSWERS):
         get(name) is None for name in ("answer", "first", "pairs", "times")
     )
     if is_bare:  # False, say, or a number
-        raise ValueError(f"{result!r} is no answer: None (free), or what has answer, first, pairs or times")
+        raise ValueError(f"{result!r} is no answer: return None (free), or an object with answer, first, pairs or times")
     answer = _place("collision" if told is None else told, answers, "answer")
     lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)
     pairs, times = pairs_of(get("pairs")), get("times")

@@ -1,4 +1,4 @@
-"""The oracle, and a detector's steps against it."""
+"""Judges meshes, and the steps of a detector, by the oracle."""
 
 from __future__ import annotations
 
@@ -281,10 +281,10 @@ def check(
     from . import _judge, hosting
 
     if detector is not None and (culling or start or pairs or arithmetic):
-        raise ValueError("culling, start, pairs and arithmetic are of the built-in detector")
+        raise ValueError("culling, start, pairs and arithmetic are options of the built-in detector")
     of_a_detector = detector is not None or culling or start or pairs or arithmetic
     if separation is not None and of_a_detector:
-        raise ValueError("separation asks the oracle, and no detector")
+        raise ValueError("separation asks the oracle, so it takes no detector and no options of one")
     asked = {
         "separation": None if separation is None else _length(separation),
         "culling": culling,
@@ -308,7 +308,7 @@ def check(
     with surroundings(detector):
         if isinstance(frames, (str, os.PathLike)):
             if bodies is not None or apart or rings or rest_distance or weld:
-                raise ValueError("which pairs count is of meshes: a case file states it")
+                raise ValueError("a case file states which pairs count: bodies, apart, rings, rest_distance and weld are for meshes")
             answer = _judge.check_files([os.fspath(frames)], asked, worker, told)
         else:
             mesh: Frames = as_frames(frames)

@@ -1,7 +1,7 @@
 """Names a detector for the programs, and asks a plug-in by hand.
 
-Another process imports a class in Python by its module, so it has to stand in a file. How a class
-looks is in hosting.py, which calls it there.
+Another process imports a class in Python by its module, so the class has to stand in a file. There
+hosting.py calls it, and says what the class must have.
 """
 
 import contextlib

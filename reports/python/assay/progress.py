@@ -1,4 +1,4 @@
-"""What is told while long work goes on."""
+"""Tells the progress of long work."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Progress = Union[None, bool, Callable[[str], None]]
 
 
 def listener(progress: Progress, end: str = "") -> Optional[Callable[[str], None]]:
-    """What is called with each text that is printed; True stands for stderr, with `end` after it."""
+    """The function that gets each printed text; True stands for stderr, with `end` after it."""
     if progress is True:
         return lambda text: print(text, end=end, file=sys.stderr, flush=True)
     return progress or None

@@ -1,4 +1,4 @@
-"""What a simulator does, recorded for `assay check`."""
+"""Records what a simulator does, for `assay check`."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Recorder:
         rest_distance: float = 0,
     ):
         if every < 0:
-            raise ValueError("every is a number of steps")
+            raise ValueError("every: a number of steps is wanted")
         rest = _frame(positions, "positions", True)
         self._vertices = len(rest)
         body = None if bodies is None else hosting.int32_of(bodies, "bodies")
@@ -101,10 +101,10 @@ class Recorder:
             if isinstance(answer, str):
                 answer = {"answer": answer, "first": first, "pairs": pairs, "times": pair_times}
             elif first is not None or pairs is not None or pair_times is not None:
-                raise ValueError("first, pairs and pair_times: the answer has its own")
+                raise ValueError("first, pairs and pair_times: this answer states them itself")
             told = hosting.parts_of(answer, hosting.ANSWERS + ("error",))
         elif any(part is not None for part in (first, pairs, pair_times, message)):
-            raise ValueError("first, pairs, pair_times and message are of an answer")
+            raise ValueError("first, pairs, pair_times and message need an answer")
         self._recorder.step(
             self._frame(x0, "x0"),
             self._frame(x1, "x1"),

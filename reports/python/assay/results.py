@@ -1,7 +1,7 @@
-"""What a step and a judgement come to. Arrays of a result are its own.
+"""The results of a step and of a judgement. Each result has arrays of its own.
 
-Triangles are numbered as the rows of the mesh, times are shares of the step, in [0, 1]: a time known
-to be between two doubles is those two, adjacent; one that is a double stands twice.
+Triangles are numbered as the rows of the mesh. Times are shares of the step, in [0, 1]. A time is a
+pair of doubles: twice the same if the time is a double, else the two adjacent doubles around it.
 """
 
 from __future__ import annotations

@@ -166,15 +166,15 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
   expect("a.glb", "glTF", "a glTF file");
   expect("a.npz", "PK", "a NumPy file; OBJ, PLY and OFF are read: ask from Python");
   expect("a.fbx", "Kaydara FBX Binary  ", "an FBX file");
-  expect("a.xyz", "0 0 0\n", "other formats are not read");
-  expect("a.us", "0 0 0\n", "other formats are not read");
+  expect("a.xyz", "0 0 0\n", "this is neither PLY nor OFF");
+  expect("a.us", "0 0 0\n", "this is neither PLY nor OFF");
   expect("utf16.obj", std::string_view("\xFF\xFEv\0", 4), "(UTF-16): save it as UTF-8");
 }
 
 TEST_F(Exported, RefusalsSayWhatWasFoundAndTheWayOn) {
   const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_TRUE(
-      says(mesh_problem("comma.obj", "v 0,5 0 0\n"), "is no number: decimals have a point"));
+      says(mesh_problem("comma.obj", "v 0,5 0 0\n"), "is no number: write decimals with a point"));
   EXPECT_TRUE(says(mesh_problem("wire.obj", v3 + "l 1 2\nl 2 3\n"),
                    "3 vertices and no triangle; not looked at: 2 lines (l)"));
   EXPECT_TRUE(says(mesh_problem("strips.ply",

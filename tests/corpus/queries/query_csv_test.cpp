@@ -105,9 +105,9 @@ TEST_F(QueryCsv, Problems) {
   expect_problem("the label is neither 0 nor 1", "line 1", "1,1,3,4,5,8,2\n" + rows(",1", 7));
   expect_problem("is not a whole number", "line 1", "1,1,3,4,5,\n" + rows("", 7));
   expect_problem("the label is neither 0 nor 1", "line 1", rows(","));
-  expect_problem("x,y,z, or numerator,denominator of each", "line 2: 2 columns",
+  expect_problem("3 (x,y,z) or 6 (numerator and denominator of each)", "line 2: 2 columns",
                  rows("", 1) + "1,1\n");
-  expect_problem("x,y,z, or numerator,denominator of each", "line 2: 9 columns",
+  expect_problem("3 (x,y,z) or 6 (numerator and denominator of each)", "line 2: 9 columns",
                  rows("", 1) + "1,1,3,4,5,8,1,1,1\n");
   expect_problem("y: \"a\" is no number that is finite", "line 1", "0.5,a,1\n" + rows("", 7));
   expect_problem("z: \"1e999\" is no number that is finite", "line 1", "0 0 1e999\n");
@@ -118,13 +118,12 @@ TEST_F(QueryCsv, Problems) {
   expect_problem("no double has this value", "line 1: z", "1,1,3,4,5,7\n" + rows("", 7));
   expect_problem("no double has this value", "line 1: x",
                  "1" + std::string(400, '0') + ",1,3,4,5,8\n");
-  expect_problem("label is not that of its query's first row", "line 3",
+  expect_problem("label differs from the query's first row", "line 3",
                  rows(",1", 2) + rows(",0", 6));
-  expect_problem("label is not that of its query's first row", "line 8",
-                 rows(",1", 7) + rows("", 1));
-  expect_problem("separation is not that of its query's first row", "line 4",
+  expect_problem("label differs from the query's first row", "line 8", rows(",1", 7) + rows("", 1));
+  expect_problem("separation differs from the query's first row", "line 4",
                  rows(",1,2", 3) + rows(",1,3", 5));
-  expect_problem("separation is not that of its query's first row", "line 4",
+  expect_problem("separation differs from the query's first row", "line 4",
                  rows(",1,2", 3) + rows(",1", 5));
   expect_problem("the file is empty", "q.csv", "");
   EXPECT_TRUE(says(read_queries(folder() / "absent-vf.csv"), "cannot be read"));

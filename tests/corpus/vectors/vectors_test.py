@@ -417,11 +417,11 @@ class Committed(unittest.TestCase):
         opposite = "free" if whole.json["result"] != "free" else "collision"
         for change, line in (
                 (lambda w, a, b: None, None),
-                (lambda w, a, b: b.pop("split_of"), "has not two halves"),
-                (lambda w, a, b: (a.pop("split_of"), b.pop("split_of")), "has not two halves"),
-                (lambda w, a, b: a.update(t0=b["t0"]), "its halves are none"),
-                (lambda w, a, b: a.update(split_of="nothing"), "half of a case that is not there"),
-                (lambda w, a, b: w.update(result=opposite), "another result whole")):
+                (lambda w, a, b: b.pop("split_of"), "it does not have two halves"),
+                (lambda w, a, b: (a.pop("split_of"), b.pop("split_of")), "it does not have two halves"),
+                (lambda w, a, b: a.update(t0=b["t0"]), "its halves do not make up"),
+                (lambda w, a, b: a.update(split_of="nothing"), "half of a case that is missing"),
+                (lambda w, a, b: w.update(result=opposite), "its result differs from that of its halves")):
             cases = [copy.deepcopy(case) for case in (whole, *halves)]
             change(*(case.json for case in cases))
             by_id = {case.id: case for case in cases}
@@ -497,11 +497,11 @@ class Checking(InScratch):
         def change(key, value):
             return lambda group: first(group).update({key: value})
         for wrong, line in (
-                (change("first_time", [0.5, 0.75]), "neither a double nor two that are neighbours"),
+                (change("first_time", [0.5, 0.75]), "neither one double nor two neighbouring"),
                 (change("first_time", [0.75, 0.75]), "its polynomial has no zero in first_time"),
                 (change("first_time", [2.0, 2.0]), "first_time is not two times of the step"),
                 (change("result", "maybe"), "result is not one of"),
-                (change("result", "free"), "free, and yet with a first time"),
+                (change("result", "free"), "it is free, but has a first time"),
                 (change("flags", ["Unheard"]), "set.json knows no flag Unheard"),
                 (change("id", "vf-d-0002"), "case vf-d-0002 is there twice"),
                 (change("id", "a b"), "id is not a name"),
@@ -509,13 +509,13 @@ class Checking(InScratch):
                 (change("polynomial", ["0.5"]), "polynomial is not a list of whole numbers"),
                 (lambda group: first(group).pop("about"), "no field about"),
                 (lambda group: group.update(precision="float32"), "precision is not one of double"),
-                (lambda group: group["cases"].pop(), "11 cases stated, 10 there")):
+                (lambda group: group["cases"].pop(), "it states 11 cases, and its groups hold 10")):
             self.refused(["check", self.changed(wrong)], line)
         self.refused(["check", self.changed(lambda group: first(group)["t1"][0].__setitem__(0, 0.1),
                                             "vertex-face-distance-float32")], "no float")
         self.refused(["check", self.changed(
             lambda group: first(group)["steps"][1].update(pairs=[[0, 2, 0.5, 0.5]]),
-            "steps-double")], "pairs are not two triangles")
+            "steps-double")], "a pair is not two triangles")
         self.refused(["check", self.changed(change("about", "x"), seal=False)], "changed: ")
         self.refused(["check", self.scratch / "none"], "set.json: No such file")
 
@@ -534,7 +534,7 @@ class Checking(InScratch):
         other = self.changed(lambda group: group["cases"][0].update(about="Another."))
         self.refused(["score", file, "--set", other], "results of another set")
         for name, answer, line in (("vf-d-9999", {"answer": "free"}, "no such case"),
-                                   ("vf-d-0001", {"answer": "share", "share": 0.5}, "another question"),
+                                   ("vf-d-0001", {"answer": "share", "share": 0.5}, "no answer to the question"),
                                    ("vf-d-0001", {"answer": "perhaps"}, "answer is not one of"),
                                    ("vf-d-0001", {"answer": "collision", "time": [1, 0]}, "time is"),
                                    ("st-d-0001", {"steps": [{"answer": "free"}]}, "not 3 steps"),

@@ -257,7 +257,7 @@ const Change search_planned = [](auto& f) { f.run.plan.search = 1000; };
 TEST(Gates, TheSearchAsksAllOfItsCases) {
   expect_certified({search_planned, lane("001", 500), lane("002", 500)});
   expect_incomplete({search_planned, lane("001", 500)},
-                    "the search has finished lanes of 500 of 1000 cases");
+                    "the search has finished 500 of its 1000 cases");
   expect_incomplete({search_planned, lane("001", 500), lane("002", 500, 3)},
                     "3 cases of the search have no verdict");
   const Change none_taken = [](auto& f) {
@@ -276,11 +276,11 @@ TEST(Gates, CompleteSaysWhichOfItsReasonsEndWhenTheRunGoesOn) {
   EXPECT_EQ(remedy(1000, 0), "");
   EXPECT_EQ(remedy(500, 0), "the same command, run again, goes on with what is missing");
   EXPECT_EQ(remedy(1000, 3),
-            "the same command, run again, mends none of this; other seeds, a larger campaign or "
+            "the same command, run again, cannot mend this; other seeds, a larger campaign or "
             "another contract may");
   EXPECT_EQ(
       remedy(500, 3),
-      "the same command, run again, goes on with what is missing, and does not mend: 3 cases "
+      "the same command, run again, goes on with what is missing, but cannot mend: 3 cases "
       "of the search have no verdict; other seeds, a larger campaign or another contract may");
 }
 

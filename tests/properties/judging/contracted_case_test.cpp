@@ -102,7 +102,7 @@ TEST(ContractedCase, WhoStopsByAShareGetsNoWayThatOverflows) {
   contract.limit_gives = LimitGives::start_plus;
   expect_taken(near, contract);
   expect_left_out(far, contract,
-                  "stops at start-plus: the way of a vertex is beyond the largest number");
+                  "stops at start-plus: a vertex moves farther than the largest number");
   contract.limit_gives = LimitGives::blend;
   expect_taken(far, contract);
 }
@@ -131,7 +131,7 @@ TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
   expect_left_out(case_of_query(q, "short"), range,
                   "frame 1 of 2: edge 3-1 is 0.25 long, below least_nonzero, 0.5");
   expect_left_out(case_of_query(q, "other"), {.features = TestedFeatures::edge_edge},
-                  "features edge-edge: the query is one of vertex-face");
+                  "features edge-edge: this query is vertex-face");
 }
 
 TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
@@ -139,8 +139,8 @@ TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
                   "start free: triangles 0 and 1 are in contact where the step starts");
   expect_left_out(
       at_heights({1.25, 1, 2}), {.start = StartRule::apart, .start_distance = 1.5},
-      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and every other "
-      "step starts so");
+      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and likewise "
+      "for every other step");
   auto large = at_heights({1, 2});
   expect_taken(large, {.coordinates = Coordinates::float32});
   large.frames[0](0, 0) = 1e300;
@@ -210,7 +210,7 @@ TEST(Contracted, ADisplacementEndsAtTheExactSum) {
   EXPECT_EQ(second->frames[0](1, 0), 1);
   c.frames.pop_back();
   EXPECT_FALSE(contract_case(c, contract));
-  EXPECT_NE(why_left_out(c, contract).find("no double"), std::string::npos);
+  EXPECT_NE(why_left_out(c, contract).find("ends at doubles"), std::string::npos);
   EXPECT_EQ(fault_of(contract), "");
   contract.coordinates = Coordinates::float64;
   EXPECT_NE(fault_of(contract), "");

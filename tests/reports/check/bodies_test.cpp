@@ -41,7 +41,7 @@ TEST_F(CheckedBodies, ApartDoNot) {
   expect_ended(bodies + " --apart 1,0 --second-opinion 1", 0);
   // A plug-in that cannot be told is asked about all pairs, and says so.
   expect_ended(bodies + " --apart 1,0 --detector " + plugin("wrapped_builtin"), 0,
-               {"it cannot be told which pairs count, so all do", "collision at t ="});
+               {"it has no function `count`, so all pairs count", "collision at t ="});
   expect_ended(bodies + " --apart 1,0 --detector " + plugin("takes_relations"), 0,
                {"no collision"});
 }
@@ -98,7 +98,7 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
   expect(" --rest-distance 0.001", 0, "no collision");
   expect(" --rings 1", 5, "collision at t = 0");
   // Welded, all four faces have an edge in common.
-  expect(" --weld --rings 1 --separation 0", 0, "no two triangles count");
+  expect(" --weld --rings 1 --separation 0", 0, "least distance: none, because no pair counts");
 }
 
 TEST_F(CheckedBodies, BadWordsAreOneLine) {

@@ -400,7 +400,7 @@ def test_a_contact_without_a_named_feature_has_no_place(pair):
     same = result.features.copy()
     same[:, 0] = assay.FEATURE_KINDS.index("same_vertices")
     assert np.all(np.isnan(assay.contact_places(replace(result, features=same)).point))
-    with pytest.raises(ValueError, match="a vertex that the pair has not"):
+    with pytest.raises(ValueError, match="a vertex that is not of the pair"):
         assay.contact_places(replace(result, pairs=result.pairs * 0))
     with pytest.raises(ValueError, match="features: no such kind"):
         assay.contact_places(replace(result, features=result.features + 8))

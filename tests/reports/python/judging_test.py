@@ -131,7 +131,7 @@ def test_doubled_corners_are_welded_and_near_pairs_left_out(pair):
             assay.check((triangles, [x, x]), rings=rings)
     with pytest.raises(assay.InputError, match="frame 1: vertex 0 has a coordinate that is not"):
         assay.check((triangles, [x, x * np.nan]))
-    with pytest.raises(ValueError, match="a case file states it"):
+    with pytest.raises(ValueError, match="a case file states which pairs count"):
         assay.check("a.json", weld=True)
 
 

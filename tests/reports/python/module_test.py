@@ -194,7 +194,7 @@ def test_a_class_that_a_script_defines_after_it_judged_another_is_refused_in_a_l
     (mine / "script.py").write_text(textwrap.dedent(text))
     last = printed_by([sys.executable, "script.py"]).splitlines()[2:]
     assert len(last) == 1
-    assert "script has no class Late: it judges another one before" in last[0]
+    assert "script has no class Late: the module judges a detector before" in last[0]
 
 
 def test_a_class_of_a_notebook_is_refused_in_a_line():

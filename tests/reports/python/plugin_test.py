@@ -192,7 +192,7 @@ def test_what_goes_wrong_is_told(mine, frames, name, outcome, text):
     "word, text",
     [
         ("python:mine:WrongClaim", "'fast' is none of free-sound"),
-        ("python:mine:WrongContract", "'colour' is none of its members"),
+        ("python:mine:WrongContract", "'colour' is not a member"),
         ("python:mine:Absent", "mine has no class Absent"),
         ("python:absent:Mine", "No module named 'absent'"),
         ("python:mine", "python:MODULE:CLASS is wanted"),

@@ -125,7 +125,7 @@ def test_an_answer_may_be_that_of_a_detector(path, pair):
     with assay.Recorder(path, pair.triangles, pair.x_t0, **MINE) as recorder:
         recorder.step(pair.x_t0, pair.x_t1, answer=result)
         recorder.step(x1=pair.x_t0)
-        with pytest.raises(ValueError, match="has its own"):
+        with pytest.raises(ValueError, match="states them itself"):
             recorder.step(x1=pair.x_t0, answer=result, first=0.5)
     first, second = records(path)[1:3]
     assert (first["first_lo"], first["first_hi"]) == result.first
@@ -148,10 +148,10 @@ def test_rows_apart_other_numbers_and_nan_are_recorded(path, pair):
 def test_what_is_wrong_is_refused_in_one_line(path, pair):
     for words, text in (
         ({"claims": ["all-sound"]}, "claims: 'all-sound' is none of free-sound"),
-        ({"contract": {"adjacent": 1}}, "'adjacent' is none of its members"),
+        ({"contract": {"adjacent": 1}}, "'adjacent' is not a member"),
         ({"contract": {"start": "never"}}, "contract: start: 'never' is none of"),
         ({"bodies": [0]}, r"bodies: shape \(1,\) is not \(8,\)"),
-        ({"every": -1}, "every is a number"),
+        ({"every": -1}, "every: a number of steps is wanted"),
     ):
         with pytest.raises(ValueError, match=text):
             assay.Recorder(path, pair.triangles, pair.x_t0, **MINE, **words)
@@ -166,7 +166,7 @@ def test_what_is_wrong_is_refused_in_one_line(path, pair):
         (lambda: recorder.step(pair.x_t0, pair.x_t1.T), ValueError, r"x1: shape \(3, 8\)"),
         (lambda: recorder.step(pair.x_t0, "abc"), TypeError, "x1: real numbers"),
         (lambda: recorder.step(pair.x_t0, pair.x_t1, answer="maybe"), ValueError, "'maybe' is none of"),
-        (lambda: recorder.step(pair.x_t0, pair.x_t1, first=0.5), ValueError, "are of an answer"),
+        (lambda: recorder.step(pair.x_t0, pair.x_t1, first=0.5), ValueError, "need an answer"),
     ):
         with pytest.raises(error, match=text):
             call()

@@ -37,8 +37,8 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
   expect_refused("help chekc", "unknown verb 'chekc'; did you mean check?");
-  expect_refused("judge steps.log", "judge is check: assay check LOG");
-  expect_refused("help check-queries", "check-queries is check: assay check QUERIES.csv");
+  expect_refused("judge steps.log", "judge is now check: assay check LOG");
+  expect_refused("help check-queries", "check-queries is now check: assay check QUERIES.csv");
   expect_refused("versoin", "unknown verb 'versoin'; did you mean version?");
 }
 

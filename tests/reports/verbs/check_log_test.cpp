@@ -206,7 +206,7 @@ TEST_F(CheckLog, TenOfAKindAreKept) {
     log.step(&sequence_.frames[collision_], sequence_.frames[collision_ + 1],
              with_a_miss()[collision_]);
   log.end();
-  expect_ended("check " + path + " --keep " + out, 1, {"not kept, 10 of its kind are"});
+  expect_ended("check " + path + " --keep " + out, 1, {"not kept, because 10 of its kind are"});
   EXPECT_TRUE(std::filesystem::exists(out + "/step-10"));
   EXPECT_FALSE(std::filesystem::exists(out + "/step-11"));
 }

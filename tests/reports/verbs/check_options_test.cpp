@@ -94,7 +94,7 @@ TEST_F(CheckOptions, EachIsTakenByItsKindsAloneAndTheRefusalNamesBoth) {
       const bool is_one = words.find(" --") == std::string::npos && words.find("--det") != 0;
       if (is_taken || !is_one) continue;
       expect_refused(outcome, name_in(words) + " is for ");
-      expect_refused(outcome, std::string("and this is ") + said[k]);
+      expect_refused(outcome, std::string("but this is ") + said[k]);
       expect_refused(outcome, "leave it out, or assay check ");
     }
   }
@@ -199,7 +199,7 @@ TEST_F(CheckOptions, TheBytesTellTheKindAndThenTheName) {
   expect_refused("check " + scratch.write("none.bin", "noise\n"), "it begins with \"noise\": ");
   expect_refused("check " + scratch.write("none", "\x01\x02"), "no text: ");
   expect_refused("check " + scratch.write("none.log", "no log"),
-                 "Nor is it a case file, a log or a query file (assay check --help)");
+                 "and it is no case file, log or query file (assay check --help)");
   expect_refused("check " + scratch.write("cloud.xyz", "0 0 0\n1 0 0\n"),
                  "it begins with \"0 0 0\"");
   expect_refused("check " + scratch.write("a.gltf", "{\"asset\": {}}"), "a glTF file");

@@ -58,7 +58,7 @@ TEST_F(SeparationCommand, OffsetsOfTwoBodiesAddUp) {
   EXPECT_EQ(report["offsets"], json::array({0.5, 1.5}));
   EXPECT_TRUE(report["separation"].is_null());
   EXPECT_TRUE(says(run_assay(bodies + "--offset 0 --offset 0.5").out,
-                   "apart: never within the offsets of two bodies together; least distance 1\n"));
+                   "apart: never within the sum of two bodies' offsets; least distance 1\n"));
   EXPECT_TRUE(says(run_assay(bodies + "--offset 1").err, "1 offsets for 2 bodies"));
 }
 

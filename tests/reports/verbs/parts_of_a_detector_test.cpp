@@ -156,7 +156,7 @@ TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
   expect_ended(asked(within + " miss-inside miss-at-start", check), 1,
                {"broken: free-sound, by 5 queries"});
   expect_refused(asked(within, check + " --separation 2"),
-                 "--separation 2: query alone 1 answers by that of its contract, 3");
+                 "--separation 2: query alone 1 answers for the separation of its contract, 3");
 }
 
 TEST_F(Parts, ACampaignOfQueriesIsCertifiedAndVerified) {

@@ -59,7 +59,7 @@ TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
 }
 
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
-  const std::string line = "\nas in the campaign, the detector is given its start as clean\n";
+  const std::string line = "\nas in the campaign, the detector is told that its start is clean\n";
   int told = 0, clean_but_even = 0, odd_but_not_clean = 0;
   for (const std::string name : {"closed-generic", "broken"}) {
     for (std::uint64_t index = 0; index < 6; ++index) {
@@ -158,7 +158,7 @@ TEST(Replay, WhyTellsOfADistanceWhereTheCaseHasASeparation) {
              {"moving boxes grown by 1.5 meet\n",
               "oracle: never within 1.5; least distance 1.7320508075688774\n"});
   expect_why("1.5", "0,2",
-             {"a common vertex: not asked with a separation; ", "oracle: not asked\n"});
+             {"a common vertex: a separation leaves such pairs out; ", "oracle: not asked\n"});
 }
 
 TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {

@@ -102,7 +102,7 @@ TEST_F(Run, WhatAllLostContactsShareIsTold) {
     const auto said = judged(library);
     const std::regex told(
         "\nall \\d+ kinds of failure lose a contact: [^\n]*" + shared +
-        R"([^\n]* \(\d of \d+ colliding cases that hold ha(s|ve) such a contact\)\n)");
+        R"([^\n]* \(of \d+ colliding cases without a failure, \d ha(s|ve) such a contact\)\n)");
     std::smatch line;
     ASSERT_TRUE(std::regex_search(said, line, told)) << said;
     const auto listed = run_assay("list failures " + out + "-" + library).out;
@@ -203,7 +203,7 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
       expect_ended(verdict("example"), 0,
                    {"neighbours no-shared-vertex",
                     "steps it does not report a contact, as its contract allows "
-                    "(neighbours no-shared-vertex): without that, these were misses\n"});
+                    "(neighbours no-shared-vertex): otherwise these would be misses\n"});
   EXPECT_FALSE(contains(example.out, "in 0 steps it does not report")) << example.out;
 
   const auto alarm = expect_ended(verdict("always_collision"), 1, {"DEFECT no-spurious: "});

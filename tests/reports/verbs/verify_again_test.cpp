@@ -41,7 +41,7 @@ class VerifyAgain : public RunFixture {
     expect_ended(verify("--again 1 --seed 3"), 1,
                  {line, "NOT VERIFIED: " + out +
                             "/certificate.json, 32 of 32 trials "
-                            "run again, seed 3; it says nothing\n"});
+                            "run again, seed 3; it proves nothing\n"});
   }
 };
 
@@ -64,7 +64,7 @@ TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
     forge(id, [&](TrialRecord& record) { record.*number = was; });
   }
   forge(id, [](TrialRecord& record) { record.mesh = 7654; });
-  expect_named(fmt::format("trial {}: its mesh is another one\n", id));
+  expect_named(fmt::format("trial {}: its mesh differs from the stored one\n", id));
   expect_problem(verify("--again 1 --detector " + plugin("always_free")), "the built-in detector");
 }
 

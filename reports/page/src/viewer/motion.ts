@@ -1,5 +1,5 @@
-// Where everything is at a time of a scene. Times run over the steps: 1.25 is a quarter into the
-// second step. Places are brought into a box of size one about the origin.
+// Gives the place of everything at a time of a scene. Times run over the steps: 1.25 is a quarter
+// into the second step. Places are scaled into a box of size one about the origin.
 import type { Moving, Point, Scene, Step } from "../report";
 
 export class Motion {

@@ -1,4 +1,4 @@
-// Colours of the page's style sheet, for what is drawn outside of it.
+// Reads the colours of the page's style sheet, for the 3D picture.
 import { Color } from "three";
 import type { SetName } from "../report";
 

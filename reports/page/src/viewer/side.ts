@@ -1,4 +1,4 @@
-// From which side a pair of triangles is best seen.
+// Chooses the side from which a pair of triangles is best seen.
 import type { Point } from "../report";
 
 const minus = (a: Point, b: Point): Point => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

@@ -1,4 +1,4 @@
-// What moves in the 3D picture: triangles, edges, the pair, ghosts, the view primitive.
+// The moving parts of the 3D picture: triangles, edges, the pair, ghosts, the view primitive.
 import {
   BufferAttribute,
   BufferGeometry,

@@ -1,4 +1,4 @@
-// Slider, play, and stops at the exact contact and at the detector's.
+// The slider of the time, play, and buttons for the exact contact and the detector's contact.
 import { html } from "../dom";
 import { shortTime } from "../words";
 
