@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "detector/exact/bernstein.h"
 #include "detector/mesh/step_types.h"
@@ -60,16 +59,21 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 // (bernstein.h). side_error is this and one u more.
 inline constexpr double side_error = 9 * unit_roundoff;
 
+// Returns the sign of this minor, or 0 if it is not sure.
+inline int sure_sign_of_minor(double minor, double m_p, double m_q) {
+  if (!(m_p > least_magnitude && m_p < greatest_magnitude) ||
+      !(m_q > least_magnitude && m_q < greatest_magnitude)) {
+    return 0;
+  }
+  return sign_beyond(minor, side_error * m_p * m_q);
+}
+
 // Returns the sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
 inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
   const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
   const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
-  const double mp = std::max(std::abs(bp), std::abs(cp)), mq = std::max(std::abs(bq), std::abs(cq));
-  if (!(mp > least_magnitude && mp < greatest_magnitude) ||
-      !(mq > least_magnitude && mq < greatest_magnitude)) {
-    return 0;
-  }
-  return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
+  return sure_sign_of_minor(bp * cq - bq * cp, std::max(std::abs(bp), std::abs(cp)),
+                            std::max(std::abs(bq), std::abs(cq)));
 }
 
 // Returns the normal (b-a) x (c-a), and sets sides[k] to sure_side(a, b, c, k).
@@ -77,14 +81,10 @@ inline Vector normal_and_sides(const Point& a, const Point& b, const Point& c,
                                std::array<int, 3>& sides) {
   const Vector p = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
                q = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, normal = cross(p, q);
-  std::array<double, 3> most;  // infinite where it is out of range: no side is sure with it
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double m = std::max(std::abs(p[k]), std::abs(q[k]));
-    most[k] =
-        m > least_magnitude && m < greatest_magnitude ? m : std::numeric_limits<double>::infinity();
-  }
-  for (std::size_t k = 0; k < 3; ++k)
-    sides[k] = sign_beyond(normal[k], side_error * most[(k + 1) % 3] * most[(k + 2) % 3]);
+  const auto most = [&](std::size_t k) { return std::max(std::abs(p[k]), std::abs(q[k])); };
+  const double x = most(0), y = most(1), z = most(2);
+  sides = {sure_sign_of_minor(normal[0], y, z), sure_sign_of_minor(normal[1], z, x),
+           sure_sign_of_minor(normal[2], x, y)};
   return normal;
 }
 

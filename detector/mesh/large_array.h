@@ -8,7 +8,6 @@
 // has no such pages, nothing is asked. Small arrays are like any other.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -71,10 +70,5 @@ struct LargeAllocator {
 
 template <class Value>
 using LargeArray = std::vector<Value, LargeAllocator<Value>>;
-
-template <class Value>
-bool operator==(const LargeArray<Value>& a, const std::vector<Value>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
-}
 
 }  // namespace assay::detector

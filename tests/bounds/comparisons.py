@@ -8,7 +8,7 @@ ROOT = HERE.parent.parent
 # A line of code that calls a function that compares with a bound, compares with something that is
 # named like a bound or an end of a range, or makes a bound.
 FOUND = [re.compile(p) for p in (
-    r"\b(sign_beyond|sure_sign|same_side|sure_side|sure|sure_value_sign|apart|apart_at_start"
+    r"\b(sign_beyond|sure_sign|same_side|sure_side|sure_sign_of_minor|sure|sure_value_sign|apart|apart_at_start"
     r"|is_surely_near|boxes_are_apart|misses|separated_along_an_axis)(<[^()]*>)?\(",
     r" [<>]=? .*\b\w*(bound|error|slack|margin|minus|radius|unit)_?\b",
     r"\b\w*(bound|error|slack|margin|radius)_? [<>]=? ",

@@ -52,6 +52,9 @@ void claim_instants(Claims& claims) {
     sure_side(point("x", 0), point("x", 1), point("x", 2), axis);
     claims.write_obligations("side");
   }
+  std::array<int, 3> sides;
+  normal_and_sides(point("x", 0), point("x", 1), point("x", 2), sides);
+  claims.write_obligations("side");
   // No component of the direction is a power of two: products with it are rounded.
   filtered_signs<ProvedBounds>({point("c", 1), point("c", 2), point("c", 3)},
                                {point("o", 4), point("o", 5), point("o", 6)}, {3, 5, 7});

@@ -1,5 +1,8 @@
 // Winding numbers, and distances of features at rest.
+#include <random>
+
 #include "detector/geometry/near_regions.h"
+#include "detector/geometry/orientation.h"
 #include "detector/geometry/winding.h"
 #include "tests/asked.h"
 #include "tests/detector/points.h"
@@ -36,6 +39,20 @@ TEST(Winding, FarFromTheOriginAndTiny) {
   const Positions tiny = octahedron_positions(0x1p-1070);
   EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0, 0, 0}), 1);
   EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0x1p-1000, 0, 0}), 0);
+}
+
+TEST(Sides, OfAllAxesAtOnceAreThoseOfEach) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 3'000; ++i) {
+    const double unit = std::ldexp(1.0, i % 3 == 0 ? 0 : i % 3 == 1 ? -530 : 530);
+    Point p[3];
+    for (auto& point : p) {
+      for (auto& x : point) x = unit * static_cast<double>(random() % 5);
+    }
+    std::array<int, 3> sides;
+    normal_and_sides(p[0], p[1], p[2], sides);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(sides[k], sure_side(p[0], p[1], p[2], k));
+  }
 }
 
 // A triangle that has become a point crosses no ray, and must not spoil every one.
