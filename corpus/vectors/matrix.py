@@ -5,6 +5,8 @@ beside its colour. Below stand the misses of each product, each with its sentenc
 give the same bytes. `vectors.py score --out FILE.html` writes it.
 """
 import collections
+import statistics
+from pathlib import Path
 
 import vectors
 
@@ -37,11 +39,16 @@ th, td { border-bottom: 1px solid var(--line); padding: .35rem .5rem; text-align
   vertical-align: top; }
 th:first-child, td.words { text-align: left; }
 thead th { vertical-align: bottom; }
-.wide { overflow-x: auto; }
-.matrix tbody th { min-width: 12rem; }
+.wide { overflow: auto; max-height: 92vh; }
+.wide th:first-child { position: sticky; left: 0; background: var(--ground); font-weight: 600; }
+.wide thead th { position: sticky; top: 0; z-index: 1; background: var(--ground); }
+.wide thead th:first-child { z-index: 2; }
+.matrix tbody th { min-width: 17rem; }
+[title] { cursor: help; }
 .matrix thead th:not(:first-child) { min-width: 4.2rem; max-width: 7rem; overflow-wrap: anywhere; }
 .matrix small, .chip small { display: block; line-height: 1.3; }
-.matrix td { white-space: nowrap; }
+.matrix td, .matrix code { white-space: nowrap; }
+.matrix code { display: block; }
 .matrix td b, .chip b { font-weight: 600; }
 .bad { background: var(--bad-ground); } .bad b { color: var(--bad); }
 .open { background: var(--open-ground); } .open b { color: var(--open); }
@@ -54,6 +61,8 @@ thead th { vertical-align: bottom; }
 @media (max-width: 640px), print {
   thead { display: none; }
   tbody, tr, tbody th { display: block; }
+  .wide { max-height: none; }
+  .wide th:first-child { position: static; }
   tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(6.2rem, 1fr)); gap: .25rem;
     padding: .5rem 0; border-bottom: 1px solid var(--line); }
   th, td { border: 0; text-align: left; }
@@ -70,35 +79,56 @@ thead th { vertical-align: bottom; }
 """
 
 LEGEND = """<ul class="legend">
-<li class="chip bad"><b>&#x2717; 3/17</b> <small>3 of 17 cases missed</small></li>
-<li class="chip open"><b>! 0/17</b> <small>none missed, but late times, alarms or answers missing</small></li>
-<li class="chip good"><b>&#x2713; 0/17</b> <small>all right</small></li>
-<li class="chip none">&ndash; <small>not asked, or not supported</small></li>
+<li class="chip bad"><b>&#x2717; 3/17</b> <small>17 cases of the row asked, 3 missed</small></li>
+<li class="chip open"><b>! 0/17</b> <small>none missed, but late, alarms or unanswered</small></li>
+<li class="chip good"><b>&#x2713; 0/17</b> <small>all 17 right</small></li>
+<li class="chip none">&ndash; <small>none asked: the contract leaves all of the row out</small></li>
 </ul>
+<p>A case counts once in a cell, as the worst of its steps: missed, late, alarm, unanswered or
+right. The number asked includes the unanswered, not the unsupported, so it differs between
+products. Rest the pointer on a cell for all its counts. Colours mean the same in all tables. <b>To
+ask again</b> the cases of a row: <code>python3 corpus/vectors/vectors.py run --detector
+build/release/peers/NAME.so --group ROW</code>, for Assay <code>--arithmetic NAME</code>; README.md
+says what that needs.</p>
 """
 
-WORDS = """<p>A <b>miss</b> is the answer free where features meet, or a share of a step that is not
-safe. It counts even if the product does not promise to find such contacts: some products test only
-vertices against faces, or state that they miss contacts. <code>corpus/peers</code> states what its
-products promise, and its FINDINGS.md what causes the defects. A <b>late</b> time is a first time
-after the contact, even if only in the last digit. An <b>alarm</b> is a contact that does not exist.
-<b>Unanswered</b> cases ended undecided, by an error, a crash, or no answer in time.
-<b>Unsupported</b> cases were not asked, because the product's contract leaves them out. Where features
-only touch, be it at the end of the step, both answers are right: a section below counts such answers.
-<b>To run it again</b>: <code>vectors.py run --detector LIB.so</code> asks a product all cases, and
-those of a row with the options that stand in the row; <code>vectors.py flags</code> says what each flag
-means.</p>\n"""
+ORIGIN = """<p>Assay is this project's own detector; the others are public code, behind plug-ins.
+The answers were computed exactly by Assay's oracle (<code>make_group.py</code>), and held against
+methods that share no arithmetic with it: CGAL's algebraic kernel, and a referee that knows no
+polynomial. vectors_test.cpp proves each case again.</p>\n"""
+
+WORDS = """<ul>
+<li>A <b>miss</b> is the answer free where features meet, or a share of a step that is not safe. It
+counts even if the product does not promise to find such contacts: <code>corpus/peers</code> states
+what each promises, and its FINDINGS.md what causes the defects.</li>
+<li>A <b>late</b> time is a first time after the contact, even if only in the last digit; &ndash; in
+this column: it tells no time. An <b>alarm</b> is a contact that does not exist: false, but
+safe.</li>
+<li><b>Unanswered</b> is undecided, an error, a crash, or a timeout: no answer in 2 to 10 s.</li>
+<li><b>Unsupported</b> cases were not asked, because the contract leaves them out. All plug-ins here
+leave out distances, limits (how far a step may go), starts in contact, coordinates above 1e6, and
+edges shorter than 1e-6 but not 0; what one leaves out beside that stands below its name. Rest the
+pointer on the number to see how many cases of which flag those are.</li>
+<li>Where features <b>only touch</b>, as at the end of the step, both answers are right here. A
+product's own promise can still make one of them wrong: the first of FINDINGS.md is such a
+case.</li>
+<li>Lengths such as eta are in the unit of the coordinates. Times are shares of the step.</li>
+</ul>\n"""
 
 TOUCHING = """<h2>Where features only touch</h2>
-<p>For closed sets these cases are contacts; a product that counts only overlaps answers free. Both \
-are right, and a product should hold to one of them.</p>\n<ul>\n"""
+<p>Counted are steps. For closed sets they are contacts; a product that counts only overlaps \
+answers free, or a limit behind the touch. Both are right, and a product should hold to one of \
+them.</p>\n<ul>\n"""
+
+# Words: of a product, its plug-in or arithmetic, and what it is and leaves out; of a flag, its
+# meaning and pitfall, where set.json needs more; of the kinds of a group.
+MORE = vectors.read_json(Path(__file__).with_name("matrix.json"))
 
 # What is counted of a product, and the words that stand before the ids.
-LISTED = (("late", "Late times"), ("alarm", "Alarms"), ("crash", "Crashes"),
-          ("timeout", "Timeouts"), ("error", "Errors"), ("undecided", "Undecided"))
-COLUMNS = (("late", ("late",)), ("alarms", ("alarm",)),
-           ("undecided, error", ("undecided", "error")),
-           ("crash, timeout", ("crash", "timeout")), ("unsupported", ("unsupported",)))
+LISTED = (("late", "Late times"), ("alarm", "Alarms"),
+          *((o, f"Unanswered: {o}") for o in vectors.NO_ANSWERS))
+COLUMNS = (("late", ("late",)), ("alarms", ("alarm",)), ("unanswered", vectors.NO_ANSWERS),
+           ("unsupported", ("unsupported",)))
 
 
 def escaped(text):
@@ -116,6 +146,17 @@ def interval(time):
     return f" at t = {lo}" if lo == hi else f" between t = {lo} and {hi}"
 
 
+def split_text(outcomes):
+    return ", ".join(f"{outcomes[o]} {o}" for o in vectors.OUTCOMES if outcomes.get(o))
+
+
+def kind_of(outcomes):
+    """The colour and the sign of what cases came to."""
+    if outcomes["miss"]:
+        return "bad", "&#x2717;"
+    return ("open", "!") if set(outcomes) - {"right", "unsupported"} else ("good", "&#x2713;")
+
+
 def cell_html(outcomes, letter):
     """A cell of the outcomes that its cases have, and how many have each."""
     asked = sum(outcomes.values()) - outcomes["unsupported"]
@@ -126,11 +167,10 @@ def cell_html(outcomes, letter):
         ([f"{outcomes['late']} late"] if outcomes["late"] else []) +
         ([count_text(outcomes["alarm"], "alarm", "alarms")] if outcomes["alarm"] else []) +
         ([f"{unanswered} unanswered"] if unanswered else []))
-    kind, sign = (("bad", "&#x2717;") if outcomes["miss"] else ("open", "!") if others
-                  else ("good", "&#x2713;"))
+    kind, sign = kind_of(outcomes)
     small = f"<small>{others}</small>" if others else ""
-    return (f'<td class="{kind}" data-of="{letter}"><b>{sign} {outcomes["miss"]}/{asked}</b>'
-            f"{small}</td>")
+    return (f'<td class="{kind}" data-of="{letter}" title="{split_text(outcomes)}">'
+            f'<b>{sign} {outcomes["miss"]}/{asked}</b>{small}</td>')
 
 
 def matrix_html(title, members, every, reason):
@@ -149,20 +189,41 @@ def matrix_html(title, members, every, reason):
     return html + "</tbody></table></div>\n"
 
 
-def products_html(every):
-    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product</th><th>cases asked</th>'
-            "<th>misses</th>" + "".join(f"<th>{words}</th>" for words, _ in COLUMNS) +
-            "</tr></thead>\n<tbody>\n")
+def left_out_text(judged, cases):
+    """The unsupported cases by question and by flag, each of how many."""
+    def counts(ids):
+        return collections.Counter(w for i in ids for w in (cases[i].question, *cases[i].flags))
+    left, every = counts(judged.ids("unsupported")), counts(judged.outcome)
+    return ", ".join(f"{word} {count} of {every[word]}" for word, count in left.most_common())
+
+
+def products_html(every, cases):
+    html = ('<div class="wide"><table>\n<thead><tr><th scope="col">product <small>NAME: what it is'
+            "</small></th><th>cases asked</th><th>misses</th>" +
+            "".join(f"<th>{words}</th>" for words, _ in COLUMNS) + "</tr></thead>\n<tbody>\n")
     for i, judged in enumerate(every):
-        misses = len(judged.ids("miss"))
+        counts = collections.Counter(judged.outcome.values())
+        way, about = MORE["products"].get(judged.name(), ("", ""))
+        about = f"<br><code>{way}</code>: {escaped(about)}" if way else ""
+        kind, sign = kind_of(counts)
+        titles = {"late": size_text(judged.late_by), "unsupported": left_out_text(judged, cases),
+                  "unanswered": split_text({o: counts[o] for o in vectors.NO_ANSWERS})}
         html += (f'<tr><th scope="row">{vectors.letter_of(i)} &nbsp;{escaped(judged.name())} '
-                 f"<small>version {escaped(judged.product['version'])}</small></th>"
-                 f'<td data-of="cases asked">'
-                 f'{len(judged.outcome) - len(judged.ids("unsupported"))}</td>'
-                 f'<td class="{"bad" if misses else "good"}" data-of="misses"><b>{misses}</b></td>' +
-                 "".join(f'<td data-of="{words}">{len(judged.ids(*outcomes))}</td>'
-                         for words, outcomes in COLUMNS) + "</tr>\n")
+                 f"<small>version {escaped(judged.product['version'])}{about}</small></th>"
+                 f'<td data-of="cases asked">{len(judged.outcome) - counts["unsupported"]}</td>'
+                 f'<td class="{kind}" data-of="misses"><b>{sign} {counts["miss"]}</b></td>')
+        for words, outcomes in COLUMNS:
+            count, title = len(judged.ids(*outcomes)), titles.get(words)
+            html += (f'<td class="{"open" if count and words != "unsupported" else "none"}" '
+                     f'data-of="{words}"' + (f' title="{escaped(title)}">' if title else ">") +
+                     f'{"&ndash;" if words == "late" and not judged.times else count}</td>')
+        html += "</tr>\n"
     return html + "</tbody></table></div>\n"
+
+
+def size_text(shares):
+    return (f"by {statistics.median(shares):.1g} of the step (median) to {max(shares):.1g} (worst)"
+            if shares else "")
 
 
 def touching_html(every):
@@ -198,14 +259,24 @@ def product_html(judged, letter, cases):
         ids = judged.ids(outcome)
         if ids:
             codes = "".join(f" <code>{escaped(i)}</code>" for i in ids)
-            html += f"<p>{words} ({len(ids)}):{codes}</p>\n"
+            size = f", {size_text(judged.late_by)}" if outcome == "late" else ""
+            html += f"<p>{words} ({len(ids)}{size}):{codes}</p>\n"
     if judged.early:
-        html += f"<p>Early, which is safe: the times of {judged.early} steps</p>\n"
+        html += (f"<p>Early, which is safe: {judged.early} of {judged.times} first times, "
+                 f"{size_text(judged.early_by)}</p>\n")
     if judged.gave_pairs:
-        html += (f"<p>Pairs of triangles: {judged.missing} in contact not named, {judged.spurious} "
-                 "named without contact</p>\n")
+        html += ("<p>Pairs of triangles, where a step of a mesh was answered rightly: "
+                 f"{judged.missing} of {judged.met} in contact not named, {judged.spurious} of "
+                 f"{judged.named} named without contact</p>\n")
     if judged.uses:
-        html += f"<p>Limits: {vectors.uses_text(judged)}</p>\n"
+        limits = [i for i, outcome in judged.outcome.items()
+                  if cases[i].question == "limit" and outcome != "unsupported"]
+        ends = [cases[i].json["result"] for i in limits]
+        html += (f"<p>Limits, how much of a step is safe: {len(limits)} cases, of which "
+                 f"{ends.count('collision')} end in a contact ({len(set(limits) & set(misses))} "
+                 f"missed), {ends.count('acceptable')} touch, {ends.count('free')} are free; the "
+                 "median share of the way to the contact, or of a free step, is "
+                 f"{100 * statistics.median(judged.uses):.1f} %</p>\n")
     return html
 
 
@@ -213,19 +284,35 @@ def page(asked, every):
     """The page of products that were judged on a set."""
     info = asked.info
     flags, groups = asked.members()
+    cases = {case.id: case for case in asked.cases}
+    kinds = {group["group"]: group for group in asked.groups}
+    is_own = info["profile"] == "core"  # the set of this folder
 
-    def again(name, words=""):
+    def again(name, words):
         return f"<br><small>{escaped(words)} <code>--group {escaped(name)}</code></small>"
+
+    def flag_words(name):
+        about, wrong = info["flags"][name]["about"], info["flags"][name]["wrong"]
+        about, wrong = is_own and MORE["flags"].get(name) or (about, wrong)
+        return again(name, f"{about} Pitfall: {wrong}")
+
+    def group_words(name):
+        kind = {key: MORE["kinds"][kinds[name][key]] for key in vectors.KIND}
+        found = (" Smallest inputs of the defects in FINDINGS.md: chosen because a product fails."
+                 if name.endswith("-findings") else "")
+        return again(name, f"{kind['question'].format(kind['features'])} Coordinates are "
+                     f"{kind['precision']}.{found}")
+
     html = (f"{HEAD}<h1>Who misses what</h1>\n<p>{info['cases']:,} small hard cases of continuous "
             "collision detection, whose answers are known exactly. <span class=\"quiet\">Set "
-            f"{escaped(info['version'])} ({escaped(info['profile'])}), digest <code>"
-            f"{info['digest']}</code></span></p>\n" + WORDS + products_html(every) +
-            "<h2>By what makes a case hard</h2>\n" + LEGEND +
-            matrix_html("flag: what goes wrong", flags, every,
-                        lambda flag: again(flag, info["flags"][flag]["wrong"])) +
-            "<h2>By group</h2>\n" + matrix_html("group", groups, every, again) +
+            f"{escaped(info['version'])}, a selection called {escaped(info['profile'])}; digest of "
+            f"its files, which all results here state: <code>{info['digest']}</code></span></p>\n"
+            f"{ORIGIN * is_own}{WORDS}{products_html(every, cases)}<h2>By what makes a case hard"
+            f"</h2>\n{LEGEND}<p>A case may have several flags, or none "
+            f"({sum(not case.flags for case in asked.cases)} cases), and has one group.</p>\n" +
+            matrix_html("flag", flags, every, flag_words) +
+            "<h2>By group</h2>\n" + matrix_html("group", groups, every, group_words) +
             touching_html(every) + "<h2>The misses</h2>\n")
-    cases = {case.id: case for case in asked.cases}
     for i, judged in enumerate(every):
         html += product_html(judged, vectors.letter_of(i), cases)
     return html + "</body></html>\n"

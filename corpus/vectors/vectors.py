@@ -676,6 +676,8 @@ class Judged:
         self.outcome = {}  # by id
         self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
         self.closed = self.open = self.early = self.missing = self.spurious = 0
+        self.met = self.named = 0  # pairs of triangles, of those steps of which pairs are judged
+        self.times, self.late_by, self.early_by = 0, [], []  # of first times; shares of the step
         self.gave_pairs = False
         self.uses = []  # of the way that could be gone, the share that a limiter let go
         self.limits = 0  # that have one right answer
@@ -706,10 +708,15 @@ class Judged:
             given = {tuple(p) for p in answer["pairs"]}
             self.missing += len(right - given)
             self.spurious += len(given - right)
+            self.met, self.named = self.met + len(right), self.named + len(given)
         if word == "collision" and "time" in answer and step.first_time:
+            self.times += 1
             if answer["time"][0] > step.first_time[1]:
+                self.late_by.append(answer["time"][0] - step.first_time[1])
                 return "late"
-            self.early += answer["time"][1] < step.first_time[0]
+            if answer["time"][1] < step.first_time[0]:
+                self.early_by.append(step.first_time[0] - answer["time"][1])
+                self.early += 1
         return "right"
 
     def limit(self, step, share):

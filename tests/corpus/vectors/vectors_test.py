@@ -367,16 +367,17 @@ class Page(InScratch):
         code, text = self.page(("bad", bad), ("good", {}))
         self.assertEqual(code, 1)
         for part in (
-                '<tr><th scope="row">CoplanarThroughout<br><small>The cubic is zero, and a solver that '
-                'divides by it answers free. <code>--group CoplanarThroughout</code></small></th>'
-                '<td class="bad" data-of="A"><b>&#x2717; 1/1</b></td>'
-                '<td class="good" data-of="B"><b>&#x2713; 0/1</b></td></tr>', "<small>1 alarm",
+                '<tr><th scope="row">CoplanarThroughout<br><small>The four points lie in one plane during '
+                'the whole step. Pitfall: The cubic is zero, and a solver that divides by it answers free. '
+                '<code>--group CoplanarThroughout</code></small></th><td class="bad" data-of="A" '
+                'title="1 miss"><b>&#x2717; 1/1</b></td><td class="good" data-of="B" title="1 right">'
+                '<b>&#x2713; 0/1</b></td></tr>', "<small>1 alarm",
                 "1 unanswered</small>", "<h3>A bad, version 1, s: 2 misses</h3>",
                 "<h3>B good, version 1, s: no miss</h3>", "<code>ee-d-0003</code> Two edges slide "
                 "along one line, in one plane throughout, and meet half way.<br><small>contact at t = "
                 "0.5; answered free. CoplanarThroughout, ParallelEdges</small>",
                 "answered share 0.5", "<p>Alarms (1): <code>vf-d-0003</code></p>",
-                "<p>Undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1): ",
+                "<p>Unanswered: undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1, by ",
                 "<li>A bad, s: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
             self.assertIn(part, text)
         for part in ("<script", "http:", "https:", "url(", "src=", "href="):
