@@ -92,23 +92,25 @@ build/release/peers/NAME.so --group ROW</code>, for Assay <code>--arithmetic NAM
 says what that needs.</p>
 """
 
-ORIGIN = """<p>Assay is this project's own detector; the others are public code, behind plug-ins.
-The answers were computed exactly by Assay's oracle (<code>make_group.py</code>), and held against
-methods that share no arithmetic with it: CGAL's algebraic kernel, and a referee that knows no
-polynomial. vectors_test.cpp proves each case again.</p>\n"""
+ORIGIN = """<p>Assay is this project's own detector. The others stand behind plug-ins: public code,
+and for comparison the textbook's cubic and static tests, written here. The answers were computed
+exactly by Assay's oracle (<code>make_group.py</code>), and held against methods that share no
+arithmetic with it: CGAL's algebraic kernel, and a referee that knows no polynomial.
+vectors_test.cpp proves each case again.</p>\n"""
 
 WORDS = """<ul>
 <li>A <b>miss</b> is the answer free where features meet, or a share of a step that is not safe. It
 counts even if the product does not promise to find such contacts: <code>corpus/peers</code> states
 what each promises, and its FINDINGS.md what causes the defects.</li>
-<li>A <b>late</b> time is a first time after the contact, even if only in the last digit; &ndash; in
-this column: it tells no time. An <b>alarm</b> is a contact that does not exist: false, but
-safe.</li>
+<li>A <b>late</b> time is a first time after the contact, even if only in the last digit; of an
+interval, its lower end. &ndash; in this column: it tells no time. An <b>alarm</b> is a contact that
+does not exist: false, but safe.</li>
 <li><b>Unanswered</b> is undecided, an error, a crash, or a timeout: no answer in 2 to 10 s.</li>
-<li><b>Unsupported</b> cases were not asked, because the contract leaves them out. All plug-ins here
-leave out distances, limits (how far a step may go), starts in contact, coordinates above 1e6, and
-edges shorter than 1e-6 but not 0; what one leaves out beside that stands below its name. Rest the
-pointer on the number to see how many cases of which flag those are.</li>
+<li><b>Unsupported</b> cases were not asked: the contract, which is what a product says it takes,
+leaves them out. All plug-ins leave out distances, limits (how far a step may go), starts in
+contact, coordinates above 1e6, and edges shorter than 1e-6 but not 0; what else one leaves out
+stands below its name. Rest the pointer on the number to see how many cases of which flag those
+are.</li>
 <li>Where features <b>only touch</b>, as at the end of the step, both answers are right here. A
 product's own promise can still make one of them wrong: the first of FINDINGS.md is such a
 case.</li>
