@@ -74,8 +74,10 @@ TEST_F(SeparationCommand, TheLeastDistanceOfAnUndecidedRunIsNotKnown) {
                                           frame("c.obj", "0.5")};
   for (const bool stops : {false, true}) {
     auto input = std::move(reports::read_check_input(files).value());
-    const reports::CheckQuestion question{
-        .files = files, .wants_report = true, .distance = reports::AskedDistance{2, {}}};
+    reports::CheckQuestion question;
+    question.files = files;
+    question.wants_report = true;
+    question.distance = reports::AskedDistance{2, {}};
     std::string told;
     const auto answer =
         value_of(reports::check_mesh(question, input, "",
