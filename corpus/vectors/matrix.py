@@ -45,7 +45,7 @@ thead th { vertical-align: bottom; }
 .wide thead th:first-child { z-index: 2; }
 .matrix tbody th { min-width: 17rem; }
 [title] { cursor: help; }
-.matrix thead th:not(:first-child) { min-width: 4.2rem; max-width: 7rem; overflow-wrap: anywhere; }
+.matrix thead th:not(:first-child) { min-width: 4.2rem; overflow-wrap: normal; }
 .matrix small, .chip small { display: block; line-height: 1.3; }
 .matrix td, .matrix code { white-space: nowrap; }
 .matrix code { display: block; }
@@ -59,7 +59,7 @@ thead th { vertical-align: bottom; }
 .cases { padding-left: 1.2rem; }
 .cases li { margin: .35rem 0; }
 @media (max-width: 640px), print {
-  thead { display: none; }
+  thead, .sideways { display: none; }
   tbody, tr, tbody th { display: block; }
   .wide { max-height: none; }
   .wide th:first-child { position: static; }
@@ -84,46 +84,51 @@ LEGEND = """<ul class="legend">
 <li class="chip good"><b>&#x2713; 0/17</b> <small>all 17 right</small></li>
 <li class="chip none">&ndash; <small>none asked: the contract leaves all of the row out</small></li>
 </ul>
-<p>A case counts once in a cell, as the worst of its steps: missed, late, alarm, unanswered or
-right. The number asked includes the unanswered, not the unsupported, so it differs between
-products. Rest the pointer on a cell for all its counts. Colours mean the same in all tables. <b>To
-ask again</b> the cases of a row: <code>python3 corpus/vectors/vectors.py run --detector
-build/release/peers/NAME.so --group ROW</code>, for Assay <code>--arithmetic NAME</code>; README.md
-says what that needs.</p>
+<p>The number asked includes the unanswered, not the unsupported, so it differs between products.
+Rest the pointer on a cell for all its counts. Colours mean the same in all tables. <span
+class="sideways">A wide table scrolls sideways.</span> <b>To ask again</b> the cases of a row:
+<code>python3 corpus/vectors/vectors.py run --detector build/release/peers/NAME.so --group
+ROW</code>, for Assay <code>--arithmetic NAME</code>; <code>--group</code> takes a group or a flag.
+README.md says what that needs.</p>
 """
 
-ORIGIN = """<p>Assay is this project's own detector. The others stand behind plug-ins: public code,
-and for comparison the textbook's cubic and static tests, written here. The answers were computed
-exactly by Assay's oracle (<code>make_group.py</code>), and held against methods that share no
-arithmetic with it: CGAL's algebraic kernel, and a referee that knows no polynomial.
+ORIGIN = """<p>Assay is this project's own detector. The others are called through plug-ins: public
+libraries, and two textbook methods written here, the cubic and static tests. The answers were
+computed exactly by Assay's oracle (<code>make_group.py</code>), and held against methods that share
+no arithmetic with it: CGAL's algebraic kernel, and a referee that knows no polynomial.
 vectors_test.cpp proves each case again.</p>\n"""
 
 WORDS = """<ul>
-<li>A <b>miss</b> is the answer free where features meet, or a share of a step that is not safe. It
-counts even if the product does not promise to find such contacts: <code>corpus/peers</code> states
-what each promises, and its FINDINGS.md what causes the defects.</li>
-<li>A <b>late</b> time is a first time after the contact, even if only in the last digit; of an
-interval, its lower end. &ndash; in this column: it tells no time. An <b>alarm</b> is a contact that
-does not exist: false, but safe.</li>
+<li>A case counts once in a cell, as the worst of its steps: missed, late, alarm, unanswered or
+right. Pairs of triangles left out are no misses, but are counted further below.</li>
+<li>A <b>miss</b>: the product answers "free" though features meet, or, when asked how far a step is
+safe, names a share at or beyond the contact. It counts even if the product promises nothing of the
+kind: <code>corpus/peers</code> has what each promises, FINDINGS.md what causes defects.</li>
+<li><b>Late</b>: it reports a first time after the true one, even in the last digit; of a product
+that reports an interval, its lower end counts. A dash means that the product reports no time. An
+<b>alarm</b> is a contact that does not exist: false, but safe.</li>
 <li><b>Unanswered</b> is undecided, an error, a crash, or a timeout: no answer in 2 to 10 s.</li>
-<li><b>Unsupported</b> cases were not asked: the contract, which is what a product says it takes,
-leaves them out. All plug-ins leave out distances, limits (how far a step may go), starts in
-contact, coordinates above 1e6, and edges shorter than 1e-6 but not 0; what else one leaves out
-stands below its name. Rest the pointer on the number to see how many cases of which flag those
-are.</li>
-<li>Where features <b>only touch</b>, as at the end of the step, both answers are right here. A
-product's own promise can still make one of them wrong: the first of FINDINGS.md is such a
-case.</li>
+<li><b>Unsupported</b> cases were not asked, because the contract of the product leaves them out:
+the inputs that its plug-in declares that it takes. All plug-ins leave out distances, limits (how
+far a step may go), starts in contact, coordinates above 1e6, and edges shorter than 1e-6 but not 0;
+what else one leaves out, or takes, stands below its name. Rest the pointer on the number to see how
+many cases those are: first by what is asked (contact, distance, limit: these add up), then by flag
+(these overlap).</li>
+<li>Features <b>only touch</b> if they meet and do not pass: at t = 0 or t = 1 alone, in one plane
+throughout, or at a double root of the cubic; or if they come exactly as near as the distance asked
+about, and no nearer. Both answers are right here. A product's own promise can still make one of
+them wrong: the first of FINDINGS.md is such a case.</li>
 <li>Lengths such as eta are in the unit of the coordinates. Times are shares of the step.</li>
 </ul>\n"""
 
 TOUCHING = """<h2>Where features only touch</h2>
-<p>Counted are steps. For closed sets they are contacts; a product that counts only overlaps \
-answers free, or a limit behind the touch. Both are right, and a product should hold to one of \
-them.</p>\n<ul>\n"""
+<p>This list counts steps, not cases, and only those that a product answered. If features are closed
+sets, a touch is a contact; a product that counts overlaps only answers free, or allows a step up to
+the touch or beyond. Both are right, and a product should hold to one of them.</p>\n<ul>\n"""
 
-# Words: of a product, its plug-in or arithmetic, and what it is and leaves out; of a flag, its
-# meaning and pitfall, where set.json needs more; of the kinds of a group.
+# Words: of a product, its plug-in or arithmetic, what it is, and the flag or features of misses by
+# design, with a sentence; of a flag, its meaning and pitfall, where set.json needs more; of the
+# kinds of a group.
 MORE = vectors.read_json(Path(__file__).with_name("matrix.json"))
 
 # What is counted of a product, and the words that stand before the ids.
@@ -193,10 +198,12 @@ def matrix_html(title, members, every, reason):
 
 def left_out_text(judged, cases):
     """The unsupported cases by question and by flag, each of how many."""
-    def counts(ids):
-        return collections.Counter(w for i in ids for w in (cases[i].question, *cases[i].flags))
-    left, every = counts(judged.ids("unsupported")), counts(judged.outcome)
-    return ", ".join(f"{word} {count} of {every[word]}" for word, count in left.most_common())
+    def counted(words_of):
+        left, every = (collections.Counter(w for i in ids for w in words_of(cases[i]))
+                       for ids in (judged.ids("unsupported"), judged.outcome))
+        return ", ".join(f"{word} {count} of {every[word]}" for word, count in left.most_common())
+    asked, flags = counted(lambda case: [case.question]), counted(lambda case: case.flags)
+    return asked and f"by what is asked: {asked} (these add up); by flag: {flags} (these overlap)"
 
 
 def products_html(every, cases):
@@ -205,7 +212,7 @@ def products_html(every, cases):
             "".join(f"<th>{words}</th>" for words, _ in COLUMNS) + "</tr></thead>\n<tbody>\n")
     for i, judged in enumerate(every):
         counts = collections.Counter(judged.outcome.values())
-        way, about = MORE["products"].get(judged.name(), ("", ""))
+        way, about = MORE["products"].get(judged.name(), ("", ""))[:2]
         about = f"<br><code>{way}</code>: {escaped(about)}" if way else ""
         kind, sign = kind_of(counts)
         titles = {"late": size_text(judged.late_by), "unsupported": left_out_text(judged, cases),
@@ -256,6 +263,9 @@ def product_html(judged, letter, cases):
     html = f"<h3>{letter} {escaped(judged.name_and_version())}: {told}</h3>\n"
     if misses:
         items = "".join(case_html(cases[i], judged) for i in misses)
+        for word, words in MORE["products"].get(judged.name(), [])[2:]:
+            count = sum(word in (cases[i].features, *cases[i].flags) for i in misses)
+            html += f"<p>{words.format(count)}</p>\n"
         html += f'<ul class="cases">\n{items}</ul>\n'
     for outcome, words in LISTED:
         ids = judged.ids(outcome)
@@ -267,18 +277,18 @@ def product_html(judged, letter, cases):
         html += (f"<p>Early, which is safe: {judged.early} of {judged.times} first times, "
                  f"{size_text(judged.early_by)}</p>\n")
     if judged.gave_pairs:
-        html += ("<p>Pairs of triangles, where a step of a mesh was answered rightly: "
-                 f"{judged.missing} of {judged.met} in contact not named, {judged.spurious} of "
-                 f"{judged.named} named without contact</p>\n")
+        html += ("<p>In mesh steps with a right answer, the product also lists pairs: of "
+                 f"{judged.met:,} pairs in contact it left out {judged.missing:,}; of "
+                 f"{judged.named:,} pairs it listed, {judged.spurious:,} are not in contact.</p>\n")
     if judged.uses:
         limits = [i for i, outcome in judged.outcome.items()
                   if cases[i].question == "limit" and outcome != "unsupported"]
         ends = [cases[i].json["result"] for i in limits]
         html += (f"<p>Limits, how much of a step is safe: {len(limits)} cases, of which "
                  f"{ends.count('collision')} end in a contact ({len(set(limits) & set(misses))} "
-                 f"missed), {ends.count('acceptable')} touch, {ends.count('free')} are free; the "
-                 "median share of the way to the contact, or of a free step, is "
-                 f"{100 * statistics.median(judged.uses):.1f} %</p>\n")
+                 f"missed), {ends.count('acceptable')} touch, {ends.count('free')} are free; it "
+                 f"allows, in the median, {100 * statistics.median(judged.uses):.1f} % of the way "
+                 "to the contact (or of the whole step if free); a margin is no fault</p>\n")
     return html
 
 
