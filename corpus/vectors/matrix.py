@@ -129,7 +129,7 @@ the touch or beyond. Both are right, and a product should hold to one of them.</
 # Words: of a product, its plug-in or arithmetic, what it is, and the flag or features of misses by
 # design, with a sentence; of a flag, its meaning and pitfall, where set.json needs more; of the
 # kinds of a group.
-MORE = vectors.read_json(Path(__file__).with_name("matrix.json"))
+MORE = vectors.read_json(Path(__file__).with_name("matrix.words"))
 
 # What is counted of a product, and the words that stand before the ids.
 LISTED = (("late", "Late times"), ("alarm", "Alarms"),
