@@ -54,8 +54,8 @@ struct BoundingVolumeTree::Builder {
   const Topology& mesh;
   const PositionsView& x;
   PacedStop* pace;
-  std::array<Spots, 2> lists;       // component after component
-  std::vector<Bounds> bounds;       // by component
+  std::array<Spots, 2> lists;  // component after component
+  std::vector<Bounds> bounds;  // by component
   bool is_cut = false;
   std::uint32_t placed = 0;         // triangles of the components whose ranges are made
   std::vector<Range> large, small;  // that are still to be split
