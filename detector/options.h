@@ -46,8 +46,8 @@ constexpr bool uses_views(Culling culling) {
 }
 
 // The triangles that are known to be clean at a new start: at the first step, and after a jump of
-// positions. At a verified start, automatic and view_auto leave out the layers, and steps without
-// views verify nothing: their pairs tell the next step which triangles are clean (L15).
+// positions. With Start::verified, the cullings automatic and view_auto leave out the layers, and a
+// step without views verifies nothing: its pairs tell which triangles are clean in the next (L15).
 enum class Start : std::uint8_t {
   verified,  // those that L5 shows; elsewhere those that static contacts and layers show (L9)
   clean,     // the caller vouches that nothing is in contact and that layers are common

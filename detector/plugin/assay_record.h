@@ -42,7 +42,7 @@
 /* The errors besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
 enum {
   ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has no such value */
-  ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and where the last step ended is not
+  ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and the end of the last step is not
                                        known */
   ASSAY_RECORD_NOT_BEGUN = 18,      /* refused: begin did not succeed, or end was called */
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
@@ -182,7 +182,7 @@ static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char*
  * tables. */
 enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* words */
 
-/* The next words of the quotient, behind the last 300 ones. */
+/* Appends `words` words of the quotient to the last 300, with which `quotient` begins. */
 static inline void assay_record_divide_(uint64_t* quotient, const unsigned char* p, size_t words) {
   size_t i;
   for (i = 0; i < words; ++i) {

@@ -138,10 +138,10 @@ class FeatureContacts {
   // lane.
   void make_lanes(std::size_t count);
 
-  // Takes the feature pairs of a candidate pair, and tests those of its lane whenever enough have
-  // come together. With `may_pierce` the edges that may pierce the other triangle at t=0 are taken
-  // too. Returns false if `stop` asked for an end. Calls for different lanes may run at the same
-  // time.
+  // Adds the feature pairs of a candidate pair to a lane, and tests the pairs of the lane when
+  // there are enough of them. With `may_pierce` it also adds the edges that may pierce the other
+  // triangle at t=0. Returns false if `stop` asked for an end. Calls for different lanes may run in
+  // parallel.
   bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce, const StopFunction& stop = {},
                      std::size_t lane = 0);
 

@@ -140,7 +140,7 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // between these are of 1, 2, 4 and 8 steps.
 class CostModel : public CullingPolicy {
  public:
-  // A step without views earns this share of its work; it may be lost later. A tenth is promised.
+  // The share of its work that a step without views earns; README.md allows twice this loss.
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
@@ -198,9 +198,9 @@ class CostModel : public CullingPolicy {
   void update_anchors(PolicyState& next) const;
   // Estimates the saving of views within a step that is seen from the middle of its components.
   double hoped_at_a_glance(const SteppedMesh& motion) const;
-  // Returns whether the counts of the search tell the work of bvh. They do not if proofs, or the
-  // sheets of a mesh at rest, leave out pairs: these depend on the tree, and thus on the positions
-  // that the detector was made from.
+  // Returns whether the work of bvh can be computed from the counts of the search. It cannot if
+  // proofs, or the sheets of a mesh at rest, leave out pairs: these pairs depend on the tree, and
+  // so on the positions that the detector was made from.
   bool counts_tell() const { return !proves_ && !is_at_rest_; }
   // Returns how much may be spent after this step.
   double credit_after(const StepCounts& counts, std::size_t contacts) const;

@@ -75,15 +75,15 @@ struct LimitDiff {
   bool too_far = false;     // the stated share is not below the first contact time
   bool too_short = false;   // the way is shorter than claimed, not excused
   bool is_excused = false;  // the way is shorter than claimed, perhaps by rounding
-  std::string stall;  // the caller stays although it could move: the cause of the contact ahead
+  std::string stall;        // the cause of the contact ahead, if the caller stays but could move
 };
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> breaches;        // claims of the detector that this step refutes
-  Answer answer = Answer::undecided;  // the detector's
+  Answer answer = Answer::undecided;  // the answer of the detector
   bool oracle_complete = false;       // false: the oracle was stopped
-  bool nothing_in_contact = false;    // by a complete oracle, whatever is left out
+  bool nothing_in_contact = false;    // not even a left-out contact; the oracle is complete
   bool starts_near = false;           // StepTruth::starts_near
   bool claims_pairs = false;          // a claim about pairs is made (About::pairs)
   bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged

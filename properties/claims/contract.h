@@ -122,8 +122,8 @@ struct Contract {
   // time the limiter promises (Claim::progress); 0: none.
   LimitGives limit_gives = LimitGives::positions;
   double progress = 0;
-  // Displacements are given in float32 only: the end of a step is then exact as a double, as the
-  // oracle needs it.
+  // REQUIRES float32 coordinates for a displacement: then the end of a step, which is the exact
+  // sum, is a double, as the oracle needs it.
   MotionGiven motion = MotionGiven::ends;
   // The capacity of the detector; 0: unlimited. A step beyond one of these numbers may be refused
   // (beyond_capacity).

@@ -144,8 +144,8 @@ double units_beyond(double c, int units, double towards);
 // their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws by how many units of the last place a motion ends beyond a feature: 0 in two of three
-// draws, else 1 to 16, or now and then 1 to 4 short of it.
+// Returns by how many units of the last place a motion ends beyond a feature: 0 in four of six
+// draws, 1 to 16 in one, and -4 to -1, short of the feature, in one.
 int units_at_a_feature(Random& random);
 
 // The numbers of one program, drawn once for a case.

@@ -38,7 +38,7 @@ enum class RunEnd : std::uint8_t {
   completed,        // every step has a result, which may be undecided or an error
   crashed,          // the process ended while the detector ran
   hung,             // stopped at a time limit: undecided
-  refused,          // the mesh was refused by name when the detector was made
+  refused,          // the mesh was refused, with a named error, when the detector was made
   out_of_memory,    // before the first step: undecided
   not_run,          // there is no worker to run it: the harness failed, not the detector
   beyond_capacity,  // the mesh was refused for its size when the detector was made
@@ -113,8 +113,8 @@ CaseRun run_case(const Case& c, const Configuration& configuration);
 // step: one that differs from `undisturbed`, if any does. REQUIRES a mesh that is not refused.
 std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed);
-// Returns the results as a run that can be compared with another: without the counts of marking,
-// which depend on the marking before, whether its step was committed or not.
+// Returns the results as a run, to be compared with other runs. It has no counts of marking,
+// because they depend on the marking of the evaluation before, even if that was not committed.
 CaseRun without_marking_counts(std::vector<StepResult> results);
 
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.

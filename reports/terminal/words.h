@@ -52,8 +52,8 @@ enum class PastePlace : std::uint8_t { this_folder, any_folder };
 // next, except those in a certificate or a page, which begin with "assay" on every machine.
 std::string line_to_paste(const std::string& words, PastePlace place = PastePlace::any_folder);
 
-// Returns the whole command as it was typed, with all of its inputs. For any folder it changes to
-// this one first, and leaves out the options for output files.
+// Returns the whole command as it was typed, with all of its inputs. With PastePlace::any_folder
+// the line first changes to this folder, and has no options for output files.
 std::string this_command(PastePlace place);
 
 // Returns the path of the same file that can be used from any folder; empty for an empty path. The

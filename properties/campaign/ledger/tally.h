@@ -17,7 +17,7 @@ namespace assay::properties {
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  std::uint64_t with_defect = 0, open = 0;  // trials with such a configuration
+  std::uint64_t with_defect = 0, open = 0;  // trials with a configuration that has such an outcome
   std::uint64_t disturbed = 0;              // trials killed from outside, which ran again
   std::uint64_t discards = 0;               // trials for which the contract takes no case
   std::uint64_t refused = 0;                // trials that were refused as beyond the capacity

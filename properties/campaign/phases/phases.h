@@ -277,14 +277,14 @@ struct TrialsAgain {
   std::optional<std::string> difference;
 };
 
-// Draws a share (above 0, at most 1) of the trials that the stores of a folder hold, at least one,
-// by the seed. Makes and judges them as the request says, and compares the outcomes in every
-// configuration, triangles, steps, collisions, pairs, counts and mesh. Times may differ, so a trial
-// that ended at its limit of time may have another result on a slower machine.
+// Draws, by `seed`, a share (above 0, at most 1) of the trials that the stores of a folder hold,
+// but at least one. Runs them again as the request says, and compares with the store: the outcomes
+// in every configuration, and triangles, steps, collisions, pairs, counts and mesh. It does not
+// compare times. A trial that ended at its time limit may have another result on a slower machine.
 //
-// REQUIRES a request with the plan and the detector of the stores; each states its own seed and
-// share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
-// Costs O(trials stored) to draw them, then the time that they took in the first run.
+// REQUIRES a request with the plan and the detector of the stores; each store states its own seed
+// and share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is
+// stored. Costs O(trials stored) to draw them, then the time that they took in the first run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed, const OnTrial& progress);
 

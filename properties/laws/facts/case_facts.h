@@ -48,8 +48,8 @@ class ExactView {
   ExactView(const std::array<MovingPoint, 3>& triangle, const ViewPrimitive& primitive,
             int eighths);
 
-  // Return a corner of the triangle, or the point with these weights (w0 + w1 + w2 = 2^4); both
-  // times 2^4.
+  // Return a corner of the triangle, or its point with the weights `sixteenths`, whose sum is 2^4.
+  // All coordinates are multiplied by 2^4.
   ExactPoint corner(int i) const;
   ExactPoint inner_point(const std::array<int, 3>& sixteenths) const;
 

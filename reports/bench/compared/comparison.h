@@ -225,8 +225,8 @@ struct FamilyRow {
   // reference (the first subject) on the same steps.
   std::vector<double> ms = {}, reference_ms = {}, create_ms = {}, reference_create_ms = {};
   std::uint64_t cases = 0, cases_timed = 0, steps_timed = 0;
-  std::string first_end = {};              // how the first run that ended early ended
-  std::vector<std::string> breaches = {};  // claims, each once
+  std::string first_end = {};              // of the first run that stopped early: "CASE: cause"
+  std::vector<std::string> breaches = {};  // broken claims, each once
 
   std::optional<Estimate> over() const;  // ratio to the reference, round by round
   std::optional<double> create_over() const;
@@ -242,9 +242,9 @@ struct ShareOfSteps {
 struct SubjectRow {
   const BenchSubject* subject = nullptr;
   std::string answers = {};                // the kinds of its answers: "answer, time, pairs"
-  std::optional<Estimate> over = {};       // median of families, interval by drawing families
-  std::optional<double> create_over = {};  // median of families
-  std::uint64_t families = 0;              // that have times
+  std::optional<Estimate> over = {};       // median over families, with a bootstrap interval
+  std::optional<double> create_over = {};  // median over families
+  std::uint64_t families = 0;              // number of families with times
   JudgedCounts counts = {};
   ShareOfSteps unsafe = {}, alarming = {};  // of the judged steps
   std::optional<double> bytes_a_triangle = {};
