@@ -103,13 +103,13 @@ class Detector {
   // unless rounding brings that place into contact. That can happen where the way passes something
   // within a few units in the last place of its coordinates. Then up to 18 nearer places are tried.
   // If the free places lie roughly together, 0.98 of the farthest free place or more is taken.
-  // Whenever less than 0.93 of the time is taken, `is_short` says so. Share 0 means that the mesh
-  // stays: there is a contact at the start, or at every place that was tried. With a separation,
-  // read `within the separation` for `in contact`.
+  // `is_short` is true if less than 0.93 of the time is taken. Share 0 means that the mesh stays:
+  // there is a contact at the start, or at every place that was tried. With a separation, read
+  // `within the separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
-  // Cost: first_contact of the step and, unless that is free, of each place that is tried: nearly
-  // always one, 19 at most. Each of these is a shorter step from the same start (keeps_near).
+  // Cost: first_contact of the step and, unless the step is free, of the step to each place that is
+  // tried: nearly always one place, 19 at most. These are shorter steps from x_t0 (keeps_near).
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 

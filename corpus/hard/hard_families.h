@@ -29,8 +29,8 @@ namespace assay::corpus {
 // mantissa. At last each axis is scaled by a power of two.
 
 // The free choices of a hard case: integers that depend on its family, strength and variant alone.
-// They are the same on every platform as long as no two draws are arguments or operands of one
-// expression, because operands have no order (items of a braced list have one).
+// They are the same on every platform, provided that no two draws are arguments or operands of one
+// expression: C++ evaluates these in any order, but the items of a braced list from left to right.
 //
 // SplitMix64, seeded by FNV-1a of the family's name.
 class Variation {

@@ -35,8 +35,8 @@ namespace assay::detector {
 //
 // The contacts come from feature pairs, so one triangle pair may come up to 21 times. If all
 // triangles lie upon each other there are M^2 / 2 pairs. To keep memory small, each pair is kept
-// once: the latest contacts are merged into the sorted others as soon as they are a quarter of
-// these. A pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
+// once: new contacts are merged into the sorted list when they number a quarter of the list. A pair
+// takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
 //
 // Memory in proportion to the list's length is taken only where the stop function is asked
 // meanwhile. So if the stop function watches a limit of memory, the limit is kept. Cost: O(log n)
@@ -45,8 +45,8 @@ class PairContacts {
  public:
   void add(const PairContact& contact);
 
-  // Returns whether a few more contacts would make the list grow in add(), where no stop function
-  // is asked. Call make_room() first if so.
+  // Returns whether a few more contacts would make the list grow in add(), which asks no stop
+  // function. The caller should then call make_room(), which asks one.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
     return !all_.empty() && all_.capacity() - all_.size() < a_few;
@@ -231,7 +231,7 @@ class FeatureContacts {
   std::mutex handing_over_;
   PairContacts contacts_;
   const PairRelation* relation_ = nullptr;
-  PairContacts counted_;  // with a relation of features alone
+  PairContacts counted_;  // used only if relation_ has level features
   std::optional<TimeBound> bound_;
 };
 

@@ -144,7 +144,7 @@ class CostModel : public CullingPolicy {
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
-  // saves_up: as culling automatic does.
+  // saves_up: keeps an account of work, which is what culling automatic does.
   CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before,
             bool saves_up = false)
       : surface_(surface), adjacent_(adjacent), state_(std::move(before)), saves_up_(saves_up) {}
@@ -210,7 +210,7 @@ class CostModel : public CullingPolicy {
   PolicyState state_;
   bool chose_anchors_ = false;
   double share_of_signs_ = 1;  // the share of pairs that the signs save if all triangles are clean
-  double share_ = 1;           // the same with the triangles that are clean; a free step saves all
+  double share_ = 1;           // as above, with the triangles known to be clean; 1 in a free step
   bool paid_ = true;
   bool proves_ = false;
   ViewUse use_ = ViewUse::used;
@@ -219,7 +219,7 @@ class CostModel : public CullingPolicy {
   bool saves_up_ = false, waits_ = false, is_at_rest_ = false;
   double most_for_views_ = 0;
   double spent_ = 0;                   // of this step, on views and on the view test, in box tests
-  std::optional<std::uint64_t> of_k_;  // its candidates before the closure, once known
+  std::optional<std::uint64_t> of_k_;  // candidates before the closure, once known
 };
 
 }  // namespace assay::detector

@@ -212,7 +212,7 @@ double length_of(const PositionsView& x, const Edge& edge);
 
 // Returns where a mesh with these edges leaves the contract's range, with the member of the
 // contract: "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long,
-// below least_nonzero, 1e-06". Empty if it does not.
+// below least_nonzero, 1e-06". Empty if the mesh is within the range.
 std::string beyond_range(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract);
 

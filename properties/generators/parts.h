@@ -183,11 +183,11 @@ class EverydayNumbers {
 // in units of the size.
 void use_everyday_numbers(Random& random, Draft& draft);
 
-// Makes two pieces of about `size` triangles together, in units of the size. One has a level top
-// and rests or rises; the other comes down on it. At the end of a step, a vertex or a level edge of
-// the upper piece lands on the top, on its border or at its corner; or the piece goes on through
-// the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
-// flat and mostly slides within the plane of the top.
+// Makes two pieces of about `size` triangles together, in units of the size. The lower piece has a
+// level top and rests or rises; the upper piece comes down on it. At the end of a step, a vertex or
+// a level edge of the upper piece lands on the top, on its border or at its corner. In other cases
+// the upper piece goes on through the top, slides along it, begins there, or stays and leaves
+// again. A third of the open pieces is flat and mostly slides within the plane of the top.
 Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).

@@ -33,7 +33,7 @@ struct CaseResults {
   }
   // Returns the output of the detector in the first run or, if that was silent, in the second.
   const std::string& output(std::size_t configuration) const;
-  // Returns why a run did not take place: there is no worker. Empty if all did.
+  // Returns why a run did not take place: there is no worker. Empty if all runs took place.
   std::string why_not_run() const;
 };
 

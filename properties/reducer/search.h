@@ -24,7 +24,7 @@ class ReductionSearch {
   const MeshSize& size() const { return size_; }
 
   // Makes `candidate` the best case if it is valid, is smaller, and fails with the same signature.
-  // Returns whether it did.
+  // Returns whether `candidate` is now the best case.
   bool offer(const Case& candidate);
 
   // Makes `candidate` the best case as offer() does, even if it is not smaller.

@@ -67,8 +67,8 @@ struct CaseRun {
   RunEnd end = RunEnd::completed;
   // One line: the signal, the refusal, or the first error of a step. Empty if there was none.
   std::string explanation;
-  // One result for each step of the case if the run completed, else none. A time that a plug-in
-  // does not state, of a pair or the first one, is [0, 1].
+  // If the run completed, one result for each step of the case; otherwise empty. A first time that
+  // a plug-in does not state, of the step or of a pair, is [0, 1].
   std::vector<StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
@@ -96,7 +96,7 @@ struct CaseRun {
   // that it started if the run was long enough to measure them (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
-  // If cases were sent together, the lines may be of a later one. Empty with isolation none.
+  // Cases that were sent together may show the lines of a later case. Empty with Isolation::none.
   std::string output = {};
 };
 

@@ -56,8 +56,8 @@ std::string line_to_paste(const std::string& words, PastePlace place = PastePlac
 // the line first changes to this folder, and has no options for output files.
 std::string this_command(PastePlace place);
 
-// Returns the path of the same file that can be used from any folder; empty for an empty path. The
-// word of a detector in Python stays as it is.
+// Returns the absolute path of the file; empty for an empty path. Does not change the word of a
+// detector in Python.
 std::string absolute_path(const std::filesystem::path& path);
 
 // Returns the commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed.

@@ -64,11 +64,12 @@ Canary meet_canary(const CampaignRequest& request);
 // faults test the harness of a build, not the detector that it judges, so the run of a plug-in need
 // not plant them again.
 
-// Returns the proof in `folder` for the request. Fails if the request's plan plants no faults, if
-// the folder is `out` or lies below it, if the digests of program, worker or generator differ, if
-// the run in `folder` did not find every planted fault itself, if it gave a fault fewer cases or
-// seeds than the plan asks for, and if read_findings fails.
-//
+// Returns the proof in `folder` for the request. Fails
+//   if the request's plan plants no faults, or if read_findings fails;
+//   if the folder is `out` or lies below it;
+//   if the digests of program, worker or generator differ;
+//   if the run in `folder` did not find every planted fault itself, or gave a fault fewer cases or
+//   seeds than the plan asks for.
 // REQUIRES that no code of a plug-in has run in this process's workers yet, because such code could
 // change the files that are read here.
 Expected<PowerProof> take_power(const std::filesystem::path& folder,

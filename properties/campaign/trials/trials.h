@@ -66,7 +66,7 @@ Case brought_into_contract(Case c, const Contract& contract);
 bool starts_clean(const Case& c);
 
 // Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
-// detector that may. Large meshes never do.
+// detector does, if the case starts clean and the mesh is small.
 bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint64_t index);
 
 // Returns the configurations with start clean in place of start verified.

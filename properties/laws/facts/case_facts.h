@@ -267,7 +267,7 @@ enum class PairBlock : std::uint8_t {
   zero_zero,
   violated,  // at least one triangle is in Vv
   positive_positive,
-  negative_negative,  // these two: in K between groups only
+  negative_negative,  // like V+ V+, in K only if the triangles are of different groups
 };
 constexpr auto names_of(PairBlock) {
   using enum PairBlock;

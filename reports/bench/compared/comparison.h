@@ -37,7 +37,7 @@ namespace assay::reports {
 
 // The goal of a row.
 struct Goal {
-  bool is_most;  // else it is the least value
+  bool is_most;  // true: `bound` is the greatest allowed value; false: the least
   double bound;
 };
 constexpr Goal at_most(double bound) { return {true, bound}; }
@@ -53,10 +53,10 @@ namespace goal {
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto. The first two are over the single culling that takes the
-// least time for the sequence: the first for the sum and the median step, the second for the worst
-// step of a millisecond or more. The third is for the first step over that of bvh, because both
-// look at the same pairs, and the last for one thread over two.
+// For whole sequences with culling auto. The first two are ratios to the single culling that takes
+// the least time for the sequence: the first for the sum and the median step, the second for the
+// worst step of a millisecond or more. The third is the first step over the first step of bvh,
+// which looks at the same pairs. The last is the time of one thread over the time of two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -79,8 +79,7 @@ struct BenchRow {
 struct BenchReport {
   std::string suite = {};
   std::vector<BenchRow> rows = {};
-  // One line for each wrong answer. A single one fails the run, because times are noisy but answers
-  // are not.
+  // One line for each wrong answer. A single wrong answer fails the run: answers have no noise.
   std::vector<std::string> wrong_answers = {};
   std::string above = {}, below = {};  // tables of the suite, above and below the rows
   // The fields that the suite adds to the JSON, by name: lists of objects, except `detector`.
@@ -147,7 +146,7 @@ nlohmann::ordered_json json_object(const char* name, const T& value, const Rest&
 // worker, and plug-ins.
 struct BenchSubject : properties::Subject {
   std::string name = {};
-  detector::Options options = {};  // of the built-in detector; the start is the case's
+  detector::Options options = {};  // of the built-in detector; `start` is set by the case
   bool is_here = false;            // it runs in this process
   MakeStages stages = detector::standard_stages;  // in this process
   bool is_vouched_for = true;                     // known clean starts are not verified
@@ -217,7 +216,7 @@ struct UnsafeAnswer {
 struct FamilyRow {
   std::string subject, family, kind;
   JudgedCounts counts = {};
-  std::uint64_t triangles_of_case = 0;     // of the last one
+  std::uint64_t triangles_of_case = 0;     // triangles of the last case
   std::uint64_t steps = 0, triangles = 0;  // sums over all steps that have results
   std::uint64_t box_tests = 0, candidates = 0, elementary_tests = 0;
   std::uint64_t hash = first_hash;  // over the results of all steps, in order
@@ -275,7 +274,7 @@ struct Match {
 struct ComparisonPlan {
   SweepPlan sweep = {};       // the rounds are those of the families
   double small_seconds = 10;  // processor time for a worker's run of a generated or hard case
-  double large_seconds = 60;  // of a scene or a public sequence
+  double large_seconds = 60;  // the same for a scene or a public sequence
   int jobs = 1;               // threads of the oracle
   bool is_judged = true;      // else cases are only played and timed
   // A suite's own work on each case.
