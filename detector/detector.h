@@ -30,7 +30,7 @@
 
 namespace assay::detector {
 
-struct StateFields;  // of no concern to users
+struct StateFields;  // the fields of a SavedState, which users need not know
 struct Stages;       // assembly.h
 class Workers;       // assembly.h
 
@@ -54,8 +54,8 @@ class Detector {
   // the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // Does the same, but `stop` can end it with the error `stopped`. `stop` is asked every few
-  // milliseconds of work, except in the few plain passes that check indices and coordinates.
+  // Makes a detector, and can be ended by `stop`, with the error `stopped`. `stop` is asked every
+  // few milliseconds of work, except in the few plain passes that check indices and coordinates.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);
   Detector(Detector&&) noexcept;

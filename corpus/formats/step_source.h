@@ -68,8 +68,8 @@ class StepSource {
   // Returns the same case if it states options and facts; null if it is only triangles and frames.
   virtual const Case* case_file() const { return nullptr; }
 
-  // Reads the remaining frames, and returns the same steps as those of a case in memory. REQUIRES
-  // that no step was asked for, and that this object is not used any more.
+  // Reads the remaining frames, and returns the steps as those of a case in memory. REQUIRES that
+  // no step was asked for. This object must not be used afterwards.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 

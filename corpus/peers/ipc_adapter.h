@@ -39,7 +39,7 @@ class AssayNarrowPhase : public ipc::TightInclusionCCD {
   // REQUIRES a rescaling in (0,1].
   explicit AssayNarrowPhase(double rescaling = 0.95) { conservative_rescaling = rescaling; }
 
-  // How many questions were answered exactly, and how many went through.
+  // How many queries were answered exactly, and how many were passed on to the toolkit.
   mutable std::atomic<std::uint64_t> exact = 0, passed_on = 0;
 
   bool point_point_ccd(AnyVector p0, AnyVector q0, AnyVector p1, AnyVector q1, double& toi,
@@ -164,7 +164,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
   }
 
  private:
-  // Makes the tree, if these are other elements than before.
+  // Makes the tree, if the elements differ from those that the last tree was made for.
   void take(Matrix x, Indices edges, Indices faces) {
     using namespace detector;
     const auto are = [](const Eigen::MatrixXi& a, Indices b) {
@@ -231,7 +231,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
     });
   }
 
-  // Of the last elements for which there is a tree.
+  // The elements that tree_ was made for.
   Eigen::MatrixXi edges_, faces_;
   detector::Topology topology_;
   std::vector<int> row_of_edge_;  // in edges_, by edge of the topology

@@ -45,7 +45,7 @@ struct Sheet {
   int columns, rows;
   bool is_round = false;   // the last column meets the first
   bool is_ring = false;    // the last row meets the first
-  bool is_turned = false;  // its other side is the outer one
+  bool is_turned = false;  // the orientation of all triangles is reversed
 };
 
 // Adds a sheet to a MeshMaker or anything else with `vertex` and `quad`; place(k, i) says where the

@@ -112,9 +112,9 @@ class FeatureContacts {
   // Returns the least upper end of the times of all contacts that count and were found under a
   // bound; infinity if there is none. REQUIRES that no lane works.
   double least_end() const;
-  // Takes, from now on, pairs of features that come within the separation plus the slack in this
-  // motion of the same vertices. They are tested over the whole step. The second constructor calls
-  // this; after the first one it is REQUIRED before candidates come.
+  // From now on, takes the pairs of features that come within the separation plus the slack in
+  // `motion`, which has the same vertices as the step. They are tested over the whole step. The
+  // second constructor calls this; after the first one it is REQUIRED before candidates come.
   void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
     pairs_.fit(motion, pace, elementary_.separation() + slack);
   }

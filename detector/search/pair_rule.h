@@ -175,7 +175,7 @@ class Marking {
   // have one type, as in a step without views, the nodes are not walked over.
   void bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree, Marks& marks,
                 MarkingCounts& counts) const;
-  // The same if only some triangles may change, each with its new type.
+  // Sets the types of some triangles, each to its new type, and the flags to match.
   struct Change {
     std::int32_t triangle;
     TriangleType type;

@@ -52,8 +52,8 @@ class StepRun {
   // missed, because L3 speaks of all contacts (L19).
   bool close_pairs();
 
-  // Returns the result. If the step was completed, and was asked about to its end, `next` is set to
-  // the state there (L8). The flag has_own_primitives says that the caller gave no primitives.
+  // Returns the result. If the question was about the whole step, and the step was completed, sets
+  // `next` to the state at its end (L8). has_own_primitives: the caller gave no primitives.
   StepResult finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
                     std::optional<StepState>& next);
 

@@ -42,11 +42,11 @@ struct WrongTime {
   TimeEnclosure detector, oracle;
 };
 
-// How far a stated first time is off, as a share of the step. The lower end of the interval counts,
-// because the caller goes that far: the time is late if this end is after t*, and early if it is
-// before t*, each by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5, although it
-// holds t*. At most one of `late` and `early` is not 0. All counts of late and early first times
-// use this struct (step_measures.h).
+// How far a stated first time is off, as a share of the step. The lower end of its interval is
+// compared, because the caller goes that far: the time is late if this end is after t*, and early
+// if it is before t*, by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5,
+// although it holds t*. At most one of `late` and `early` is not 0. All counts of late and early
+// first times use this struct (step_measures.h).
 struct TimeOff {
   double late = 0, early = 0;
   double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
@@ -98,14 +98,14 @@ struct StepDiff {
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
   std::vector<PairContact> missing;
-  bool is_without_excuse = false;     // first-pairs asks for one of them
+  bool is_without_excuse = false;     // the claim first-pairs asks for one of `missing`
   std::vector<PairContact> excuses;   // missing pairs that no claim asks for
   std::vector<PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
   std::vector<WrongTime> late, early;
 
-  // With a slack, the first pair that comes within it, if the detector's first time ends before the
-  // pair does.
+  // Under a contract with a slack: the first pair that comes within the slack, if the interval of
+  // the detector's first time ends before the time of that pair.
   std::optional<PairContact> first_in_slack;
 
   // The earliest contact that counts, if any.

@@ -208,10 +208,10 @@ constexpr auto names_of(LeftOut) {
                                         {single_pairs, "single pairs"}});
 }
 
-// Returns a relation of triangles, or now and then of features, that leaves this out of the case.
-// single_pairs: about every second pair of `in_contact`, or a pair of its features. near_at_rest:
-// pairs nearer than a length between an edge and 2^-10 of it, with one of the frames at rest.
-// REQUIRES that something is left out.
+// Returns a relation of triangles, or sometimes of features, that leaves `left_out` out of the
+// case. single_pairs: about every second pair of `in_contact`, or one of its feature pairs.
+// near_at_rest: pairs nearer than a length between that of an edge and 2^-10 of it, with one of the
+// frames at rest. REQUIRES left_out != LeftOut::nothing.
 CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
                               std::span<const PairContact> in_contact);
 

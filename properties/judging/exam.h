@@ -46,7 +46,7 @@ struct Exam {
   // Runs each case again, in another process. Null: there is no second run.
   WorkerProcess* second = nullptr;
   int oracle_jobs = 1;
-  // If no step of a case has an answer, the oracle, which takes most of the time, is not asked.
+  // If set, the oracle, which takes most of the time, is not asked about a case without an answer.
   bool needs_an_answer = false;
 };
 

@@ -38,7 +38,7 @@ class ReductionSearch {
   // cause (`alone`), or only those equal to the best case's whole signature at that time.
   void match_kind_alone(bool alone) { kind_alone_ = alone; }
 
-  // Returns whether a limit is reached: no case is judged any more.
+  // Returns whether a limit is reached. After that no case is judged.
   bool has_ended() const;
   std::uint64_t calls() const { return calls_; }
   double seconds() const;

@@ -160,7 +160,7 @@ class RunClock {
 // tests/mutation links the detector alone.
 inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
-  // A segment serves as a point by its first end.
+  // If the case states a segment, view-point takes its first end.
   if (culling == Culling::view_point) view->q1 = view->q0;
   return {*view};
 }

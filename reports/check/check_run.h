@@ -143,7 +143,7 @@ struct CheckAnswer {
   nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
 };
 
-// Checks one mesh. The steps of `input` are used up; for a plug-in they become those that its
+// Checks one mesh. `input` cannot be used again; for a plug-in its steps become those that the
 // contract takes. If a frame's file is refused on the way, `listener` was told of all steps before
 // that frame. `worker` is the program assay-worker, for a plug-in. If the input has recorded
 // answers, these are judged, and no detector runs here.

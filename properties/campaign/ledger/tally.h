@@ -51,9 +51,9 @@ struct Tally {
   static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  // Return the number of trials over all strata: of all; of those with a case that the contract
-  // takes; with a defect in some configuration; without a verdict in some configuration; disturbed
-  // ones.
+  // Return numbers of trials over all strata: all trials; those with a case that the contract
+  // takes; those with a defect in some configuration; those without a verdict in some
+  // configuration; those that were disturbed.
   std::uint64_t trials() const, judged_trials() const, with_defect() const, open() const,
       disturbed() const;
 

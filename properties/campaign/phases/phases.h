@@ -102,10 +102,9 @@ Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std
 
 // Returns a small mesh in many steps, so that one handle commits more often than in any other case.
 // A scene of some tens of triangles, in which the mesh meets itself, is played forwards and
-// backwards until all steps are done, so the mesh meets itself again and again, up to the last
-// steps. All frames go through a linear map near the identity that drifts slowly, so no step is
-// like another. The seed draws the scene, the size, the number of steps and the rest, as for
-// repeated_scene.
+// backwards until all steps are done, so the mesh meets itself up to the last steps. All frames go
+// through a linear map near the identity that drifts slowly, so no two steps are equal. The seed
+// draws the scene, the size, the number of steps and the rest, as for repeated_scene.
 inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
 inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 Case long_sequence(std::uint64_t seed);

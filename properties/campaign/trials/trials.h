@@ -139,7 +139,7 @@ struct FormCheck {
 FormCheck check_in_form(const Law& law, const Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker);
 
-// Returns whether this case is one that is put to this detector in other forms.
+// Returns whether check_in_form() applies: the case is put to this detector in other forms.
 bool has_forms(const DetectorUnderTest& detector, const Case& c);
 
 // Runs the trials of a campaign in threads, each with a worker process of its own.

@@ -379,7 +379,7 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
 std::vector<BenchSubject> all_arithmetics();
 
 // Returns the changes of a hard case that must not change its answer, by their names: permutation
-// (of vertices, triangles, first corners), mirror (with all triangles turned, so that outside stays
+// (of vertices, triangles, first corners), mirror (all triangles reversed, so that outside stays
 // outside), power of two (up or down, by the case's id), and translation (as far as it can be
 // exact). The case's view primitive is changed too, and its facts stay. There is no form if a
 // coordinate would be rounded.
