@@ -46,8 +46,8 @@ constexpr bool uses_views(Culling culling) {
 }
 
 // The triangles that are known to be clean at a new start: at the first step, and after a jump of
-// positions. With Start::verified, the cullings automatic and view_auto leave out the layers, and a
-// step without views verifies nothing: its pairs tell which triangles are clean in the next (L15).
+// positions. With Start::verified, Culling::automatic and view_auto leave out the layers. A step
+// without views then verifies nothing: its pairs tell which triangles are clean afterwards (L15).
 enum class Start : std::uint8_t {
   verified,  // those that L5 shows; elsewhere those that static contacts and layers show (L9)
   clean,     // the caller vouches that nothing is in contact and that layers are common
@@ -87,7 +87,7 @@ struct Options {
   const CountedPairs* counted = nullptr;
   // If 0, contacts are looked for, else pairs of triangles that come within this distance, in the
   // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES a finite
-  // number >= 0; above 0 it REQUIRES culling bvh or none, and exact arithmetic. Otherwise create()
+  // number >= 0; above 0 it REQUIRES Culling::bvh or none, and exact arithmetic. Otherwise create()
   // refuses it with wrong_separation.
   double separation = 0;
   // Whether evaluate, first_contact and limit keep the pairs of features that they found near. Then

@@ -84,7 +84,7 @@ class KeptFeatures {
   std::array<double, 3> tolerance_{};
   std::vector<FeatureKey> found_, keys_;  // as they were found, and part by part
   std::array<std::size_t, parts + 1> begins_{};
-  // Once another step has been looked at: the coordinate that moves most.
+  // The vertex and axis that move most; set when covered_until() first needs them.
   std::optional<std::pair<Eigen::Index, Eigen::Index>> fastest_;
 };
 

@@ -101,7 +101,7 @@ class FixedPolicy : public CullingPolicy {
 // in every step, because their boxes touch. O(M).
 std::uint64_t adjacent_pairs(const Topology& mesh);
 
-// The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
+// The policy of Culling::automatic and view_auto: a cost model of views and of proofs.
 //
 // It weighs the expected saving of views against their expected cost. Both are computed from the
 // numbers of triangles and pairs of this step and of the steps committed before, never from a
@@ -125,12 +125,12 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // A step after one in which most triangles were in contact does not try to release them: they will
 // likely be in contact again. Then views do not pay either.
 //
-// In addition, culling automatic keeps an account of counted work in box tests (work_of_candidate
+// In addition, `automatic` keeps an account of counted work in box tests (work_of_candidate
 // and the constants beside it; the benches account/ hold it against times). Each step without views
-// earns a share of its work. A step with views earns the work by which culling bvh would at least
-// have exceeded it, and pays for the work of views. Views are made and tried only if they can be
-// paid for. So after any number of steps, automatic has spent little more than culling bvh would
-// have spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
+// earns a share of its work. A step with views earns the least amount of work that `bvh` would have
+// needed in addition, and pays for the work of views. Views are made and tried only if they can be
+// paid for. So after any number of steps, `automatic` has spent little more than `bvh` would have
+// spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
 // in advance the saving of views within it. If only the first contact of the last step is known,
 // the start would have to be verified anew. That costs more than views save, so such a step does
 // without views. Work that depends on the tree is not counted, so that a restored detector, whose
@@ -144,7 +144,7 @@ class CostModel : public CullingPolicy {
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
-  // saves_up: keeps an account of work, which is what culling automatic does.
+  // saves_up: keeps an account of work, as only Culling::automatic does.
   CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before,
             bool saves_up = false)
       : surface_(surface), adjacent_(adjacent), state_(std::move(before)), saves_up_(saves_up) {}

@@ -32,7 +32,7 @@ class StepRun {
   bool find_start();
   // Returns whether the views still pay, now that the dirty triangles are known.
   bool pays_to_use();
-  // Makes the step go on as one of culling bvh. The clean triangles are set back to those known
+  // Makes the step go on as Culling::bvh does. The clean triangles are set back to those known
   // before the step, because the result of a step without views shows no view primitive: a caller
   // that follows the state by results could not follow a release by views.
   void drop_views();

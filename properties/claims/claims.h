@@ -337,9 +337,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
 
-// Returns the claims of the built-in detector. exact: all claims. bounded: all but no-spurious (its
-// intervals hold the times by construction, see StepResult::first). double and float: deterministic
-// and total. With pairs first, no arithmetic claims all-pairs.
+// Returns the claims of the built-in detector, by its arithmetic. exact: all claims. bounded: all
+// but no-spurious (its intervals hold the times by construction, see StepResult::first). double and
+// float: deterministic and total. With Pairs::first, no arithmetic claims all-pairs.
 inline Claims claims_of(const Options& options) {
   const bool exact = options.arithmetic == Arithmetic::exact;
   const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;

@@ -97,8 +97,8 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
                                  std::initializer_list<const CountedPairs*> all);
 
 // Returns the stage at which the detector with these options lost a pair. It runs the step with
-// less culling: the stage is "view sets" if culling bvh finds the pair, "pair search" if only
-// culling none does, "elementary test" if neither does. Culling none is tried for meshes of up to
+// less culling: the stage is "view sets" if Culling::bvh finds the pair, "pair search" if only
+// Culling::none does, "elementary test" if neither does. Culling::none is tried on meshes of up to
 // 2,000 triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
                             const PositionsView& x_t1, TrianglePair pair, Options options = {});

@@ -95,7 +95,7 @@ struct AskedDistance {
 };
 
 struct CheckQuestion {
-  // The files of the input, for reports and replay lines; bodies are empty if it has none.
+  // The files of the input, for reports and replay lines; `bodies` is empty if it has no bodies.
   std::vector<std::string> files;
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;

@@ -82,7 +82,7 @@ struct TrialRecord {
 };
 
 char letter_of(Outcome outcome);
-// The letter of a configuration that was not run: culling none on large meshes.
+// The letter of a configuration that was not run, such as Culling::none on large meshes.
 inline constexpr char not_run = '-';
 
 // The source of the cases that a campaign judges.

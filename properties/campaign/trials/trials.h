@@ -69,7 +69,7 @@ bool starts_clean(const Case& c);
 // detector does, if the case starts clean and the mesh is small.
 bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint64_t index);
 
-// Returns the configurations with start clean in place of start verified.
+// Returns the configurations with Start::clean in place of Start::verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
 // Counts the traits of a case, besides its outcome, for the built-in detector and for a plug-in:

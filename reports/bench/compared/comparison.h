@@ -251,7 +251,7 @@ struct SubjectRow {
 
 // Returns rows in the order of the subjects; a subject that took part in nothing is left out.
 // Subjects in this process that are asked for the same pairs share a Pareto line for each error.
-// Culling none has no place on it, because only the smallest meshes are run with it.
+// Culling::none has no place on the line, because only the smallest meshes are run with it.
 std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
                                    const std::vector<BenchSubject>& subjects);
 
@@ -297,7 +297,7 @@ class Comparison {
 
   // Runs all cases of the families, and adds a row for each family and subject that had one. A
   // subject is given the steps that its contract takes, and the reference is given the same steps.
-  // If steps were left out, the start of the others is not vouched for. Culling none takes part up
+  // If steps were left out, the start of the others is not vouched for. Culling::none takes part up
   // to 64 triangles. The times of a run that ended early do not count, and its steps are undecided.
   void run(const std::vector<CaseFamily>& families);
 
@@ -374,8 +374,8 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
                          const BenchProgress& progress);
-// Returns exact, bounded, double and float. Each plays a case with the culling and the view
-// primitive that the case states, or else with view-point.
+// Returns a subject for each arithmetic: exact, bounded, double and float. Each plays a case with
+// the culling and view primitive that the case states; if it states none, with Culling::view_point.
 std::vector<BenchSubject> all_arithmetics();
 
 // Returns the changes of a hard case that must not change its answer, by their names: permutation
