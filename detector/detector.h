@@ -115,7 +115,7 @@ class Detector {
 
   // Returns everything that later steps rest on: the state of the last commit, and the rules that
   // place view primitives and apexes. If no step has needed these rules yet, they are chosen now,
-  // which takes up to two steps of culling bvh.
+  // which takes as long as up to two steps of Culling::bvh.
   SavedState state() const;
 
   // Goes on from a saved state. If both detectors were made with the same options from the same

@@ -72,7 +72,7 @@ class SequenceReader {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  // Returns the problem that the next frame has another mesh than the first one.
+  // Returns the problem that the next frame's mesh is not that of the first frame.
   Problem other_mesh(std::string_view how) const;
 
   std::vector<std::filesystem::path> files_;

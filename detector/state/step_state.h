@@ -44,7 +44,7 @@ struct PolicyState {
   // search. It was halved by each later step in which views were due.
   double overhead = 0;
 
-  // The account of culling automatic, in box tests of 5 ns: how much more than culling bvh it may
+  // The account of Culling::automatic, in box tests of 5 ns: how much more work than `bvh` it may
   // still take. It starts with 0.04 ms.
   double credit = 8'000;
   double tried = 0;        // this much work was too little to make views

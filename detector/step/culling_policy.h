@@ -108,7 +108,7 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // clock: the same input gives the same bytes. A step may be seen from anywhere (L3), so each step
 // may have primitives of its own.
 //
-// The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
+// The unit of cost is one candidate pair of Culling::bvh with all that belongs to it (box tests,
 // axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
 //
 // From step to step the model is in one of two states, and the first step finds views due:
@@ -167,7 +167,7 @@ class CostModel : public CullingPolicy {
   // Returns whether the signs would save enough if all triangles were clean, and few enough
   // triangles are near ghosts. Refits the tree of an unclosed mesh.
   bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
-  // Leaves out layers, which cost about a step of culling bvh.
+  // Leaves out layers, which cost about as much as a step of Culling::bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
   // Returns whether the signs save enough among the triangles that are clean. The answer false
   // begins a pause, unless nothing was known of the start.
