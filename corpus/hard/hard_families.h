@@ -76,7 +76,7 @@ struct GridVertex {
   GridPoint t0, t1;
 };
 inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
-// Returns the vertex at a constant offset from `tip`, which moves along with it.
+// Returns a vertex that moves along with `tip`, at a constant offset from it.
 inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
   return {tip.t0 + offset, tip.t1 + offset};
 }

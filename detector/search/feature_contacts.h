@@ -193,7 +193,7 @@ class FeatureContacts {
     std::vector<QueryVertices> queries;
     std::vector<LaneRung> rungs;
     std::vector<PairContact> found;  // not yet handed over to contacts_
-    // The same for counted_, with a relation of features.
+    // Not yet handed over to counted_; used only with a relation of features.
     std::vector<PairContact> found_counted;
     bool found_ignored = false;
     double least_end = std::numeric_limits<double>::infinity();
