@@ -55,7 +55,7 @@ enum {
 /* Where a log goes, and how much of it is kept. */
 typedef struct assay_record_settings {
   const char* path;
-  uint64_t every;    /* one step of so many is recorded, the first one included; 0 and 1: each */
+  uint64_t every;    /* one step in `every` is recorded, from the first on; 0 and 1: each step */
   int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is emptied */
 } assay_record_settings;
 
@@ -67,8 +67,8 @@ typedef struct assay_record_array {
 
 /* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
 typedef struct assay_record_step_data {
-  assay_record_array x0;        /* where it starts. Absent: where the last step ended, which are its
-                                   committed positions, or else its x1 */
+  assay_record_array x0;        /* where it starts. Absent: at the end of the last step: at its
+                                   committed positions, or, if it has none, at its x1 */
   assay_record_array x1, dx;    /* exactly one of them: where it would go, or by how much */
   assay_record_array committed; /* where the simulator really went, or absent */
   const assay_result* result;   /* what its detector answered, or NULL */
