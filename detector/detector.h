@@ -30,7 +30,7 @@
 
 namespace assay::detector {
 
-struct StateFields;  // of no concern to users
+struct StateFields;  // the fields of a SavedState, which users need not know
 struct Stages;       // assembly.h
 class Workers;       // assembly.h
 
@@ -54,8 +54,8 @@ class Detector {
   // the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // Does the same, but `stop` can end it with the error `stopped`. `stop` is asked every few
-  // milliseconds of work, except in the few plain passes that check indices and coordinates.
+  // Makes a detector, and can be ended by `stop`, with the error `stopped`. `stop` is asked every
+  // few milliseconds of work, except in the few plain passes that check indices and coordinates.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);
   Detector(Detector&&) noexcept;
@@ -103,19 +103,19 @@ class Detector {
   // unless rounding brings that place into contact. That can happen where the way passes something
   // within a few units in the last place of its coordinates. Then up to 18 nearer places are tried.
   // If the free places lie roughly together, 0.98 of the farthest free place or more is taken.
-  // Whenever less than 0.93 of the time is taken, `is_short` says so. Share 0 means that the mesh
-  // stays: there is a contact at the start, or at every place that was tried. With a separation,
-  // read `within the separation` for `in contact`.
+  // `is_short` is true if less than 0.93 of the time is taken. Share 0 means that the mesh stays:
+  // there is a contact at the start, or at every place that was tried. With a separation, read
+  // `within the separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
-  // Cost: first_contact of the step and, unless that is free, of each place that is tried: nearly
-  // always one, 19 at most. Each of these is a shorter step from the same start (keeps_near).
+  // Cost: first_contact of the step and, unless the step is free, of the step to each place that is
+  // tried: nearly always one place, 19 at most. These are shorter steps from x_t0 (keeps_near).
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 
   // Returns everything that later steps rest on: the state of the last commit, and the rules that
   // place view primitives and apexes. If no step has needed these rules yet, they are chosen now,
-  // which takes up to two steps of culling bvh.
+  // which takes as long as up to two steps of Culling::bvh.
   SavedState state() const;
 
   // Goes on from a saved state. If both detectors were made with the same options from the same

@@ -46,8 +46,8 @@ constexpr bool uses_views(Culling culling) {
 }
 
 // The triangles that are known to be clean at a new start: at the first step, and after a jump of
-// positions. At a verified start, automatic and view_auto leave out the layers, and steps without
-// views verify nothing: their pairs tell the next step which triangles are clean (L15).
+// positions. With Start::verified, Culling::automatic and view_auto leave out the layers. A step
+// without views then verifies nothing: its pairs tell which triangles are clean afterwards (L15).
 enum class Start : std::uint8_t {
   verified,  // those that L5 shows; elsewhere those that static contacts and layers show (L9)
   clean,     // the caller vouches that nothing is in contact and that layers are common
@@ -87,16 +87,16 @@ struct Options {
   const CountedPairs* counted = nullptr;
   // If 0, contacts are looked for, else pairs of triangles that come within this distance, in the
   // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES a finite
-  // number >= 0; above 0 it REQUIRES culling bvh or none, and exact arithmetic. Otherwise create()
+  // number >= 0; above 0 it REQUIRES Culling::bvh or none, and exact arithmetic. Otherwise create()
   // refuses it with wrong_separation.
   double separation = 0;
-  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. If
-  // the next question is about a shorter step from the same start, it is answered from these in
-  // 0.03 to 0.4 of the time, provided that the arithmetic is exact and the step has no views (L20).
-  // After a first contact, that of any step in the same direction is found as fast.
-  // Answers, pairs and times are the same; counts, and decisions of `automatic` that rest on them,
-  // are not. Takes up to 300 bytes a triangle, 550 during the search, and up to 2 % of the time of
-  // a first question.
+  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. Then
+  // a next question about a shorter step from the same start is answered from these pairs in 0.03
+  // to 0.4 of the time, provided that the arithmetic is exact and the step has no views (L20).
+  // After a first_contact, the first contact of any step in the same direction is found as fast.
+  // Answers, pairs and times do not depend on this option; counts do, and so do decisions of
+  // `automatic` that rest on counts. It takes up to 300 bytes a triangle, 550 during the search,
+  // and up to 2 % of the time of a first question.
   bool keeps_near = false;
 };
 

@@ -55,14 +55,14 @@ struct StepResult {
   std::optional<Problem> problem;  // when answer is error
   // The first contact time, set when answer is collision. In exact arithmetic it is the unique
   // enclosure of that time, in bounded arithmetic an interval that holds that time if there is a
-  // contact at all, in double and float a time without promise.
+  // contact at all. The arithmetics double and float promise nothing about it.
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
   // Sizes of the view sets. V+, V- and V0 count only triangles outside Vv, so the four sets are
-  // disjoint and make up the mesh. A step without views (culling normal_cone, bvh or none, or a
-  // step of automatic and view_auto that drops its views) has no view sets: all sizes are 0, and
-  // doubts, signs, primitives and apexes are empty.
+  // disjoint and make up the mesh. A step without views (Culling::normal_cone, bvh or none, or a
+  // step in which `automatic` or `view_auto` drops its views) has no view sets: all sizes are 0,
+  // and doubts, signs, primitives and apexes are empty.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step

@@ -72,7 +72,7 @@ class SequenceReader {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  // Returns the problem that the next frame has another mesh than the first one.
+  // Returns the problem that the next frame's mesh is not that of the first frame.
   Problem other_mesh(std::string_view how) const;
 
   std::vector<std::filesystem::path> files_;
@@ -140,7 +140,7 @@ class DoubledCorners {
   detector::Triangles welded(detector::Triangles triangles) const;
 
  private:
-  std::vector<std::int32_t> first_;  // by vertex, the first one of its place; -1: of no triangle
+  std::vector<std::int32_t> first_;  // by vertex: the first vertex at its place; -1: in no triangle
 };
 
 // Writes meshes as binary little-endian PLY with double coordinates, which read back bit by bit.

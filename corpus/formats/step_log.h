@@ -107,7 +107,7 @@ class StepLog {
   std::uint64_t size_ = 0, scanned_ = 0;
   std::int64_t next_record_ = 0;
   bool is_ended_ = false, is_cut_ = false;
-  std::string why_damaged_;  // from scanned_ on
+  std::string why_damaged_;  // what is wrong at offset scanned_
   LogHead head_{};
   std::vector<Place> steps_;
   std::multimap<std::uint64_t, std::string> notes_;

@@ -26,7 +26,7 @@ struct SourceStep {
 // A description of an input in words.
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
-  std::vector<std::string> files = {};    // in the order in which they are taken; empty: as given
+  std::vector<std::string> files = {};    // in the order of reading; empty: in the order given
   std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
@@ -68,8 +68,8 @@ class StepSource {
   // Returns the same case if it states options and facts; null if it is only triangles and frames.
   virtual const Case* case_file() const { return nullptr; }
 
-  // Reads the remaining frames, and returns the same steps as those of a case in memory. REQUIRES
-  // that no step was asked for, and that this object is not used any more.
+  // Reads the remaining frames, and returns the steps as those of a case in memory. REQUIRES that
+  // no step was asked for. This object must not be used afterwards.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 
@@ -78,7 +78,7 @@ class StepSource {
 Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
                              const detector::Problem& problem);
 
-// Makes the steps of a case. If `is_case_file`, the options and facts that the case states count.
+// Makes the steps of a case. `is_case_file` says whether case_file() returns the case or null.
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
                                           InputText text = {});
 

@@ -22,11 +22,11 @@ std::optional<double> parse_double(std::string_view word);
 // nothing. A leading + is allowed.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// Returns the text behind the mark of UTF-8 (EF BB BF) that editors and spreadsheets put first.
+// Returns the text without its byte-order mark (EF BB BF), which editors and spreadsheets write.
 std::string_view without_mark(std::string_view text);
 
-// Lines of a text that end in \n, \r\n, \r or at the end of the text. Blanks at either end of a
-// line are dropped, and a mark of UTF-8 at the start of the text.
+// The lines of a text. A line ends at \n, \r\n or \r, or where the text ends. Blanks at either end
+// of a line are dropped, and so is a byte-order mark at the start of the text.
 class Lines {
  public:
   // `comment` starts a comment that runs to the end of its line; '\0': there are no comments. With

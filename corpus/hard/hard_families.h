@@ -29,8 +29,8 @@ namespace assay::corpus {
 // mantissa. At last each axis is scaled by a power of two.
 
 // The free choices of a hard case: integers that depend on its family, strength and variant alone.
-// They are the same on every platform as long as no two draws are arguments or operands of one
-// expression, because operands have no order (items of a braced list have one).
+// They are the same on every platform, provided that no two draws are arguments or operands of one
+// expression: C++ evaluates these in any order, but the items of a braced list from left to right.
 //
 // SplitMix64, seeded by FNV-1a of the family's name.
 class Variation {
@@ -76,7 +76,7 @@ struct GridVertex {
   GridPoint t0, t1;
 };
 inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
-// Returns the vertex at a constant offset from `tip`, which moves along with it.
+// Returns a vertex that moves along with `tip`, at a constant offset from it.
 inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
   return {tip.t0 + offset, tip.t1 + offset};
 }

@@ -1,5 +1,5 @@
 // Additive continuous collision detection (Li et al. 2021) of two simulators, in doubles, on the
-// host; ASSAY_PEER_CODIM_IPC chooses the first.
+// CPU: CodimIpc if ASSAY_PEER_CODIM_IPC is 1, otherwise Libuipc.
 //
 //   CodimIpc  Point_Triangle_CCD and Edge_Edge_CCD of Math/Distance/CCD, commit 9c6cbe3a
 //             (2022-11-01) of ipc-sim/Codim-IPC: eta 0.1, thickness 0, after its test of boxes, as

@@ -4,8 +4,8 @@
 //   const double size = ipc::compute_collision_free_stepsize(
 //       mesh, x_t0, x_t1, min_distance, &broad_phase, AssayNarrowPhase());
 //
-// Detector::limit answers the whole question of such a step in one call, and its places are free as
-// rounded: ipc_line_search.cpp shows both. Version: that of ipc_mesh.h.
+// Detector::limit gives the step in one call, with end positions that have no contact even after
+// rounding: ipc_line_search.cpp shows both ways. ipc_mesh.h states the version of the toolkit.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@
 
 namespace assay::peers {
 
-// Answers vertex-face and edge-edge in exact arithmetic on the doubles given, which must be finite.
-// Point-point and point-edge go through to the toolkit's Tight-Inclusion.
+// Answers vertex-face and edge-edge queries in exact arithmetic on the given, finite doubles.
+// Passes point-point and point-edge queries on to the toolkit's Tight-Inclusion.
 //
 // Let t be the first time in [0,1] at which two features are within min_distance. Then toi is
-// conservative_rescaling * t, and there is a collision if that is at most tmax. So a step keeps its
-// margin from every pair, although the toi of one pair is tmax for the next. With a rescaling of 1,
-// t itself is compared. toi is never above t, and 0 only if t is 0 or below the least double.
+// conservative_rescaling * t, and a collision is reported if toi <= tmax. Comparing toi, not t,
+// keeps the margin of every pair, because the toolkit passes the toi of one pair as tmax of the
+// next. toi is never above t, and 0 only if t is 0 or below the least positive double.
 class AssayNarrowPhase : public ipc::TightInclusionCCD {
   using Vector = Eigen::ConstRef<Eigen::Vector3d>;
   using AnyVector = Eigen::ConstRef<ipc::VectorMax3d>;  // in the plane or in space
@@ -39,7 +39,7 @@ class AssayNarrowPhase : public ipc::TightInclusionCCD {
   // REQUIRES a rescaling in (0,1].
   explicit AssayNarrowPhase(double rescaling = 0.95) { conservative_rescaling = rescaling; }
 
-  // How many questions were answered exactly, and how many went through.
+  // How many queries were answered exactly, and how many were passed on to the toolkit.
   mutable std::atomic<std::uint64_t> exact = 0, passed_on = 0;
 
   bool point_point_ccd(AnyVector p0, AnyVector q0, AnyVector p1, AnyVector q1, double& toi,
@@ -164,7 +164,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
   }
 
  private:
-  // Makes the tree, if these are other elements than before.
+  // Makes the tree, if the elements differ from those that the last tree was made for.
   void take(Matrix x, Indices edges, Indices faces) {
     using namespace detector;
     const auto are = [](const Eigen::MatrixXi& a, Indices b) {
@@ -231,7 +231,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
     });
   }
 
-  // Of the last elements for which there is a tree.
+  // The elements that tree_ was made for.
   Eigen::MatrixXi edges_, faces_;
   detector::Topology topology_;
   std::vector<int> row_of_edge_;  // in edges_, by edge of the topology

@@ -46,9 +46,9 @@ class IpcMesh {
  protected:
   explicit IpcMesh(const plugin::Mesh& mesh) : used_(used_of(mesh)), mesh_(made(mesh)) {}
 
-  // Returns the rows of the vertices that triangles have. The toolkit takes other vertices for
-  // points that collide, and its own choice of vertices (build_from_full_mesh) rounds their
-  // positions.
+  // Returns the rows of the vertices that are corners of triangles. The toolkit would take the
+  // other vertices for points that collide, and its own way to leave vertices out
+  // (build_from_full_mesh) rounds positions.
   Eigen::MatrixXd rows_of(plugin::Positions positions) const {
     return plugin::eigen(positions)(used_, Eigen::all);
   }

@@ -79,8 +79,8 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    std::size_t right = 0;   // the left child stands right behind its parent
-    std::int32_t item = -1;  // of a leaf
+    std::size_t right = 0;   // index of the right child; the left child is the node after this one
+    std::int32_t item = -1;  // the item of a leaf; -1: not a leaf
     bool is_leaf() const { return item >= 0; }
     double width() const {
       return std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});

@@ -29,10 +29,10 @@ struct LabelledQuery {
 };
 
 // Reads the queries of a file. The path tells whether they are vertex-face or edge-edge: it has a
-// folder named `vertex-face` or `edge-edge`, or a name that begins so or ends in vf or ee
-// (3036vf.csv, 3036ee.csv.gz); an underscore may stand for the hyphen. Otherwise the file is
-// refused. `truth_json` is a file with an array of booleans, one a query, which replace labels in
-// the rows.
+// folder named `vertex-face` or `edge-edge`, or the file's name begins with one of these words or
+// ends in vf or ee (3036vf.csv, 3036ee.csv.gz); an underscore may stand for the hyphen. Any other
+// file is refused. `truth_json` is a file with an array of booleans, one a query, which replace
+// labels in the rows.
 Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv,
     const std::optional<std::filesystem::path>& truth_json = std::nullopt);

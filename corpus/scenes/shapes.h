@@ -45,7 +45,7 @@ struct Sheet {
   int columns, rows;
   bool is_round = false;   // the last column meets the first
   bool is_ring = false;    // the last row meets the first
-  bool is_turned = false;  // its other side is the outer one
+  bool is_turned = false;  // the orientation of all triangles is reversed
 };
 
 // Adds a sheet to a MeshMaker or anything else with `vertex` and `quad`; place(k, i) says where the
@@ -148,10 +148,10 @@ Mesh combed_hair(int size, double s);
 // A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
 // reaches through the hole: one connected, unclosed surface (its only boundary is the hole's rim).
 //
-// The box is [-1,1]^3, the hole |x|, |y| < 1/3 at z = 1; the arm is 0.2 wide. All edges have about
-// one length, 2 / (3 b) for a resolution b >= 1, and the arm has k = max(1, b / 3) of them on each
-// of its four sides. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the arm is deepest
-// at most 16 b k + 12 k of them are inside: below 5 % if b is 3 or more (1,204 triangles).
+// The box is [-1,1]^3, the hole |x|, |y| < 1/3 at z = 1; the arm is 0.2 wide. All edges are about 2
+// / (3 b) long for a resolution b >= 1, and each of the four sides of the arm is k = max(1, b / 3)
+// edges wide. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the arm is deepest at most
+// 16 b k + 12 k of them are inside: below 5 % if b is 3 or more (1,204 triangles).
 struct BoxWithArm {
   explicit BoxWithArm(int size);
 

@@ -41,7 +41,7 @@ Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& ap
 //
 // A bad apex costs dirty triangles but never makes an answer wrong, because L11 asks only for
 // ghosts that close the loops, wherever they stand. So the choice may take no more work than a
-// step of culling bvh. It counts its work and looks at no clock. Loops are handled from the
+// step of Culling::bvh. It counts its work and looks at no clock. Loops are handled from the
 // shortest to the longest. Each loop gets a share of the work that is left, in proportion to its
 // length, but no less than 4,000 box tests, so a mesh of many tiny holes may take several times as
 // much. The rules of a loop divide its share evenly. A rule that does not finish within its part is

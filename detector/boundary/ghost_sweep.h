@@ -58,7 +58,7 @@ class HoleTree {
   const MovingBox& box(std::size_t node) const { return boxes_[node]; }
 
   // Calls visit(ghost) for the ghosts whose box is not apart from `box`, until a call returns true.
-  // Returns whether one did.
+  // Returns whether a call returned true.
   template <class Visit>
   bool any_near(const MovingBox& box, Visit visit) const {
     return any_near(root, box, visit);

@@ -64,7 +64,7 @@ class WideTree {
   };
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::int32_t n) const { return nodes_[at(n)]; }
-  // Return the binary node of a child, and the child itself: a node of this tree, or a triangle.
+  // Return the child in a slot: as a node of the binary tree; as a node here, or a triangle.
   std::int32_t binary(std::size_t slot) const { return slots_[slot].binary; }
   std::int32_t child(std::size_t slot) const { return slots_[slot].child; }
   // Returns the binary node that holds the same triangles.

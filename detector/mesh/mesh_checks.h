@@ -38,12 +38,13 @@ std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Ind
 // Returns nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);
 
-// Returns nothing if all is well, else the first error that applies: wrong_frame_size (bodies or
-// places at rest are not one for each vertex), index_out_of_range (in a list or a pair of bodies),
-// triangle_of_two_bodies, non_finite_coordinate (at rest), or wrong_relation: rings below 0, a
-// distance that is negative or not finite, a triangle paired with itself, an edge that no triangle
-// has, a list of the other level. REQUIRES triangles that have passed check_triangles. O(N + M),
-// and O(M log M) if edges are listed.
+// Returns nothing if all is well, else the first of these errors that applies:
+//   wrong_frame_size: `body` or `rest` has not one element for each vertex;
+//   index_out_of_range, in a list or a pair of bodies; triangle_of_two_bodies;
+//   non_finite_coordinate, in `rest`;
+//   wrong_relation: rings below 0, a distance that is negative or not finite, a triangle paired
+//   with itself, an edge that no triangle has, or a list of the other level.
+// REQUIRES triangles that have passed check_triangles. O(N + M), with edges O(M log M).
 std::optional<Problem> check_counted_pairs(const CountedPairs& counted,
                                            const TrianglesView& triangles,
                                            Eigen::Index vertex_count);

@@ -84,7 +84,7 @@ enum {
   ASSAY_CLAIM_FIRST_PAIRS = 1u << 3,   /* each connected part of the contact graph at t* (triangles
                                           as nodes, contacts as edges) holds a reported pair */
   ASSAY_CLAIM_ALL_PAIRS = 1u << 4,     /* every pair in contact during the step is reported, none
-                                          with a time after its own */
+                                          with a time later than its first contact */
   ASSAY_CLAIM_NO_SPURIOUS = 1u << 5,   /* no collision, pair or contact time is reported before
                                           there is a contact */
   ASSAY_CLAIM_DETERMINISTIC = 1u << 6, /* the same calls give the same results */
@@ -97,11 +97,11 @@ enum {
   ASSAY_CLAIM_COMMIT_FREE = 1u << 9, /* the straight step from x_t0 to the positions that it allows
                                         has no contact */
   ASSAY_CLAIM_PATH_FREE = 1u << 10,  /* the share of the step that it allows is below t* */
-  ASSAY_CLAIM_PROGRESS = 1u << 11,   /* that share is at least `progress` times t*, or times 1
-                                        where nothing is in contact. Judged where this share moves
-                                        some vertex by 2^10 units in its last place, and all gaps at
-                                        the start are 2^6 units of the largest coordinate or more;
-                                        units are those of the contract's coordinates */
+  ASSAY_CLAIM_PROGRESS = 1u << 11,   /* that share is at least progress * t*, with t* = 1 if nothing
+                                        is in contact. Judged where this share moves some vertex by
+                                        2^10 units in its last place, and all gaps at the start are
+                                        2^6 units of the largest coordinate or more; units are those
+                                        of the contract's coordinates */
   ASSAY_CLAIM_WHOLE = 1u << 12       /* a step without a contact may be taken whole */
 };
 
@@ -154,7 +154,7 @@ enum { ASSAY_MOTION_ENDS = 0, ASSAY_MOTION_DISPLACEMENT = 1 };
  * gives itself, or at those that the caller's own code computes from the share. The host computes
  * these as that code does, in the contract's coordinates, one rounding an operation. */
 enum {
-  ASSAY_LIMIT_POSITIONS = 0,  /* it gives them */
+  ASSAY_LIMIT_POSITIONS = 0,  /* the limiter gives the positions */
   ASSAY_LIMIT_START_PLUS = 1, /* x_t0 + share * (x_t1 - x_t0) */
   ASSAY_LIMIT_BLEND = 2       /* (1 - share) * x_t0 + share * x_t1 */
 };
@@ -197,8 +197,8 @@ typedef struct assay_description {
                         elementary query is then about two features that come within it. */
   /* The pairs left out, besides neighbours. The mesh at rest is that given to create. */
   int32_t counts;       /* ASSAY_COUNTS_...: rings and rest_distance are about pairs of these */
-  int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: none */
-  double rest_distance; /* pairs nearer to each other at rest, user's units; 0: none */
+  int32_t rings;        /* pairs joined by a path of fewer edges of the mesh; 0: no such pairs */
+  double rest_distance; /* pairs nearer to each other at rest, user's units; 0: no such pairs */
   int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if it is told a share alone */
   double progress;      /* what ASSAY_CLAIM_PROGRESS promises: above 0, at most 1; else 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
@@ -243,9 +243,9 @@ typedef struct assay_result {
   const char* message;      /* with ASSAY_ERROR: one line, or NULL */
 } assay_result;
 
-/* Which pairs count. A pair that does not count is not to be reported, and makes no step a
- * collision. Everything that is not named here counts. Below, "the two" are two triangles or two
- * features, as the level says. */
+/* Which pairs do not count; all others count. A pair that does not count is not to be reported, and
+ * makes no step a collision. Below, "the two" are two triangles or two features, as the level
+ * says. */
 typedef struct assay_counted_pairs {
   int32_t level; /* ASSAY_COUNTS_... */
   /* vertex_count numbers of bodies from 0 on, or NULL: all vertices are of body 0. The vertices of
@@ -253,8 +253,8 @@ typedef struct assay_counted_pairs {
   const int32_t* body;
   uint64_t apart_count;
   const int32_t* apart; /* apart_count x 2: bodies a, b do not meet; a, a: a does not meet itself */
-  int32_t rings;        /* the two are joined by a path of fewer edges; 0: none */
-  double rest_distance; /* the two are nearer to each other at rest; 0: none */
+  int32_t rings;        /* the two are joined by a path of fewer edges; 0: not used */
+  double rest_distance; /* the two are nearer to each other at rest; 0: not used */
   const double* rest;   /* vertex_count x 3 places at rest; NULL if rest_distance is 0 */
   uint64_t triangle_pair_count;
   const int32_t* triangle_pairs; /* triangle_pair_count x 2; of triangles only */

@@ -42,7 +42,7 @@
 /* The errors besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
 enum {
   ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has no such value */
-  ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and where the last step ended is not
+  ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and the end of the last step is not
                                        known */
   ASSAY_RECORD_NOT_BEGUN = 18,      /* refused: begin did not succeed, or end was called */
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
@@ -55,7 +55,7 @@ enum {
 /* Where a log goes, and how much of it is kept. */
 typedef struct assay_record_settings {
   const char* path;
-  uint64_t every;    /* one step of so many is recorded, the first one included; 0 and 1: each */
+  uint64_t every;    /* one step in `every` is recorded, from the first on; 0 and 1: each step */
   int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is emptied */
 } assay_record_settings;
 
@@ -67,8 +67,8 @@ typedef struct assay_record_array {
 
 /* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
 typedef struct assay_record_step_data {
-  assay_record_array x0;        /* where it starts. Absent: where the last step ended, which are its
-                                   committed positions, or else its x1 */
+  assay_record_array x0;        /* where it starts. Absent: at the end of the last step: at its
+                                   committed positions, or, if it has none, at its x1 */
   assay_record_array x1, dx;    /* exactly one of them: where it would go, or by how much */
   assay_record_array committed; /* where the simulator really went, or absent */
   const assay_result* result;   /* what its detector answered, or NULL */
@@ -182,7 +182,7 @@ static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char*
  * tables. */
 enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* words */
 
-/* The next words of the quotient, behind the last 300 ones. */
+/* Appends `words` words of the quotient to the last 300, with which `quotient` begins. */
 static inline void assay_record_divide_(uint64_t* quotient, const unsigned char* p, size_t words) {
   size_t i;
   for (i = 0; i < words; ++i) {

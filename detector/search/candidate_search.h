@@ -52,8 +52,8 @@ class CandidateSearch {
   // pairs that it can prove apart (PatchProofs). With `keeps` it keeps the near feature pairs for a
   // later question (L20). REQUIRES a search that was fitted to the step, with its tree.
   bool collect(bool uses_proofs = true, bool keeps = false);
-  // Tests the feature pairs that an earlier search of the same types has kept, if these are all
-  // that may meet, or all that may meet by a time at which a first contact may be. REQUIRES mark().
+  // Tests the feature pairs that an earlier search of the same types has kept, if they cover the
+  // question, or, for a first contact, at least the beginning of the step. REQUIRES mark().
   bool collect_kept();
   // Returns whether collect_kept() has found all that is asked for. Otherwise collect() has to.
   bool is_answered() const {

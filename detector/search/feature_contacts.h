@@ -35,8 +35,8 @@ namespace assay::detector {
 //
 // The contacts come from feature pairs, so one triangle pair may come up to 21 times. If all
 // triangles lie upon each other there are M^2 / 2 pairs. To keep memory small, each pair is kept
-// once: the latest contacts are merged into the sorted others as soon as they are a quarter of
-// these. A pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
+// once: new contacts are merged into the sorted list when they number a quarter of the list. A pair
+// takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
 //
 // Memory in proportion to the list's length is taken only where the stop function is asked
 // meanwhile. So if the stop function watches a limit of memory, the limit is kept. Cost: O(log n)
@@ -45,8 +45,8 @@ class PairContacts {
  public:
   void add(const PairContact& contact);
 
-  // Returns whether a few more contacts would make the list grow in add(), where no stop function
-  // is asked. Call make_room() first if so.
+  // Returns whether a few more contacts would make the list grow in add(), which asks no stop
+  // function. The caller should then call make_room(), which asks one.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
     return !all_.empty() && all_.capacity() - all_.size() < a_few;
@@ -112,9 +112,9 @@ class FeatureContacts {
   // Returns the least upper end of the times of all contacts that count and were found under a
   // bound; infinity if there is none. REQUIRES that no lane works.
   double least_end() const;
-  // Takes, from now on, pairs of features that come within the separation plus the slack in this
-  // motion of the same vertices. They are tested over the whole step. The second constructor calls
-  // this; after the first one it is REQUIRED before candidates come.
+  // From now on, takes the pairs of features that come within the separation plus the slack in
+  // `motion`, which has the same vertices as the step. They are tested over the whole step. The
+  // second constructor calls this; after the first one it is REQUIRED before candidates come.
   void take_near_in(const SteppedMesh& motion, double slack, PacedStop* pace) {
     pairs_.fit(motion, pace, elementary_.separation() + slack);
   }
@@ -138,10 +138,10 @@ class FeatureContacts {
   // lane.
   void make_lanes(std::size_t count);
 
-  // Takes the feature pairs of a candidate pair, and tests those of its lane whenever enough have
-  // come together. With `may_pierce` the edges that may pierce the other triangle at t=0 are taken
-  // too. Returns false if `stop` asked for an end. Calls for different lanes may run at the same
-  // time.
+  // Adds the feature pairs of a candidate pair to a lane, and tests the pairs of the lane when
+  // there are enough of them. With `may_pierce` it also adds the edges that may pierce the other
+  // triangle at t=0. Returns false if `stop` asked for an end. Calls for different lanes may run in
+  // parallel.
   bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce, const StopFunction& stop = {},
                      std::size_t lane = 0);
 
@@ -193,7 +193,7 @@ class FeatureContacts {
     std::vector<QueryVertices> queries;
     std::vector<LaneRung> rungs;
     std::vector<PairContact> found;  // not yet handed over to contacts_
-    // The same for counted_, with a relation of features.
+    // Not yet handed over to counted_; used only with a relation of features.
     std::vector<PairContact> found_counted;
     bool found_ignored = false;
     double least_end = std::numeric_limits<double>::infinity();
@@ -231,7 +231,7 @@ class FeatureContacts {
   std::mutex handing_over_;
   PairContacts contacts_;
   const PairRelation* relation_ = nullptr;
-  PairContacts counted_;  // with a relation of features alone
+  PairContacts counted_;  // used only if relation_ has level features
   std::optional<TimeBound> bound_;
 };
 

@@ -257,8 +257,8 @@ class FeaturePairs {
   // Sets what later searches ask for, with the types as they are now. Before the first call,
   // searches ask for everything, and no pair counts as asked for earlier.
   void ask(const AskedTypes& relations);
-  // Takes features, from now on, that are not farther apart than the separation in this motion.
-  // REQUIRED before the functions below. If `pace` was stopped, none of them may be called.
+  // Fits to a motion: from now on, features that come within the separation in it are taken.
+  // REQUIRED before the functions below, which must not be called if `pace` was stopped.
   void fit(const SteppedMesh& motion, PacedStop* pace, double separation) {
     points_.assign(motion, pace, separation);
   }

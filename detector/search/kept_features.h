@@ -59,13 +59,13 @@ class KeptFeatures {
     found_.clear();
     return std::exchange(found_, {});
   }
-  // Keeps the feature pairs found near over the step up to this time, with boxes on this grid. 2 ns
-  // a vertex.
+  // Keeps `found`: all feature pairs that a search over the step, with boxes on `grid`, did not
+  // show to be apart at all times up to `until` (L20). 2 ns a vertex.
   void keep(const SteppedMesh& step, double until, const FloatGrid& grid,
             std::vector<FeatureKey> found, PacedStop& pace);
-  // Returns up to which time of the other step all feature pairs that meet are kept (L20): 0 if
-  // none need be, more than 1 if a longer step would do. 2 ns a vertex, and the first time 5 ns a
-  // feature pair.
+  // Returns the time up to which all feature pairs that meet in the other step are among the kept
+  // ones (L20). 0: the kept ones say nothing of that step; above 1: they cover more than the step.
+  // 2 ns a vertex; the first call takes 5 ns a feature pair, too.
   double covered_until(const SteppedMesh& other, PacedStop& pace);
 
   // Returns one part of all that is kept. Each part is spread over the mesh. Which pairs a part
@@ -84,7 +84,7 @@ class KeptFeatures {
   std::array<double, 3> tolerance_{};
   std::vector<FeatureKey> found_, keys_;  // as they were found, and part by part
   std::array<std::size_t, parts + 1> begins_{};
-  // Once another step has been looked at: the coordinate that moves most.
+  // The vertex and axis that move most; set when covered_until() first needs them.
   std::optional<std::pair<Eigen::Index, Eigen::Index>> fastest_;
 };
 

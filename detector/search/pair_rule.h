@@ -65,11 +65,11 @@ class PairRule {
   // Returns the pairs of the first search: K inside a component, every pair of two components.
   virtual PairTables candidates() const;
   // Returns the pairs of a round of the closure: every triangle that has joined H, against its
-  // whole component (U,H). No pair of two components is asked for, because the first search looked
-  // at all of them.
+  // whole component (U,H). Pairs of triangles of different components are not asked for, because
+  // the first search looked at all of them.
   virtual PairTables closure() const;
-  // Returns whether triangle `t` of this contact, which is within one component, joins H. In L7
-  // both of its triangles do.
+  // Returns whether triangle `t` of this contact, which is within one component, joins H. By L7
+  // both triangles of the contact join.
   virtual bool joins_closure(const TrianglePair& contact, std::int32_t t) const;
 };
 
@@ -175,7 +175,7 @@ class Marking {
   // have one type, as in a step without views, the nodes are not walked over.
   void bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree, Marks& marks,
                 MarkingCounts& counts) const;
-  // The same if only some triangles may change, each with its new type.
+  // Sets the types of some triangles, each to its new type, and the flags to match.
   struct Change {
     std::int32_t triangle;
     TriangleType type;

@@ -44,7 +44,7 @@ struct PolicyState {
   // search. It was halved by each later step in which views were due.
   double overhead = 0;
 
-  // The account of culling automatic, in box tests of 5 ns: how much more than culling bvh it may
+  // The account of Culling::automatic, in box tests of 5 ns: how much more work than `bvh` it may
   // still take. It starts with 0.04 ms.
   double credit = 8'000;
   double tried = 0;        // this much work was too little to make views
@@ -62,9 +62,9 @@ struct StepState {
   // step (L9). After a step without views no triangle of a component with ghosts is clean, because
   // nobody swept the ghosts (L15).
   std::vector<std::uint8_t> clean;
-  // The pairs in contact during the step whose triangles are of one component.
-  // contacts_are_complete says whether these are all such pairs; they are not after a collision
-  // found by K alone.
+  // Pairs in contact during the step, both triangles of the same component. They may be only some
+  // of these pairs after a collision that was found by K alone: contacts_are_complete is then
+  // false.
   std::vector<TrianglePair> contacts;
   bool contacts_are_complete = true;
   // By component: its view primitive at these positions, if the winding number there is known to

@@ -101,14 +101,14 @@ class FixedPolicy : public CullingPolicy {
 // in every step, because their boxes touch. O(M).
 std::uint64_t adjacent_pairs(const Topology& mesh);
 
-// The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
+// The policy of Culling::automatic and view_auto: a cost model of views and of proofs.
 //
 // It weighs the expected saving of views against their expected cost. Both are computed from the
 // numbers of triangles and pairs of this step and of the steps committed before, never from a
 // clock: the same input gives the same bytes. A step may be seen from anywhere (L3), so each step
 // may have primitives of its own.
 //
-// The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
+// The unit of cost is one candidate pair of Culling::bvh with all that belongs to it (box tests,
 // axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
 //
 // From step to step the model is in one of two states, and the first step finds views due:
@@ -125,12 +125,12 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // A step after one in which most triangles were in contact does not try to release them: they will
 // likely be in contact again. Then views do not pay either.
 //
-// In addition, culling automatic keeps an account of counted work in box tests (work_of_candidate
+// In addition, `automatic` keeps an account of counted work in box tests (work_of_candidate
 // and the constants beside it; the benches account/ hold it against times). Each step without views
-// earns a share of its work. A step with views earns the work by which culling bvh would at least
-// have exceeded it, and pays for the work of views. Views are made and tried only if they can be
-// paid for. So after any number of steps, automatic has spent little more than culling bvh would
-// have spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
+// earns a share of its work. A step with views earns the least amount of work that `bvh` would have
+// needed in addition, and pays for the work of views. Views are made and tried only if they can be
+// paid for. So after any number of steps, `automatic` has spent little more than `bvh` would have
+// spent. If a glance from the middle of the mesh shows it to be positive, the step may spend
 // in advance the saving of views within it. If only the first contact of the last step is known,
 // the start would have to be verified anew. That costs more than views save, so such a step does
 // without views. Work that depends on the tree is not counted, so that a restored detector, whose
@@ -140,11 +140,11 @@ std::uint64_t adjacent_pairs(const Topology& mesh);
 // between these are of 1, 2, 4 and 8 steps.
 class CostModel : public CullingPolicy {
  public:
-  // A step without views earns this share of its work; it may be lost later. A tenth is promised.
+  // The share of its work that a step without views earns; README.md allows twice this loss.
   static constexpr double earned_share = 0.05;
 
   // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
-  // saves_up: as culling automatic does.
+  // saves_up: keeps an account of work, as only Culling::automatic does.
   CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before,
             bool saves_up = false)
       : surface_(surface), adjacent_(adjacent), state_(std::move(before)), saves_up_(saves_up) {}
@@ -167,7 +167,7 @@ class CostModel : public CullingPolicy {
   // Returns whether the signs would save enough if all triangles were clean, and few enough
   // triangles are near ghosts. Refits the tree of an unclosed mesh.
   bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
-  // Leaves out layers, which cost about a step of culling bvh.
+  // Leaves out layers, which cost about as much as a step of Culling::bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
   // Returns whether the signs save enough among the triangles that are clean. The answer false
   // begins a pause, unless nothing was known of the start.
@@ -198,9 +198,9 @@ class CostModel : public CullingPolicy {
   void update_anchors(PolicyState& next) const;
   // Estimates the saving of views within a step that is seen from the middle of its components.
   double hoped_at_a_glance(const SteppedMesh& motion) const;
-  // Returns whether the counts of the search tell the work of bvh. They do not if proofs, or the
-  // sheets of a mesh at rest, leave out pairs: these depend on the tree, and thus on the positions
-  // that the detector was made from.
+  // Returns whether the work of bvh can be computed from the counts of the search. It cannot if
+  // proofs, or the sheets of a mesh at rest, leave out pairs: these pairs depend on the tree, and
+  // so on the positions that the detector was made from.
   bool counts_tell() const { return !proves_ && !is_at_rest_; }
   // Returns how much may be spent after this step.
   double credit_after(const StepCounts& counts, std::size_t contacts) const;
@@ -210,7 +210,7 @@ class CostModel : public CullingPolicy {
   PolicyState state_;
   bool chose_anchors_ = false;
   double share_of_signs_ = 1;  // the share of pairs that the signs save if all triangles are clean
-  double share_ = 1;           // the same with the triangles that are clean; a free step saves all
+  double share_ = 1;           // as above, with the triangles known to be clean; 1 in a free step
   bool paid_ = true;
   bool proves_ = false;
   ViewUse use_ = ViewUse::used;
@@ -219,7 +219,7 @@ class CostModel : public CullingPolicy {
   bool saves_up_ = false, waits_ = false, is_at_rest_ = false;
   double most_for_views_ = 0;
   double spent_ = 0;                   // of this step, on views and on the view test, in box tests
-  std::optional<std::uint64_t> of_k_;  // its candidates before the closure, once known
+  std::optional<std::uint64_t> of_k_;  // candidates before the closure, once known
 };
 
 }  // namespace assay::detector

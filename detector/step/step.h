@@ -41,10 +41,10 @@ class FirstViews {
   const std::vector<ApexRule>& apex_rules() const { return apex_rules_; }
 
  private:
-  std::optional<Positions> x_;  // nothing once they are made
+  std::optional<Positions> x_;  // nothing once anchors and rules are made
   std::vector<ViewAnchor> anchors_;
   std::vector<ApexRule> apex_rules_;
-  double work_ = 0;  // until they are made, a lower bound of their work
+  double work_ = 0;  // a lower bound of the work to make them, until they are made
 };
 
 // The data that a detector keeps for its mesh: the results of preprocessing, and the working memory

@@ -32,7 +32,7 @@ class StepRun {
   bool find_start();
   // Returns whether the views still pay, now that the dirty triangles are known.
   bool pays_to_use();
-  // Makes the step go on as one of culling bvh. The clean triangles are set back to those known
+  // Makes the step go on as Culling::bvh does. The clean triangles are set back to those known
   // before the step, because the result of a step without views shows no view primitive: a caller
   // that follows the state by results could not follow a release by views.
   void drop_views();
@@ -52,8 +52,8 @@ class StepRun {
   // missed, because L3 speaks of all contacts (L19).
   bool close_pairs();
 
-  // Returns the result. If the step was completed, and was asked about to its end, `next` is set to
-  // the state there (L8). The flag has_own_primitives says that the caller gave no primitives.
+  // Returns the result. If the question was about the whole step, and the step was completed, sets
+  // `next` to the state at its end (L8). has_own_primitives: the caller gave no primitives.
   StepResult finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
                     std::optional<StepState>& next);
 

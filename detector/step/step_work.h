@@ -57,7 +57,7 @@ struct StepMarks {
   std::vector<std::uint8_t> clean = {};  // by triangle of the mesh: 1 if clean at t=0
   // By triangle of the mesh: 1 if a ghost touches it during the step.
   std::vector<std::uint8_t> touched = {};
-  // The same for touches of moving boxes; it serves the counts alone.
+  // By triangle of the mesh: 1 if its moving box meets that of a ghost. Used for counts alone.
   std::vector<std::uint8_t> near_ghosts = {};
 
   // Returns true if the step tests K and its closure alone, false if it tests every pair.

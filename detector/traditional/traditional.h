@@ -7,8 +7,8 @@
 // cone and contour. Other pairs are told apart by boxes and by the pair rule, as in TreeSearch. So
 // the candidates are a subset of those of TreeSearch.
 //
-// With culling normal_cone the pair rule asks for every pair: there are no views and no state, and
-// every step stands alone. With culling automatic the rule asks for K (L14). Either way the search
+// With Culling::normal_cone the pair rule asks for every pair: there are no views and no state, and
+// every step stands alone. With Culling::automatic the rule asks for K (L14). Either way the search
 // finds what L3 and L7 promise, because no pair that it leaves out is in contact. A feature pair
 // is tested at one of the pairs of triangles that hold it (feature_pairs.h). If that pair of
 // triangles is left out, the features lie in one patch and do not meet.

@@ -67,7 +67,7 @@ Effort effort_for(const Component& component, const Topology& mesh, Effort effor
 // fewer of the triangles positive than the best one. The place is combined of vertices below
 // `vertex_count` (apexes are above). Cost: hundreds of passes over at most 10,000 triangles for a
 // point and 2,500 for a line, and a few dozen over at most 20,000. That is less than two steps of
-// culling bvh take. Once `pace` says to end, it soon returns some place.
+// Culling::bvh take. Once `pace` says to end, it soon returns some place.
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
                             Eigen::Index vertex_count, const PositionsView& x,
                             Effort effort = Effort::thorough, PacedStop* pace = nullptr);

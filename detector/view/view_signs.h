@@ -53,8 +53,8 @@ ViewSign exact_view_sign(const MovingTriangle& triangle, const ViewPrimitive& pr
 
 // Returns the sign of a triangle over the step. The filter comes first. A sign that it leaves open
 // is decided by integers in exact arithmetic; in bounded arithmetic it is zero, so that no sign is
-// wrongly positive or negative. In double and float the sign is as computed, and nothing is
-// promised.
+// wrongly positive or negative. The arithmetics double and float give the sign as computed, and
+// promise nothing.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
                    ViewCounts& counts, Arithmetic arithmetic = Arithmetic::exact);
 

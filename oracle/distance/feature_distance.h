@@ -22,10 +22,10 @@ namespace assay::oracle {
 
 using detector::Separation;
 
-// Returns whether the two features of a query come within d, and when first. The features are its
-// two groups: a vertex and a face, or two edges, as in contact.h. In the answer `contact` says
-// whether they come within d. Its rung is axis, interval, or integers (Regions), which count as
-// quadratic. If interval finds the features near, integers compute the time.
+// Returns whether the two features of a query come within d (`contact` of the answer), and when
+// they first do. The features are a vertex and a face, or two edges, as in contact.h. The rung of
+// the answer is axis, interval, or, where integers decide (Regions), quadratic. If the rung
+// interval finds the features within d, integers compute the time.
 ContactAnswer first_time_within(const detector::FourPoints& q, const Separation& d,
                                 detector::Want want = detector::Want::first_time);
 

@@ -39,12 +39,12 @@ struct StepJudgement {
   // found until then.
   detector::Answer answer = detector::Answer::undecided;
   bool complete = false;                     // false: the judgement was stopped
-  detector::TimeEnclosure first;             // the least time of all; set for a collision
+  detector::TimeEnclosure first;             // the least time of all pairs; set for a collision
   std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
   // If JudgeOptions names one kind of features, or some pairs as tested: the pairs in which two
   // tested features of that kind meet, each with the first time of such a meeting. With one kind,
   // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
-  // Empty if JudgeOptions names neither.
+  // Empty if JudgeOptions names no kind and no tested pairs.
   std::vector<detector::PairContact> asked_pairs;
   // Not set by judge_step. The pairs that a detector with a slack may report, ascending, each with
   // the earliest time that it may state. They are the pairs within a greater distance.

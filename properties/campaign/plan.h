@@ -24,7 +24,7 @@ struct StratumPlan {
 // The figures of certify's speed table, which are ratios of interleaved runs.
 inline constexpr std::string_view speed_figures[] = {"free-step-over-bvh", "search-step-over-bvh",
                                                      "exact-over-double"};
-// Orders figures as the table does. REQUIRES figures that it has.
+// Orders figures as speed_figures does. REQUIRES figures that are in it.
 struct FigureOrder {
   bool operator()(std::string_view a, std::string_view b) const {
     return std::ranges::find(speed_figures, a) < std::ranges::find(speed_figures, b);
@@ -36,7 +36,7 @@ struct Policy {
   double power = 1;                     // share of the planted faults that must be found, (0, 1]
   std::uint64_t self_test_queries = 0;  // queries of `assay self-test`; 0: none is asked for
   // The size, in triangles, of the scenes on which a plug-in that claims to be deterministic is run
-  // again and again (phases/phases.h); 0: it is not.
+  // repeatedly (phases/phases.h); 0: no such runs.
   std::uint64_t repeated_triangles = 0;
   std::map<std::string, double, FigureOrder> speed_limits;  // upper limits, each above 0
 };

@@ -43,22 +43,22 @@ struct CaseChange {
   std::optional<Form> of(const Case& c) const;
 };
 
-// The list. Each change keeps answers, pairs (but for the numbers of triangles), and times, unless
-// the form says otherwise.
+// All changes. Each keeps the answers, pairs and times of a case, apart from the numbers of its
+// triangles, unless its Form says otherwise.
 namespace changes {
 extern const CaseChange vertex_numbers;
-extern const CaseChange triangle_order;  // each triangle begins at another corner, too
+extern const CaseChange triangle_order;  // and another first corner of each triangle
 extern const CaseChange backwards;       // order of vertices and triangles; two or more holes
 extern const CaseChange power_of_two;    // all lengths are scaled
 extern const CaseChange translation;
-extern const CaseChange mirror;  // turned over, so that outside stays outside
-extern const CaseChange axes;    // exchanged, and turned over where that mirrors
+extern const CaseChange mirror;  // and all triangles reversed, so that outside stays outside
+extern const CaseChange axes;    // permuted; an odd permutation also reverses all triangles
 extern const CaseChange inside_out;
-extern const CaseChange halves;             // of each committed step
+extern const CaseChange halves;             // each committed step is divided at t=1/2
 extern const CaseChange played_back;        // each step from its end to its start, the last first
-extern const CaseChange other_steps_first;  // all steps in another order, and then the case
-extern const CaseChange other_evaluations;  // before each step the way back, and a step at rest
-extern const CaseChange split_edges;        // in all triangles that have them (L18)
+extern const CaseChange other_steps_first;  // all steps are played in another order before the case
+extern const CaseChange other_evaluations;  // before each step, its reverse and a step at rest
+extern const CaseChange split_edges;        // an edge is split in all of its triangles (L18)
 }  // namespace changes
 
 // Returns the case, reduced to its mesh, frames and steps, in this form.

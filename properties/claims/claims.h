@@ -42,11 +42,11 @@ struct WrongTime {
   TimeEnclosure detector, oracle;
 };
 
-// How far a stated first time is off, as a share of the step. The lower end of the interval counts,
-// because the caller goes that far: the time is late if this end is after t*, and early if it is
-// before t*, each by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5, although it
-// holds t*. At most one of `late` and `early` is not 0. All counts of late and early first times
-// use this struct (step_measures.h).
+// How far a stated first time is off, as a share of the step. The lower end of its interval is
+// compared, because the caller goes that far: the time is late if this end is after t*, and early
+// if it is before t*, by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5,
+// although it holds t*. At most one of `late` and `early` is not 0. All counts of late and early
+// first times use this struct (step_measures.h).
 struct TimeOff {
   double late = 0, early = 0;
   double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
@@ -75,15 +75,15 @@ struct LimitDiff {
   bool too_far = false;     // the stated share is not below the first contact time
   bool too_short = false;   // the way is shorter than claimed, not excused
   bool is_excused = false;  // the way is shorter than claimed, perhaps by rounding
-  std::string stall;  // the caller stays although it could move: the cause of the contact ahead
+  std::string stall;        // the cause of the contact ahead, if the caller stays but could move
 };
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> breaches;        // claims of the detector that this step refutes
-  Answer answer = Answer::undecided;  // the detector's
+  Answer answer = Answer::undecided;  // the answer of the detector
   bool oracle_complete = false;       // false: the oracle was stopped
-  bool nothing_in_contact = false;    // by a complete oracle, whatever is left out
+  bool nothing_in_contact = false;    // not even a left-out contact; the oracle is complete
   bool starts_near = false;           // StepTruth::starts_near
   bool claims_pairs = false;          // a claim about pairs is made (About::pairs)
   bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
@@ -98,14 +98,14 @@ struct StepDiff {
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
   std::vector<PairContact> missing;
-  bool is_without_excuse = false;     // first-pairs asks for one of them
+  bool is_without_excuse = false;     // the claim first-pairs asks for one of `missing`
   std::vector<PairContact> excuses;   // missing pairs that no claim asks for
   std::vector<PairContact> spurious;  // reported, but not in contact
   // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
   std::vector<WrongTime> late, early;
 
-  // With a slack, the first pair that comes within it, if the detector's first time ends before the
-  // pair does.
+  // Under a contract with a slack: the first pair that comes within the slack, if the interval of
+  // the detector's first time ends before the time of that pair.
   std::optional<PairContact> first_in_slack;
 
   // The earliest contact that counts, if any.
@@ -337,9 +337,9 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
 
-// Returns the claims of the built-in detector. exact: all claims. bounded: all but no-spurious (its
-// intervals hold the times by construction, see StepResult::first). double and float: deterministic
-// and total. With pairs first, no arithmetic claims all-pairs.
+// Returns the claims of the built-in detector, by its arithmetic. exact: all claims. bounded: all
+// but no-spurious (its intervals hold the times by construction, see StepResult::first). double and
+// float: deterministic and total. With Pairs::first, no arithmetic claims all-pairs.
 inline Claims claims_of(const Options& options) {
   const bool exact = options.arithmetic == Arithmetic::exact;
   const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;

@@ -122,8 +122,8 @@ struct Contract {
   // time the limiter promises (Claim::progress); 0: none.
   LimitGives limit_gives = LimitGives::positions;
   double progress = 0;
-  // Displacements are given in float32 only: the end of a step is then exact as a double, as the
-  // oracle needs it.
+  // REQUIRES float32 coordinates for a displacement: then the end of a step, which is the exact
+  // sum, is a double, as the oracle needs it.
   MotionGiven motion = MotionGiven::ends;
   // The capacity of the detector; 0: unlimited. A step beyond one of these numbers may be refused
   // (beyond_capacity).
@@ -212,7 +212,7 @@ double length_of(const PositionsView& x, const Edge& edge);
 
 // Returns where a mesh with these edges leaves the contract's range, with the member of the
 // contract: "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long,
-// below least_nonzero, 1e-06". Empty if it does not.
+// below least_nonzero, 1e-06". Empty if the mesh is within the range.
 std::string beyond_range(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract);
 

@@ -144,8 +144,8 @@ double units_beyond(double c, int units, double towards);
 // their volume.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
-// Draws by how many units of the last place a motion ends beyond a feature: 0 in two of three
-// draws, else 1 to 16, or now and then 1 to 4 short of it.
+// Returns by how many units of the last place a motion ends beyond a feature: 0 in four of six
+// draws, 1 to 16 in one, and -4 to -1, short of the feature, in one.
 int units_at_a_feature(Random& random);
 
 // The numbers of one program, drawn once for a case.
@@ -183,11 +183,11 @@ class EverydayNumbers {
 // in units of the size.
 void use_everyday_numbers(Random& random, Draft& draft);
 
-// Makes two pieces of about `size` triangles together, in units of the size. One has a level top
-// and rests or rises; the other comes down on it. At the end of a step, a vertex or a level edge of
-// the upper piece lands on the top, on its border or at its corner; or the piece goes on through
-// the top, slides along it, begins there, or stays and leaves again. A third of the open pieces is
-// flat and mostly slides within the plane of the top.
+// Makes two pieces of about `size` triangles together, in units of the size. The lower piece has a
+// level top and rests or rises; the upper piece comes down on it. At the end of a step, a vertex or
+// a level edge of the upper piece lands on the top, on its border or at its corner. In other cases
+// the upper piece goes on through the top, slides along it, begins there, or stays and leaves
+// again. A third of the open pieces is flat and mostly slides within the plane of the top.
 Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).
@@ -208,10 +208,10 @@ constexpr auto names_of(LeftOut) {
                                         {single_pairs, "single pairs"}});
 }
 
-// Returns a relation of triangles, or now and then of features, that leaves this out of the case.
-// single_pairs: about every second pair of `in_contact`, or a pair of its features. near_at_rest:
-// pairs nearer than a length between an edge and 2^-10 of it, with one of the frames at rest.
-// REQUIRES that something is left out.
+// Returns a relation of triangles, or sometimes of features, that leaves `left_out` out of the
+// case. single_pairs: about every second pair of `in_contact`, or one of its feature pairs.
+// near_at_rest: pairs nearer than a length between that of an edge and 2^-10 of it, with one of the
+// frames at rest. REQUIRES left_out != LeftOut::nothing.
 CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
                               std::span<const PairContact> in_contact);
 

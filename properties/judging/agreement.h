@@ -91,14 +91,14 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 StepDiff compare(const StepResult& result, const StepJudgement& judgement, const Claims& claims,
                  const Contract& contract = {}, const TrianglesView& triangles = Triangles(0, 3));
 
-// Returns which pairs of triangles count under the contract and under each of the relations;
-// nullptr stands for none. All that is named must outlive the answer.
+// Returns which pairs of triangles count under the contract and under each relation of `all`, where
+// nullptr stands for no relation. The arguments must outlive the result.
 oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& triangles,
                                  std::initializer_list<const CountedPairs*> all);
 
 // Returns the stage at which the detector with these options lost a pair. It runs the step with
-// less culling: the stage is "view sets" if culling bvh finds the pair, "pair search" if only
-// culling none does, "elementary test" if neither does. Culling none is tried for meshes of up to
+// less culling: the stage is "view sets" if Culling::bvh finds the pair, "pair search" if only
+// Culling::none does, "elementary test" if neither does. Culling::none is tried on meshes of up to
 // 2,000 triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
                             const PositionsView& x_t1, TrianglePair pair, Options options = {});
@@ -134,12 +134,12 @@ StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& ste
 // the contract. If the limiter stops short of x_t1, the oracle is asked once more, about the step
 // from x_t0 to that place. If the oracle was stopped, a step that would hold is undecided.
 //
-// Here t* is the first contact time of the whole step, or 1 if there is none. The share is too
-// short if it is below Contract::progress times t* and rounding cannot be the reason. Rounding
-// cannot be the reason if three things hold: that part of the step moves some vertex by 2^10 units
-// in its last place or more; the gaps at the start, beyond the separation, are 2^6 units of the
-// largest coordinate or more; and the oracle finds the way free to each of eight places from that
-// share to t*, equally spaced and rounded. Else the share is only counted.
+// Let t* be the first contact time of the whole step, or 1 if there is no contact. A share below
+// Contract::progress * t* is too short if rounding cannot be the reason, that is, if
+//   that part of the step moves some vertex by 2^10 units in its last place or more,
+//   the gaps at the start exceed the separation by 2^6 units of the largest coordinate or more, and
+//   the oracle finds the way free to each of eight rounded places, equally spaced up to t*.
+// Otherwise the share is only counted.
 void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff);
 
 }  // namespace assay::properties

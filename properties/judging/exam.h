@@ -33,7 +33,7 @@ struct CaseResults {
   }
   // Returns the output of the detector in the first run or, if that was silent, in the second.
   const std::string& output(std::size_t configuration) const;
-  // Returns why a run did not take place: there is no worker. Empty if all did.
+  // Returns why a run did not take place: there is no worker. Empty if all runs took place.
   std::string why_not_run() const;
 };
 
@@ -46,7 +46,7 @@ struct Exam {
   // Runs each case again, in another process. Null: there is no second run.
   WorkerProcess* second = nullptr;
   int oracle_jobs = 1;
-  // If no step of a case has an answer, the oracle, which takes most of the time, is not asked.
+  // If set, the oracle, which takes most of the time, is not asked about a case without an answer.
   bool needs_an_answer = false;
 };
 

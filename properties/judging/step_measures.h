@@ -17,14 +17,14 @@ namespace assay::properties {
 // First times that are off on one side of the exact one (TimeOff, claims.h).
 struct TimesOff {
   std::uint64_t steps = 0;
-  double worst_share = 0;  // of a step
+  double worst_share = 0;  // the greatest share of a step by which a time is off
   double worst_ulps = 0;
   // How often each share of a step was met, for quantiles. A share is rounded upward to two digits
   // (0.00012), so that no time looks better than it is, and sums stay short.
   std::map<double, std::uint64_t> shares;
 
-  // Returns the rounded share at this part of the values in ascending order: 0.5 gives the median,
-  // and 1 the worst. Returns 0 if there is none.
+  // Returns the quantile of the rounded shares: `part` 0.5 gives the median, and 1 the worst share.
+  // Returns 0 if there are no shares.
   double quantile(double part) const;
 
   TimesOff& operator+=(const TimesOff& other);
@@ -41,8 +41,8 @@ struct LimitUse {
   std::uint64_t excused = 0;
   std::map<std::string, std::uint64_t> stalls;  // of `contact`, by their cause (LimitDiff::stall)
 
-  // Returns the used share of the time until the contact, at this part of the steps in ascending
-  // order: 0 gives the worst, 0.5 the median. REQUIRES contact > 0.
+  // Returns the quantile of the used shares of the time until the contact: `part` 0 gives the worst
+  // (least) share, 0.5 the median. REQUIRES contact > 0.
   double share(double part) const;
   std::uint64_t stalled() const;
 

@@ -42,9 +42,9 @@ struct DetectorUnderTest {
   DetectorUnderTest in_stratum(std::string_view family) const;
 };
 
-// Returns the built-in detector with every culling and pairs all, with the view cullings and pairs
-// first, with the view cullings in bounded arithmetic, and with two questions: how far steps may
-// go, and which pairs come within 2^-6.
+// Returns the built-in detector with these configurations: every culling with Pairs::all; the view
+// cullings with Pairs::first; the view cullings in bounded arithmetic; and two questions, how far
+// steps may go, and which pairs come within 2^-6.
 DetectorUnderTest built_in_detector();
 
 // The part of a plug-in that is judged. `by_library`: all parts that the library has: its steps (or

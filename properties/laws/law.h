@@ -27,10 +27,10 @@ struct LawTally {
   friend bool operator==(const LawTally&, const LawTally&) = default;
 };
 
-// The cullings under which a campaign has to meet the premise of a law. Each culling finds the
-// triangles that are clean from step to step in another way: view-point finds them after every
-// step, and view-auto may have done a step without views. So a law about clean triangles that is
-// met under one culling says nothing about the others.
+// The cullings under which a campaign has to meet the premise of a law. Each culling finds in its
+// own way which triangles are clean from step to step: view-point finds them after every step, and
+// view-auto may have done a step without views. So a law about clean triangles that is met under
+// one culling says nothing about the other cullings.
 enum class PremiseScope : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
 
 struct Law {

@@ -39,9 +39,9 @@ inline std::array<std::int32_t, 3> as_set(std::array<std::int32_t, 3> corners) {
 // Returns the case with the triangles t for which keep[t] != 0.
 Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep);
 
-// Returns the case in which vertex v becomes target[v] (chains are followed to their end; REQUIRES
-// no circles). Triangles that then repeat an index are dropped, and so are pairs of equal,
-// oppositely oriented triangles, so that a cycle stays a cycle.
+// Returns the case in which vertex v becomes target[v]. Chains of targets are followed to their
+// end; REQUIRES that they have one. Triangles that then repeat an index are dropped, and so are
+// pairs of equal, oppositely oriented triangles, so that a cycle stays a cycle.
 Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target);
 
 // Closes each loop of unmatched edges with a fan from the loop's vertex number `corner` (modulo

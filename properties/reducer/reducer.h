@@ -33,7 +33,7 @@ using Judge = std::function<std::optional<Finding>(const Case&)>;
 
 struct ReduceLimits {
   double seconds = 60;
-  std::uint64_t calls = 100000;  // of the judge
+  std::uint64_t calls = 100000;  // the most calls of the judge
 };
 
 struct PassStatistics {
@@ -44,7 +44,7 @@ struct PassStatistics {
 
 struct Reduction {
   Case smallest;
-  Finding finding;  // of `smallest`; without a signature if the given case did not fail
+  Finding finding;  // in `smallest`; has no signature if the given case did not fail
   std::uint64_t calls = 0;
   double seconds = 0;
   bool fixed_point = false;  // no pass finds a smaller case; false if a limit ended the search

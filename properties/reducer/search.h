@@ -24,7 +24,7 @@ class ReductionSearch {
   const MeshSize& size() const { return size_; }
 
   // Makes `candidate` the best case if it is valid, is smaller, and fails with the same signature.
-  // Returns whether it did.
+  // Returns whether `candidate` is now the best case.
   bool offer(const Case& candidate);
 
   // Makes `candidate` the best case as offer() does, even if it is not smaller.
@@ -38,7 +38,7 @@ class ReductionSearch {
   // cause (`alone`), or only those equal to the best case's whole signature at that time.
   void match_kind_alone(bool alone) { kind_alone_ = alone; }
 
-  // Returns whether a limit is reached: no case is judged any more.
+  // Returns whether a limit is reached. After that no case is judged.
   bool has_ended() const;
   std::uint64_t calls() const { return calls_; }
   double seconds() const;

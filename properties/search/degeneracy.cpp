@@ -1,6 +1,6 @@
-// All polynomials in question are affine in each coordinate alone: F is a determinant, L a minor of
-// it, and a place at time t is affine in both ends. So a difference quotient of any length is the
-// derivative, except for rounding, and a step as long as the mesh loses no bits.
+// Newton's steps take derivatives as difference quotients. Each polynomial (F is a determinant, L a
+// minor of it) is affine in each single coordinate, so any increment gives the derivative, except
+// for rounding. The increment is the size of the mesh: a small one would lose bits.
 #include "properties/search/degeneracy.h"
 
 #include <Eigen/Core>

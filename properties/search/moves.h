@@ -22,7 +22,7 @@ struct Focus {
   std::size_t step = 0;                    // of corpus::steps_of
   std::array<std::int32_t, 4> vertices{};  // in the order of FourPoints
   int first_group = 1;
-  double time = 0;  // when they meet, or, of a few times, are nearest, in doubles
+  double time = 0;  // of the contact, or the nearest of a few sampled times; in doubles
   std::optional<PairContact> contact;
   std::vector<TrianglePair> pairs;  // all pairs that meet first
 };
@@ -52,10 +52,10 @@ bool is_within_a_component(const Case& c, const Focus& focus);
 // exact view test. Example: two layers of a roll, seen from its axis; the inner one goes through
 // the outer one.
 //
-// The result tells, from 0 to 1, how far the two triangles of a pair have one sign, at a few times,
-// in doubles; it is that of the least alike pair of the first contacts. It is 1 if all pairs have
-// one sign, and 0 without a contact or a view primitive. It is meaningless if two components meet,
-// because such pairs are never left out (L10). About 2 us for a pair.
+// The result says, from 0 to 1, how nearly the two triangles of a pair have the same sign, measured
+// at a few times in doubles; it is the least over the pairs of the first contacts. It is 1 if each
+// pair has one sign, and 0 without a contact or a view primitive. It is meaningless if two
+// components meet, because such pairs are never left out (L10). About 2 us for a pair.
 double seen_alike(const Case& c, const Focus& focus);
 
 // A case in the making. A move that changes which triangles or vertices are in focus drops the

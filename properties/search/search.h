@@ -39,8 +39,8 @@ struct SearchSpace {
   bool gives_views = true;
 };
 
-// A part of a search that depends only on its name: it begins with an empty archive. For some cases
-// at a time it has a theme (Swarm), with its own size of meshes, because a theme that finds one
+// A part of a search whose cases depend only on its name: it begins with an empty archive. A series
+// of its cases has a theme (Swarm), with its own size of meshes, because a theme that finds one
 // fault hides others. Some themes only draw fresh cases. Others move small meshes onto
 // degeneracies. For a detector that is given views, others seek contacts that no view finds: within
 // a sheet or between nested shells that are seen from one side, and after other past steps.
@@ -53,17 +53,17 @@ struct SearchDefect {
   Case c;  // its id is the lane's id and the number of the case
   std::size_t configuration = 0;
   Failure failure;
-  CaseRun run;              // that failed
+  CaseRun run;              // the run that failed
   std::uint64_t after = 0;  // cases asked in the lane so far, with this one
 };
 
 struct LaneResult {
   bool complete = false;            // it was not stopped
-  std::uint64_t cases = 0;          // asked
+  std::uint64_t cases = 0;          // the number of cases that were asked
   std::uint64_t defects = 0;        // cases on which some configuration fails
   std::uint64_t open = 0;           // cases on which some configuration has no verdict
   std::vector<SearchDefect> finds;  // the first of each signature and configuration
-  std::set<std::string> causes;     // of the cases that the archive holds
+  std::set<std::string> causes;     // the causes of the cases that the archive holds
 };
 
 // Searches in a lane. A lane from which the contract takes no case ends early. `stop` is asked

@@ -38,7 +38,7 @@ enum class RunEnd : std::uint8_t {
   completed,        // every step has a result, which may be undecided or an error
   crashed,          // the process ended while the detector ran
   hung,             // stopped at a time limit: undecided
-  refused,          // the mesh was refused by name when the detector was made
+  refused,          // the mesh was refused, with a named error, when the detector was made
   out_of_memory,    // before the first step: undecided
   not_run,          // there is no worker to run it: the harness failed, not the detector
   beyond_capacity,  // the mesh was refused for its size when the detector was made
@@ -67,8 +67,8 @@ struct CaseRun {
   RunEnd end = RunEnd::completed;
   // One line: the signal, the refusal, or the first error of a step. Empty if there was none.
   std::string explanation;
-  // One result for each step of the case if the run completed, else none. A time that a plug-in
-  // does not state, of a pair or the first one, is [0, 1].
+  // If the run completed, one result for each step of the case; otherwise empty. A first time that
+  // a plug-in does not state, of the step or of a pair, is [0, 1].
   std::vector<StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
@@ -96,7 +96,7 @@ struct CaseRun {
   // that it started if the run was long enough to measure them (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
-  // If cases were sent together, the lines may be of a later one. Empty with isolation none.
+  // Cases that were sent together may show the lines of a later case. Empty with Isolation::none.
   std::string output = {};
 };
 
@@ -113,8 +113,8 @@ CaseRun run_case(const Case& c, const Configuration& configuration);
 // step: one that differs from `undisturbed`, if any does. REQUIRES a mesh that is not refused.
 std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed);
-// Returns the results as a run that can be compared with another: without the counts of marking,
-// which depend on the marking before, whether its step was committed or not.
+// Returns the results as a run, to be compared with other runs. It has no counts of marking,
+// because they depend on the marking of the evaluation before, even if that was not committed.
 CaseRun without_marking_counts(std::vector<StepResult> results);
 
 // Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
@@ -160,7 +160,7 @@ class RunClock {
 // tests/mutation links the detector alone.
 inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
-  // A segment serves as a point by its first end.
+  // If the case states a segment, view-point takes its first end.
   if (culling == Culling::view_point) view->q1 = view->q0;
   return {*view};
 }

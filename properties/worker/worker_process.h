@@ -78,9 +78,8 @@ class WorkerProcess {
 
   // Returns how often a worker was started, for statistics and tests.
   std::uint64_t starts() const;
-  // Returns how often a worker was killed from outside without a verdict: in all runs, and after
-  // the last of them. A death between two cases counts as well, because otherwise a plug-in could
-  // kill itself unseen.
+  // Returns how often a worker was killed from outside without a verdict, during a run or after it.
+  // A death between two cases counts as well, because otherwise a plug-in could kill itself unseen.
   std::uint64_t disturbances() const;
 
  private:

@@ -3,8 +3,8 @@
 //
 // For each class of motions and view-points (TetrahedronMotions), in both orientations, checks
 // that:
-// - the detector with culling view-point from there, start verified and all pairs, has the oracle's
-//   pairs and times; if the start is clean, also with start clean and first pairs;
+// - the detector with Culling::view_point from there, Start::verified and Pairs::all has the
+//   oracle's pairs and times; if the start is clean, also with Start::clean and Pairs::first;
 // - L3: with a clean start the first contact is in K;
 // - L4: with a clean start, all positive or all negative: no contact;
 // - L5: all positive over the step and winding number 1 at t=0: no contact, whatever the start.

@@ -58,7 +58,7 @@ struct SweepPlan {
   // A subject is not run again if a step of its first run took more seconds than this. That run is
   // then the sample of every round.
   double longest_repeated = HUGE_VAL;
-  // A subject takes part in two rounds only, if it took this many times as long as the fastest one.
+  // A subject that took this many times as long as the fastest one takes part in two rounds only.
   double far_off = HUGE_VAL;
   std::function<void()> tick = [] {};  // called between runs
 };

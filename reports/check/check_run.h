@@ -95,7 +95,7 @@ struct AskedDistance {
 };
 
 struct CheckQuestion {
-  // The files of the input, for reports and replay lines; bodies are empty if it has none.
+  // The files of the input, for reports and replay lines; `bodies` is empty if it has no bodies.
   std::vector<std::string> files;
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
@@ -112,12 +112,12 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
-  std::string ply_file;         // file for the mesh with its contacts marked; empty: none
+  std::string ply_file;         // file for the mesh with its contacts marked; empty: no file
   std::string again;            // the line to paste that asks this again; empty if there is none
   bool shows_all_steps = true;  // false: only steps that are not as claimed
-  // Only the oracle is asked, for this distance (check_separation), in place of a detector. Then
-  // only files, jobs, limits and the report count besides. REQUIRES as many offsets as bodies, or
-  // none.
+  // If set, only the oracle is asked, for this distance (check_separation), and no detector. Of the
+  // other members, only files, jobs, limits and the report are then used. REQUIRES as many offsets
+  // as bodies, or no offsets.
   std::optional<AskedDistance> distance;
 };
 
@@ -143,7 +143,7 @@ struct CheckAnswer {
   nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
 };
 
-// Checks one mesh. The steps of `input` are used up; for a plug-in they become those that its
+// Checks one mesh. `input` cannot be used again; for a plug-in its steps become those that the
 // contract takes. If a frame's file is refused on the way, `listener` was told of all steps before
 // that frame. `worker` is the program assay-worker, for a plug-in. If the input has recorded
 // answers, these are judged, and no detector runs here.
@@ -151,9 +151,9 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
 
-// Does the same for the distance of the question, which REQUIRES one: asks the oracle whether
-// triangles that share no vertex come within it, which, when first, and how near any two come. The
-// outcome's collision is the first step in which some do.
+// Asks the oracle whether triangles that share no vertex come within question.distance, which ones,
+// when first, and how near any two come. The outcome's collision is the first step in which a pair
+// comes within it. REQUIRES a question with a distance.
 Expected<CheckAnswer> check_separation(const CheckQuestion& question, CheckInput& input,
                                        const CheckListener& listener);
 

@@ -133,7 +133,7 @@ struct CheckInput {
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or
-// else the defaults, with culling bvh for a mesh at rest.
+// else the defaults, with Culling::bvh for a mesh at rest.
 struct BuiltInChoice {
   std::optional<detector::Culling> culling;
   std::optional<detector::Start> start;

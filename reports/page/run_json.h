@@ -19,9 +19,9 @@ nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const nlohmann::ordered_json& statement = nullptr,
                                 const std::string& unverified = "");
 
-// Returns `failures` of assay-report/3: for each failure of the predicate, in their order, the
-// scene and the picture of its smallest mesh, and the other failures with its signature. One mesh
-// of each signature is run again.
+// Returns the list `failures` of assay-report/3: one element for each failure that the
+// certificate's predicate lists, in that order. An element holds the scene and the picture of the
+// smallest mesh, which is run again for that, and the other failures with the same signature.
 nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 // Returns the template, embedded when the program was built.

@@ -50,9 +50,9 @@ struct SceneStep {
   // Returns whether `answer` has view sets to show.
   bool has_views() const { return answer && !answer->doubts.empty(); }
   // Returns in words how claims and contract judge a pair that is in contact or reported.
-  // "missing", "late", "early", "spurious", "no candidate" and "answered free" break a claim. "not
-  // claimed", alone or behind one of these words, "left out by the contract", "agrees" and "not
-  // run" do not.
+  // These break a claim: "missing", "late", "early", "spurious", "no candidate", "answered free".
+  // All others do not: "agrees", "left out by the contract", "not run", and what ends in "not
+  // claimed", such as "later, not claimed".
   std::string difference(const detector::TrianglePair& pair, const CaseScene& scene) const;
 };
 

@@ -22,7 +22,7 @@ std::string measures_sentence(const properties::StepMeasures& measures);
 // (certificate/statement.h).
 
 // Returns "meshes of up to 2048 triangles", or, if sizes differ, "meshes of up to 2048 triangles
-// (free-sound, total), of up to 60 (deterministic)". Empty if there are none.
+// (free-sound, total), of up to 60 (deterministic)". Empty if no sizes are listed.
 std::string sizes_text(const nlohmann::ordered_json& judged_up_to);
 // Returns "largest tried: 8 steps between two starts, 14 triangles at a vertex, 3 bodies, 5
 // components, 812 pairs in a step, 200 triangles; relations: 0 cases".

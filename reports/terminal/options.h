@@ -1,5 +1,5 @@
-// Adds a verb and its options to CLI11, from the verb's own file, and the options that several
-// verbs share. CLI11 takes six seconds to compile, so only verbs include this.
+// Adds a verb to CLI11, with its own options, which the verb's file states, and with the options
+// that several verbs share. CLI11 takes six seconds to compile, so only verbs include this.
 #pragma once
 
 #include <CLI/CLI.hpp>

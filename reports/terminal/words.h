@@ -52,12 +52,12 @@ enum class PastePlace : std::uint8_t { this_folder, any_folder };
 // next, except those in a certificate or a page, which begin with "assay" on every machine.
 std::string line_to_paste(const std::string& words, PastePlace place = PastePlace::any_folder);
 
-// Returns the whole command as it was typed, with all of its inputs. For any folder it changes to
-// this one first, and leaves out the options for output files.
+// Returns the whole command as it was typed, with all of its inputs. With PastePlace::any_folder
+// the line first changes to this folder, and has no options for output files.
 std::string this_command(PastePlace place);
 
-// Returns the path of the same file that can be used from any folder; empty for an empty path. The
-// word of a detector in Python stays as it is.
+// Returns the absolute path of the file; empty for an empty path. Does not change the word of a
+// detector in Python.
 std::string absolute_path(const std::filesystem::path& path);
 
 // Returns the commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed.

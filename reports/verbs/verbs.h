@@ -29,7 +29,7 @@ struct QueryQuestion {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one for each file
   const properties::QueryMethod* method = properties::method_of("oracle");
-  std::optional<double> separation;  // of queries whose rows state none
+  std::optional<double> separation;  // the distance for queries whose rows state none
   DetectorWords detector;
   std::string json_file;
 };

@@ -24,7 +24,7 @@ struct QueryInput {
   double cubic_error, dependency_error, orientation_error;
   double least_magnitude, greatest_magnitude;  // the range in which the bounds hold
 };
-// Refers to the positions of `motion`, which must outlive the result.
+// Returns the input for `motion`. It refers to the positions, which must outlive it.
 QueryInput query_input(const SteppedMesh& motion);
 
 // The result of a lane: the groups are strictly ordered along an axis, or doubles show that there

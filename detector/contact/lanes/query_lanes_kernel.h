@@ -234,7 +234,7 @@ ASSAY_INLINE void piercing_group(const QueryInput& in, const QueryVertices* quer
   Mask free = holds & (((volumes[0] > bound) & (volumes[1] > bound)) |
                        ((volumes[0] < -bound) & (volumes[1] < -bound)));
   if (!everywhere(free)) {
-    // Two edges of the triangle turn around the edge's line in opposite senses.
+    // The volumes with two sides of the triangle differ in sign, so the edge's line misses it.
     differences(u, bound, holds, in, p, {0, 1, 2, 3, 4});
     volume(volumes[0], u, 0, 1, 2);
     volume(volumes[1], u, 0, 2, 3);

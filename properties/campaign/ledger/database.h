@@ -61,7 +61,7 @@ Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
 class Database {
  public:
   enum class Mode : std::uint8_t { read, write };
-  // Opens the file. Mode write makes it if there is none.
+  // Opens the file. Mode::write creates it if it does not exist.
   Database(const std::filesystem::path& file, Mode mode);
 
   // Runs one statement or several, without results.
@@ -108,7 +108,7 @@ Descriptor lock_file(const std::filesystem::path& file, const std::string& if_bu
 struct Row {
   std::string kind;            // "trial", "canary", ...
   std::string key;             // names the row among those of its kind
-  std::uint64_t progress = 0;  // of two rows with one key, the one with more stays
+  std::uint64_t progress = 0;  // of two rows with the same key, that with more progress stays
   std::string fields;          // a JSON object
   friend bool operator==(const Row&, const Row&) = default;
 };

@@ -35,9 +35,9 @@ struct HarnessProblem {
   static constexpr const char* kind = "problem";
   std::string what;
   std::uint64_t trials = 0;
-  // Returns more for a later row, which replaces an earlier one. If both have the same number of
-  // trials, the row with a problem is the later one, because a problem ends only when a further
-  // trial is stored.
+  // Returns a number by which the later of two rows replaces the earlier one: it is greater for the
+  // later row. Of two rows with equally many trials, the one with a problem is the later one,
+  // because a problem ends only when a further trial is stored.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)

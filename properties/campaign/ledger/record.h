@@ -82,7 +82,7 @@ struct TrialRecord {
 };
 
 char letter_of(Outcome outcome);
-// The letter of a configuration that was not run: culling none on large meshes.
+// The letter of a configuration that was not run, such as Culling::none on large meshes.
 inline constexpr char not_run = '-';
 
 // The source of the cases that a campaign judges.
@@ -93,8 +93,8 @@ struct SourceRow {
   Source value;
   const char* name;
   Source counts_as;    // itself, or the source that it is a part of
-  bool is_drawn;       // by the seed: runs under other seeds have other cases, which add up
-  const char* prefix;  // of the ids of its failures; no trial's id begins so
+  bool is_drawn;       // its cases depend on the seed, so those of runs under other seeds add up
+  const char* prefix;  // begins the ids of its failures, and no id of a trial
   // Texts: the first two say, on the terminal and in a summary, where a kind of failure was met
   // that no trial shows; the last names the count behind the verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
@@ -133,9 +133,9 @@ struct FailureRecord {
   std::string explanation{};
   std::string mesh{};                  // empty: the failure was met, its mesh is not stored
   std::string smallest{};              // empty: the mesh was not shrunk
-  std::string smallest_explanation{};  // of `smallest`; empty: as `explanation`
-  bool flaky = false;                  // its case alone, in a new process, has another result
-  std::string printed{};               // by the plug-in as it failed; may differ between runs
+  std::string smallest_explanation{};  // of the mesh `smallest`; empty: same as `explanation`
+  bool flaky = false;                  // the case, run alone in a new process, does not fail so
+  std::string printed{};               // what the plug-in printed; may differ between runs
 
   // Return the texts for people. The id begins with a prefix of the source, such as "corpus/" in
   // "corpus/NAME"; no trial's id does, because the name of a campaign has no '/'. The other two

@@ -21,7 +21,7 @@ inline constexpr const char* store_schema = "assay-store/9";
 // All failures that a store holds.
 struct FailureList {
   std::vector<FailureRecord> list;  // by signature, then id
-  Counts times_met;                 // by signature, whether its mesh was kept or not
+  Counts times_met;                 // by signature; failures without a kept mesh count, too
 };
 
 // Functions that return Expected are for all rooms. The others throw StoreProblem and are for
@@ -42,8 +42,8 @@ class Store {
   Expected<void> keep(const Row& row) {
     return catch_store_problem([&] { set(row); });
   }
-  // Makes the file complete by itself: no file beside it belongs to it any more, and reading it
-  // leaves its bytes as they are.
+  // Makes the store a single file: moves all rows from the files beside it into it. Reading it then
+  // does not change its bytes.
   Expected<void> seal();
 
   std::string binding() const;

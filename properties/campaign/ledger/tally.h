@@ -17,7 +17,7 @@ namespace assay::properties {
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  std::uint64_t with_defect = 0, open = 0;  // trials with such a configuration
+  std::uint64_t with_defect = 0, open = 0;  // trials with a configuration that has such an outcome
   std::uint64_t disturbed = 0;              // trials killed from outside, which ran again
   std::uint64_t discards = 0;               // trials for which the contract takes no case
   std::uint64_t refused = 0;                // trials that were refused as beyond the capacity
@@ -51,9 +51,9 @@ struct Tally {
   static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  // Return the number of trials over all strata: of all; of those with a case that the contract
-  // takes; with a defect in some configuration; without a verdict in some configuration; disturbed
-  // ones.
+  // Return numbers of trials over all strata: all trials; those with a case that the contract
+  // takes; those with a defect in some configuration; those without a verdict in some
+  // configuration; those that were disturbed.
   std::uint64_t trials() const, judged_trials() const, with_defect() const, open() const,
       disturbed() const;
 

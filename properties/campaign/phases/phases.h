@@ -64,11 +64,12 @@ Canary meet_canary(const CampaignRequest& request);
 // faults test the harness of a build, not the detector that it judges, so the run of a plug-in need
 // not plant them again.
 
-// Returns the proof in `folder` for the request. Fails if the request's plan plants no faults, if
-// the folder is `out` or lies below it, if the digests of program, worker or generator differ, if
-// the run in `folder` did not find every planted fault itself, if it gave a fault fewer cases or
-// seeds than the plan asks for, and if read_findings fails.
-//
+// Returns the proof in `folder` for the request. Fails
+//   if the request's plan plants no faults, or if read_findings fails;
+//   if the folder is `out` or lies below it;
+//   if the digests of program, worker or generator differ;
+//   if the run in `folder` did not find every planted fault itself, or gave a fault fewer cases or
+//   seeds than the plan asks for.
 // REQUIRES that no code of a plug-in has run in this process's workers yet, because such code could
 // change the files that are read here.
 Expected<PowerProof> take_power(const std::filesystem::path& folder,
@@ -101,10 +102,9 @@ Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std
 
 // Returns a small mesh in many steps, so that one handle commits more often than in any other case.
 // A scene of some tens of triangles, in which the mesh meets itself, is played forwards and
-// backwards until all steps are done, so the mesh meets itself again and again, up to the last
-// steps. All frames go through a linear map near the identity that drifts slowly, so no step is
-// like another. The seed draws the scene, the size, the number of steps and the rest, as for
-// repeated_scene.
+// backwards until all steps are done, so the mesh meets itself up to the last steps. All frames go
+// through a linear map near the identity that drifts slowly, so no two steps are equal. The seed
+// draws the scene, the size, the number of steps and the rest, as for repeated_scene.
 inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
 inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 Case long_sequence(std::uint64_t seed);
@@ -277,14 +277,14 @@ struct TrialsAgain {
   std::optional<std::string> difference;
 };
 
-// Draws a share (above 0, at most 1) of the trials that the stores of a folder hold, at least one,
-// by the seed. Makes and judges them as the request says, and compares the outcomes in every
-// configuration, triangles, steps, collisions, pairs, counts and mesh. Times may differ, so a trial
-// that ended at its limit of time may have another result on a slower machine.
+// Draws, by `seed`, a share (above 0, at most 1) of the trials that the stores of a folder hold,
+// but at least one. Runs them again as the request says, and compares with the store: the outcomes
+// in every configuration, and triangles, steps, collisions, pairs, counts and mesh. It does not
+// compare times. A trial that ended at its time limit may have another result on a slower machine.
 //
-// REQUIRES a request with the plan and the detector of the stores; each states its own seed and
-// share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is stored.
-// Costs O(trials stored) to draw them, then the time that they took in the first run.
+// REQUIRES a request with the plan and the detector of the stores; each store states its own seed
+// and share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is
+// stored. Costs O(trials stored) to draw them, then the time that they took in the first run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed, const OnTrial& progress);
 

@@ -38,15 +38,15 @@ struct TrialCase {
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
 
-// Returns the case of a trial id. If the contract takes none of its steps, the next ids
-// "quick:1:broken:3~1", "~2", ... are tried until it takes some, so that a stratum has as many
-// judged cases under every contract. For queries, and under a contract that leaves contacts out,
-// every fourth case must have a contact that counts, and is drawn again until it has one. A case is
-// drawn again, deterministically, at most most_redrawn times, and for lack of a contact at most
-// most_without_contact times. Then the last case that the contract takes stays. The case is brought
-// into the contract (below). Under a contract with a separation every second case is aimed at the
-// separation (parts.h), and a case is rejected if all of its steps start within it. For a mesh
-// without a contract the result is the case of the id.
+// Returns the case of a trial id, brought into the contract (below). A rejected case is replaced by
+// the case of the next id ("quick:1:broken:3~1", then "~2", ...), at most most_redrawn times; after
+// that, the last case that the contract takes is returned. A case is rejected
+//   if the contract takes none of its steps; so a stratum has as many cases under every contract;
+//   if all of its steps start within the contract's separation;
+//   if it has no contact that counts. This is asked of every fourth case, for queries and under a
+//   contract that leaves contacts out, and rejects at most most_without_contact cases.
+// Every second case under a contract with a separation is aimed at the separation (parts.h). For a
+// mesh without a contract the result is the case of the id.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
@@ -66,10 +66,10 @@ Case brought_into_contract(Case c, const Contract& contract);
 bool starts_clean(const Case& c);
 
 // Returns whether trial `index` of a family uses Start::clean: every second trial of the built-in
-// detector that may. Large meshes never do.
+// detector does, if the case starts clean and the mesh is small.
 bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint64_t index);
 
-// Returns the configurations with start clean in place of start verified.
+// Returns the configurations with Start::clean in place of Start::verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
 // Counts the traits of a case, besides its outcome, for the built-in detector and for a plug-in:
@@ -139,7 +139,7 @@ struct FormCheck {
 FormCheck check_in_form(const Law& law, const Case& c, const CaseRun& run,
                         const DetectorUnderTest& detector, WorkerProcess& worker);
 
-// Returns whether this case is one that is put to this detector in other forms.
+// Returns whether check_in_form() applies: the case is put to this detector in other forms.
 bool has_forms(const DetectorUnderTest& detector, const Case& c);
 
 // Runs the trials of a campaign in threads, each with a worker process of its own.

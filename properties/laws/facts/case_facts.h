@@ -48,8 +48,8 @@ class ExactView {
   ExactView(const std::array<MovingPoint, 3>& triangle, const ViewPrimitive& primitive,
             int eighths);
 
-  // Return a corner of the triangle, or the point with these weights (w0 + w1 + w2 = 2^4); both
-  // times 2^4.
+  // Return a corner of the triangle, or its point with the weights `sixteenths`, whose sum is 2^4.
+  // All coordinates are multiplied by 2^4.
   ExactPoint corner(int i) const;
   ExactPoint inner_point(const std::array<int, 3>& sixteenths) const;
 
@@ -196,7 +196,7 @@ class CaseFacts {
   // Returns whether the oracle finished this step.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
   // Returns whether the premise of L3 to L8 holds: outside Vv everything is clean at the start. If
-  // the caller vouched for a new start (start clean), the oracle's layers decide whether that is
+  // the caller vouched for a new start (Start::clean), the oracle's layers decide whether that is
   // true. In all other cases it counts as true, because L8 and L9 judge the detector's clean
   // triangles.
   bool is_trusted(std::size_t s);
@@ -267,7 +267,7 @@ enum class PairBlock : std::uint8_t {
   zero_zero,
   violated,  // at least one triangle is in Vv
   positive_positive,
-  negative_negative,  // these two: in K between groups only
+  negative_negative,  // like V+ V+, in K only if the triangles are of different groups
 };
 constexpr auto names_of(PairBlock) {
   using enum PairBlock;
@@ -307,12 +307,12 @@ bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t compo
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
 // alone. At a new start these are the triangles that are not clean by its layers. Layers do not
-// count with start unknown, nor with start verified under a culling that chooses views (view-auto,
-// auto): then every component that is not free by view is dirty. Otherwise a triangle is dirty if
-// it was in doubt after the step before (dirty by this account, touched by a ghost, or in contact
-// with its own component), and is not now untouched and in the common layer. That layer is the one
-// of the triangles that are not in doubt; in a component without such triangles, it is the layer of
-// most untouched triangles.
+// count with Start::unknown, nor with Start::verified under a culling that chooses views
+// (view_auto, automatic): then every component that is not free by view is dirty. Else a triangle
+// is dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or
+// in contact with its own component), and is not now untouched and in the common layer. That layer
+// is the one of the triangles that are not in doubt; in a component without such triangles, it is
+// the layer of most untouched triangles.
 //
 // A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
 // caller vouched for the start; else those that were in doubt after the step before. REQUIRES

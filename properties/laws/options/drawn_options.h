@@ -26,11 +26,11 @@ struct TwoValues {
 };
 using MayMeet = std::function<bool(const TwoValues&)>;
 
-// Returns rows that contain every pair of values that may meet, and no other pair. The choice is
-// greedy: each row begins with a pair of values that is still missing, and each further factor
-// takes the value that adds most missing pairs. Equal seeds give equal rows, different seeds mostly
-// different ones. REQUIRES in each factor a value that may meet all others.
-// All may meet if may_meet is empty.
+// Returns a covering array of strength 2 (pairwise coverage): rows that contain every pair of
+// values that may meet, and no other pair. The choice is greedy: each row begins with a missing
+// pair, and each further factor takes the value that adds most missing pairs. Equal seeds give
+// equal rows, different seeds mostly different ones. If may_meet is empty, all pairs may meet.
+// REQUIRES that each factor has a value that may meet all values of the other factors.
 std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t seed,
                                      const MayMeet& may_meet = {});
 
@@ -63,8 +63,8 @@ constexpr auto names_of(Apart) {
 enum class Question : std::uint8_t {
   none,
   limit,          // how far the step may go
-  stopped_step,   // the step, which is stopped
-  stopped_limit,  // how far it may go, which is stopped
+  stopped_step,   // the step itself; its evaluation is stopped
+  stopped_limit,  // how far the step may go; the call is stopped
 };
 constexpr auto names_of(Question) {
   using enum Question;

@@ -37,7 +37,7 @@ namespace assay::reports {
 
 // The goal of a row.
 struct Goal {
-  bool is_most;  // else it is the least value
+  bool is_most;  // true: `bound` is the greatest allowed value; false: the least
   double bound;
 };
 constexpr Goal at_most(double bound) { return {true, bound}; }
@@ -53,10 +53,10 @@ namespace goal {
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto. The first two are over the single culling that takes the
-// least time for the sequence: the first for the sum and the median step, the second for the worst
-// step of a millisecond or more. The third is for the first step over that of bvh, because both
-// look at the same pairs, and the last for one thread over two.
+// For whole sequences with culling auto. The first two are ratios to the single culling that takes
+// the least time for the sequence: the first for the sum and the median step, the second for the
+// worst step of a millisecond or more. The third is the first step over the first step of bvh,
+// which looks at the same pairs. The last is the time of one thread over the time of two.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -79,8 +79,7 @@ struct BenchRow {
 struct BenchReport {
   std::string suite = {};
   std::vector<BenchRow> rows = {};
-  // One line for each wrong answer. A single one fails the run, because times are noisy but answers
-  // are not.
+  // One line for each wrong answer. A single wrong answer fails the run: answers have no noise.
   std::vector<std::string> wrong_answers = {};
   std::string above = {}, below = {};  // tables of the suite, above and below the rows
   // The fields that the suite adds to the JSON, by name: lists of objects, except `detector`.
@@ -147,7 +146,7 @@ nlohmann::ordered_json json_object(const char* name, const T& value, const Rest&
 // worker, and plug-ins.
 struct BenchSubject : properties::Subject {
   std::string name = {};
-  detector::Options options = {};  // of the built-in detector; the start is the case's
+  detector::Options options = {};  // of the built-in detector; `start` is set by the case
   bool is_here = false;            // it runs in this process
   MakeStages stages = detector::standard_stages;  // in this process
   bool is_vouched_for = true;                     // known clean starts are not verified
@@ -217,7 +216,7 @@ struct UnsafeAnswer {
 struct FamilyRow {
   std::string subject, family, kind;
   JudgedCounts counts = {};
-  std::uint64_t triangles_of_case = 0;     // of the last one
+  std::uint64_t triangles_of_case = 0;     // triangles of the last case
   std::uint64_t steps = 0, triangles = 0;  // sums over all steps that have results
   std::uint64_t box_tests = 0, candidates = 0, elementary_tests = 0;
   std::uint64_t hash = first_hash;  // over the results of all steps, in order
@@ -225,8 +224,8 @@ struct FamilyRow {
   // reference (the first subject) on the same steps.
   std::vector<double> ms = {}, reference_ms = {}, create_ms = {}, reference_create_ms = {};
   std::uint64_t cases = 0, cases_timed = 0, steps_timed = 0;
-  std::string first_end = {};              // how the first run that ended early ended
-  std::vector<std::string> breaches = {};  // claims, each once
+  std::string first_end = {};              // of the first run that stopped early: "CASE: cause"
+  std::vector<std::string> breaches = {};  // broken claims, each once
 
   std::optional<Estimate> over() const;  // ratio to the reference, round by round
   std::optional<double> create_over() const;
@@ -242,9 +241,9 @@ struct ShareOfSteps {
 struct SubjectRow {
   const BenchSubject* subject = nullptr;
   std::string answers = {};                // the kinds of its answers: "answer, time, pairs"
-  std::optional<Estimate> over = {};       // median of families, interval by drawing families
-  std::optional<double> create_over = {};  // median of families
-  std::uint64_t families = 0;              // that have times
+  std::optional<Estimate> over = {};       // median over families, with a bootstrap interval
+  std::optional<double> create_over = {};  // median over families
+  std::uint64_t families = 0;              // number of families with times
   JudgedCounts counts = {};
   ShareOfSteps unsafe = {}, alarming = {};  // of the judged steps
   std::optional<double> bytes_a_triangle = {};
@@ -252,7 +251,7 @@ struct SubjectRow {
 
 // Returns rows in the order of the subjects; a subject that took part in nothing is left out.
 // Subjects in this process that are asked for the same pairs share a Pareto line for each error.
-// Culling none has no place on it, because only the smallest meshes are run with it.
+// Culling::none has no place on the line, because only the smallest meshes are run with it.
 std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
                                    const std::vector<BenchSubject>& subjects);
 
@@ -275,7 +274,7 @@ struct Match {
 struct ComparisonPlan {
   SweepPlan sweep = {};       // the rounds are those of the families
   double small_seconds = 10;  // processor time for a worker's run of a generated or hard case
-  double large_seconds = 60;  // of a scene or a public sequence
+  double large_seconds = 60;  // the same for a scene or a public sequence
   int jobs = 1;               // threads of the oracle
   bool is_judged = true;      // else cases are only played and timed
   // A suite's own work on each case.
@@ -298,7 +297,7 @@ class Comparison {
 
   // Runs all cases of the families, and adds a row for each family and subject that had one. A
   // subject is given the steps that its contract takes, and the reference is given the same steps.
-  // If steps were left out, the start of the others is not vouched for. Culling none takes part up
+  // If steps were left out, the start of the others is not vouched for. Culling::none takes part up
   // to 64 triangles. The times of a run that ended early do not count, and its steps are undecided.
   void run(const std::vector<CaseFamily>& families);
 
@@ -375,12 +374,12 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
                          const BenchProgress& progress);
-// Returns exact, bounded, double and float. Each plays a case with the culling and the view
-// primitive that the case states, or else with view-point.
+// Returns a subject for each arithmetic: exact, bounded, double and float. Each plays a case with
+// the culling and view primitive that the case states; if it states none, with Culling::view_point.
 std::vector<BenchSubject> all_arithmetics();
 
 // Returns the changes of a hard case that must not change its answer, by their names: permutation
-// (of vertices, triangles, first corners), mirror (with all triangles turned, so that outside stays
+// (of vertices, triangles, first corners), mirror (all triangles reversed, so that outside stays
 // outside), power of two (up or down, by the case's id), and translation (as far as it can be
 // exact). The case's view primitive is changed too, and its facts stay. There is no form if a
 // coordinate would be rounded.

@@ -24,7 +24,7 @@ class Recorder:
     do not meet, or a body paired with itself. rings, rest_distance: pairs that do not count, as of
     assay.check; at rest the mesh is at `positions`.
 
-    every: one step of so many is recorded. overwrite: whether a file that is there may be lost.
+    every: with 10, one step in ten is recorded. overwrite: whether an existing file may be lost.
 
     Arrays of float32 are recorded as float32, others as float64 where that is exact; positions that
     are not finite are recorded too, and an answer that can be none, as a time outside of [0, 1], is
