@@ -165,8 +165,7 @@ Expected<void> write_file_atomically(const std::filesystem::path& path, std::str
   };
   OpenFile part;
   int file = -1;
-  struct stat opened {
-  }, there{};
+  struct stat opened = {}, there = {};
   do {
     file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     part.reset(file < 0 ? nullptr : ::fdopen(file, "w"));

@@ -4,6 +4,8 @@
 #include <link.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -48,10 +50,13 @@ JudgedLibrary::JudgedLibrary(const fs::path& word, const fs::path& worker)
       digest_ = no_file(fs::exists(word, error) ? "not a file" : "no such file");
       return;
     }
-    std::vector<fs::path> files = {word};
-    const auto dependencies = needed_files(word);
-    files.insert(files.end(), dependencies.begin(), dependencies.end());
-    take(files);
+    auto files = needed_files(word);
+    if (files) {
+      files.value().insert(files.value().begin(), word);
+      take(files.value());
+    } else {
+      digest_ = files.error();
+    }
     return;
   }
   const auto serving = python_plugin(word.string(), worker);
@@ -110,16 +115,21 @@ bool is_of_the_system(const fs::path& file) {
 
 }  // namespace
 
-std::vector<fs::path> needed_files(const fs::path& library) {
+Expected<std::vector<fs::path>> needed_files(const fs::path& library) {
   std::vector<fs::path> files;
+  const auto problem = [](const std::string& reason) {
+    return Problem{"the libraries that it needs cannot be listed: " + reason};
+  };
   const auto output = PrintedFile::make();
-  if (!output) return files;
+  if (!output) return problem(std::strerror(errno));
   std::error_code ignored;
   auto listing = ChildProcess::start(
       loader(), {"--list", fs::absolute(library, ignored).string()},
       {{output->descriptor(), STDOUT_FILENO}, {output->descriptor(), STDERR_FILENO}});
-  constexpr std::chrono::seconds most{10};
-  if (!listing || listing.value().finish(most).by_host) return files;
+  if (!listing) return problem(listing.error().message);
+  constexpr std::chrono::seconds most{60};
+  if (listing.value().finish(most).by_host)
+    return problem(fmt::format("the loader took more than {} s", most.count()));
   // A line is "\tbeside.so => /home/me/beside.so (0x00007f2d12929000)", without "=>" for a library
   // that is needed by its path.
   std::ifstream lines(fmt::format("/proc/self/fd/{}", output->descriptor()));

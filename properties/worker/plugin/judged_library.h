@@ -48,8 +48,10 @@ class JudgedLibrary {
 
 // Returns the libraries that the system's loader would load with a library, without running its
 // code. Libraries in the system's folders (/lib, /usr/lib, ...) are left out. Empty for a file that
-// the loader does not take, and if the loader does not find all that the file needs.
-std::vector<std::filesystem::path> needed_files(const std::filesystem::path& library);
+// the loader does not take, and if the loader does not find all that the file needs. A problem if
+// the loader cannot be asked, or does not end.
+corpus::Expected<std::vector<std::filesystem::path>> needed_files(
+    const std::filesystem::path& library);
 
 // A detector in Python is named by `python:MODULE:CLASS` in place of a library. It is served by a
 // plug-in that holds an interpreter and is shipped with the Python module (reports/python).

@@ -65,8 +65,8 @@ TEST_F(JudgedLibraries, ServeNoMoreWhereTheyChange) {
 TEST_F(JudgedLibraries, AreJudgedWithWhatTheyNeed) {
   put(plugin("with_neighbour"), "mine.so");
   put(ASSAY_PLUGIN_DIR "/free/beside.so", "beside.so");
-  EXPECT_EQ(needed_files(file("mine.so")), std::vector{file("beside.so")});
-  EXPECT_TRUE(needed_files(plugin("always_free")).empty());
+  EXPECT_EQ(needed_files(file("mine.so")).value(), std::vector{file("beside.so")});
+  EXPECT_TRUE(needed_files(plugin("always_free")).value().empty());
   const auto both = corpus::sha256_of(digest_of(file("mine.so")) + digest_of(file("beside.so")));
   WorkerProcess first(ASSAY_WORKER, file("mine.so"));
   EXPECT_EQ(answer(first), Answer::free);
@@ -79,7 +79,7 @@ TEST_F(JudgedLibraries, AreJudgedWithWhatTheyNeed) {
 TEST_F(JudgedLibraries, MayBeNoLibraries) {
   for (const std::string bytes : {"", "\177ELF", "\177ELF\2\1\1", "text"}) {
     std::ofstream(file("none.so")) << bytes << std::string(bytes.size() > 5 ? 200 : 0, '\377');
-    EXPECT_TRUE(needed_files(file("none.so")).empty());
+    EXPECT_TRUE(needed_files(file("none.so")).value().empty());
     WorkerProcess worker(ASSAY_WORKER, file("none.so"));
     const auto described = worker.describe();
     ASSERT_FALSE(described);
