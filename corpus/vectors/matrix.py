@@ -273,8 +273,8 @@ def product_html(judged, letter, cases):
             codes = "".join(f" <code>{escaped(i)}</code>" for i in ids)
             size = f", {size_text(judged.late_by)}" if outcome == "late" else ""
             html += f"<p>{words} ({len(ids)}{size}):{codes}</p>\n"
-    if judged.early:
-        html += (f"<p>Early, which is safe: {judged.early} of {judged.times} first times, "
+    if judged.early_by:
+        html += (f"<p>Early, which is safe: {len(judged.early_by)} of {judged.times} first times, "
                  f"{size_text(judged.early_by)}</p>\n")
     if judged.gave_pairs:
         html += ("<p>In mesh steps with a right answer, the product also lists pairs: of "

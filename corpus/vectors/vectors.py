@@ -86,7 +86,7 @@ class VectorSet:
         check_set(self.info, self.folder / "set.json")
         names = [*(Path(g["file"]).stem for g in self.info["groups"]), *self.info["flags"]]
         for name in sorted({*(only or [])} - {*names}):
-            raise Wrong(f"no group {name}; there are: {' '.join(names)}")
+            raise Wrong(f"no group or flag {name}; there are: {' '.join(names)}")
         self.groups, self.cases = [], []
         lines, ids = "", set()
         for entry in self.info["groups"]:
@@ -675,7 +675,7 @@ class Judged:
         self.product = product
         self.outcome = {}  # by id
         self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
-        self.closed = self.open = self.early = self.missing = self.spurious = 0
+        self.closed = self.open = self.missing = self.spurious = 0
         self.met = self.named = 0  # pairs of triangles, of those steps of which pairs are judged
         self.times, self.late_by, self.early_by = 0, [], []  # of first times; shares of the step
         self.gave_pairs = False
@@ -716,7 +716,6 @@ class Judged:
                 return "late"
             if answer["time"][1] < step.first_time[0]:
                 self.early_by.append(step.first_time[0] - answer["time"][1])
-                self.early += 1
         return "right"
 
     def limit(self, step, share):
@@ -857,8 +856,8 @@ def score_text(vectors, every, brief=False):
         if judged.closed or judged.open:
             lines.append(f"{letter} where features only touch: {judged.closed} closed, "
                          f"{judged.open} open\n")
-        if judged.early:
-            lines.append(f"{letter} times early: {judged.early}\n")
+        if judged.early_by:
+            lines.append(f"{letter}: {len(judged.early_by)} times reported too early\n")
         if judged.gave_pairs:
             lines.append(f"{letter} pairs: {judged.missing} missing, {judged.spurious} spurious\n")
         if judged.uses:

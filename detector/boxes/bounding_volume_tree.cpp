@@ -33,8 +33,11 @@ std::size_t longest_side(const Point& lo, const Point& hi) {
 // cells along the longest side. A split counts spots to find the cell along one axis that holds the
 // median. Then it moves the spots on both sides of that cell to the other of two lists. A node with
 // m triangles has 2m - 2 nodes below it, so each range knows the numbers of its nodes, and the
-// workers share the ranges out. The order of spots does not depend on where they stood before:
-// spots of equal places are ordered by their numbers.
+// workers share the ranges out. Spots of equal places are ordered by their numbers, so their order
+// does not depend on where they stood before. In a mesh with a cut component (Cuts) the triangles
+// of a wide node stay as they stood. Only ghost sweeps and normal cones look below wide nodes, and
+// they need no order. The order is still the same for any number of workers, because lists are made
+// in pieces of one size.
 struct BoundingVolumeTree::Builder {
   using Numbers = std::vector<std::int32_t>;
   // Places lie between 2^29 and 3 * 2^29. If their bits are read as floats, these are normal
@@ -54,9 +57,9 @@ struct BoundingVolumeTree::Builder {
   const Topology& mesh;
   const PositionsView& x;
   PacedStop* pace;
-  std::array<Spots, 2> lists;  // component after component
-  std::vector<Bounds> bounds;  // by component
-  bool is_cut = false;
+  std::array<Spots, 2> lists;       // component after component
+  std::vector<Bounds> bounds;       // by component
+  bool is_cut = false;              // some component was cut
   std::uint32_t placed = 0;         // triangles of the components whose ranges are made
   std::vector<Range> large, small;  // that are still to be split
 

@@ -108,7 +108,8 @@ class BoundingVolumeTree {
  public:
   // Splits the components, then the triangles of each, at the median of their centres along the
   // longest side of the box of these centres. A component of more than 65,000 triangles is first
-  // cut at the medians of a sample, so its largest nodes have halves that are not quite equal.
+  // cut at the medians of a sample, so its largest nodes have halves that are not quite equal; then
+  // nodes of up to 8 triangles are split in any way.
   // Centres of triangles are rounded to 2^-26 of their component. A leaf holds one triangle. O(M
   // log M). If `pace` was stopped, the tree must not be used.
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);

@@ -3,9 +3,9 @@
 //   LargeArray<float> boxes(6'000'000);  // the values are not set
 //
 // The kernel clears each page at its first touch. With pages of 4 KiB that is a fifth of the time
-// of a mesh of 10^6 triangles that is asked once; with pages of 2 MiB it is a quarter of that.
-// Large arrays begin and end with a page, so no part of them lies on small pages. Where a system
-// has no such pages, nothing is asked. Small arrays are like any other.
+// of a mesh of 10^6 triangles that is asked once; with pages of 2 MiB it is half of that.
+// An array of half a page or more begins and ends with a page of its own, so no part of it lies on
+// small pages. Where a system has no large pages, nothing is asked.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,7 @@ class Judging(unittest.TestCase):
     def test_right_answers_are_right(self):
         judged = vectors.judge(self.results, self.set)
         self.assertEqual(set(judged.outcome.values()), {"right"})
-        self.assertEqual((judged.closed, judged.open, judged.early, judged.missing, judged.spurious),
+        self.assertEqual((judged.closed, judged.open, len(judged.early_by), judged.missing, judged.spurious),
                          (1, 0, 0, 0, 0))
         self.assertEqual(judged.uses, [0.5])
         self.assertEqual(vectors.exit_code([judged]), 0)
@@ -101,7 +101,7 @@ class Judging(unittest.TestCase):
                                     ([late, late], "late", 0), ([hi, late], "right", 0),
                                     ([0, 0.25], "right", 1), ([0, lo], "right", 0)):
             outcome, judged = self.outcome("vf-d-0002", {"answer": "collision", "time": time})
-            self.assertEqual((outcome, judged.early), (wanted, early), time)
+            self.assertEqual((outcome, len(judged.early_by)), (wanted, early), time)
 
     def test_no_answers(self):
         for word in ("undecided", "error", "crash", "timeout"):
