@@ -147,7 +147,7 @@ Case line_ends(Variation& vary, int exponent, int kind) {
 std::vector<HardFamily> view_families() {
   return {{"view-touches-zero",
            "a tent passes over its view-point, or collapses onto it: almost, or a little too far",
-           "least view value, as height", "ulp", 40, -1, 40, 4, 2, touches_zero},
+           "height of the view-point over the floor", "ulp", 40, -1, 40, 4, 2, touches_zero},
           {"view-on-surface", "the view-point above or below a face that it moves with",
            "distance from the face", "ulp", 40, -1, 40, 2, 2, on_the_surface},
           {"view-line-ends",

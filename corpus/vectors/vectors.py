@@ -857,7 +857,7 @@ def score_text(vectors, every, brief=False):
             lines.append(f"{letter} where features only touch: {judged.closed} closed, "
                          f"{judged.open} open\n")
         if judged.early_by:
-            lines.append(f"{letter}: {len(judged.early_by)} times reported too early\n")
+            lines.append(f"{letter} times too early: {len(judged.early_by)}\n")
         if judged.gave_pairs:
             lines.append(f"{letter} pairs: {judged.missing} missing, {judged.spurious} spurious\n")
         if judged.uses:

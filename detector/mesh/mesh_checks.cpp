@@ -207,8 +207,8 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "a relation of features lists pairs of triangles"
-                                      : "a relation of triangles lists pairs of features");
+    return wrong_relation(of_features ? "triangle pairs are listed at level features"
+                                      : "feature pairs are listed at level triangles");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {

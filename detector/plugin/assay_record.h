@@ -521,7 +521,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
     return assay_record_wrong_(r, "a mesh has positions of 1 to 2^31 - 1 vertices");
   if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
-    return assay_record_wrong_(r, "the triangles are missing, or above 2^31 - 1");
+    return assay_record_wrong_(r, "the triangles are missing, or are more than 2^31 - 1");
   for (i = 0; i < 3 * c->triangle_count; ++i)
     if (c->triangles[i] < 0 || (uint64_t)c->triangles[i] >= vertex_count)
       return assay_record_wrong_(r, "a triangle names a vertex that does not exist");

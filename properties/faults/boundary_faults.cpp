@@ -85,8 +85,8 @@ std::vector<Fault> boundary_faults() {
        "the rule of an apex is chosen anew at each step"},
       {wrong<AlwaysCentroid>, "boundary/always-centroid", "L11", "", 0,
        "every apex is the centroid of its loop", with_points, FaultStatus::equivalent,
-       "the proof of L3 needs an apex that moves continuously, wherever it is: the choice costs "
-       "time only"},
+       "L3 holds for every apex that moves continuously, so this choice changes only the time "
+       "taken"},
   };
 }
 

@@ -158,8 +158,8 @@ std::vector<Fault> start_faults() {
       {wrong<LowestLayerIsCommon>, "state/lowest-layer-is-common", "L9", "", 0,
        "the common layer is that of the lowest untouched triangle, not that of most", with_points,
        FaultStatus::equivalent,
-       "the proof of L3 needs one common layer and does not ask which: the choice costs pairs "
-       "only"},
+       "L3 holds for every layer taken as the common one, so this choice changes only how many "
+       "pairs are candidates"},
   };
 }
 

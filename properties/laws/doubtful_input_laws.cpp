@@ -193,15 +193,15 @@ void check_bad_input(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law doubtful_input_law_table[] = {
     {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
-     "With edges of three or more triangles, or used twice in one direction, a mesh is answered "
-     "free only if it is free.",
+     "With edges of three or more triangles, or used twice in one direction, the answer is free "
+     "only if there is no contact.",
      "pair set", each_step<broken_edges>},
     {"L12_NeverFreeOnAGuess_Collapsed", "L12",
-     "With triangles of no area or vertices at one place, a mesh is answered free only if it is.",
+     "Despite zero areas or coincident vertices, the answer is free only if there is no contact.",
      "pair set", each_step<collapsed>},
     {"L12_NeverFreeOnAGuess_SeveralLayers", "L12",
-     "With untouched triangles of one component on several layers, a mesh is answered free only if "
-     "it is.",
+     "With untouched triangles of one component on several layers, the answer is free only if "
+     "there is no contact.",
      "pair set, layers", each_step<several_layers>},
     {"L12_ZeroAreaStaysInV0", "L12",
      "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",

@@ -351,7 +351,7 @@ constexpr Family distance_table[] = {
                               "edges parallel at an end of the step, or throughout", 5),
     family_of<feet_at_ends>("distance-ends", "at d with feet at corners and ends of edges", 5),
     family_of<collapsing>("distance-collapsing", "features that become segments or points", 5),
-    family_of<no_normal>("distance-no-normal", "at d just where a normal vanishes", 5),
+    family_of<no_normal>("distance-no-normal", "at d when a normal is 0, or almost", 5),
     family_of<tangent>("distance-tangent", "at d without crossing it, or sliding along it", 5),
     family_of<at_rest>("distance-at-rest", "nothing moves, at d or next to it", 5),
     family_of<no_distance>("distance-zero", "d = 0: contacts", 5),

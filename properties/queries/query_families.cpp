@@ -299,7 +299,7 @@ constexpr Family contact_table[] = {
     family_of<exponents>("query-exponents", "exponents over all doubles", 1000),
     family_of<generic>("query-generic", "uniform in a cube", 5),
     family_of<everyday>("query-everyday",
-                        "numbers as programs make them; ends on a feature or beside it", 5),
+                        "coordinates as programs compute them; motion ends at a feature", 5),
     family_of<extreme_contact>(
         "query-extreme", "exponents over all doubles, denormals, few mantissas, mostly degenerate",
         1000),

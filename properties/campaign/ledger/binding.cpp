@@ -150,7 +150,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
   const auto first = corpus::parse_sorted_json(a, "binding"),
              right = corpus::parse_sorted_json(b, "binding");
   const bool are_objects = first && right && first.value().is_object() && right.value().is_object();
-  if (!are_objects) return "one of them does not state its run";
+  if (!are_objects) return "one of the two runs is not described";
   std::vector<std::string> differences;
   const auto parts_of = [&](Json binding) {
     if (runs == Runs::judged_together) {

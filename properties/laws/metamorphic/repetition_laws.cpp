@@ -265,9 +265,9 @@ constexpr Law repetition_law_table[] = {
      "runs the pieces of its loops one by one, in a drawn order and in drawn lanes.",
      "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
-     "A state gives the same later results and states when it is restored in another detector of "
-     "the mesh, which was made from other positions and has evaluated another step; that "
-     "evaluation can no longer be committed.",
+     "A state gives the same later results and states after it is restored in a second detector of "
+     "the same mesh, which was made from other positions and has evaluated a step. The second "
+     "detector can then no longer commit that evaluation.",
      "nothing", check_restored_state, one_case_in_16},
     {"Change_StepReversed", "change",
      "A sequence played back, each step from its end to its start, has the pairs of each step, and "

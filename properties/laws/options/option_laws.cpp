@@ -292,10 +292,10 @@ void check_options(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
-     "The claims hold in drawn configurations, in which every two values of culling, arithmetic, "
-     "start, pairs, threads, separation, relation, question, state before the case, mesh and size "
-     "meet. Some ask for limits; some stop steps or limits. Start clean is drawn only where the "
-     "start is clean.",
+     "The claims hold in drawn configurations with pairwise coverage of culling, arithmetic, "
+     "start, pairs, threads, separation, relation, question, state before the case, mesh and size. "
+     "Some ask for limits; some stop steps or limits. `--start clean` is drawn only for a clean "
+     "start.",
      "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
 };
 

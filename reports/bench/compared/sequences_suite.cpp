@@ -60,7 +60,7 @@ void find_differences(const Match& match, BenchReport& report) {
       const auto hash = result_hash(result);
       const auto of_culling = std::pair(s, match.subjects[i].configuration.options.culling);
       if (hashes.try_emplace(of_culling, hash).first->second != hash)
-        report.wrong_answers.push_back(label + ": the same culling gives another result");
+        report.wrong_answers.push_back(label + ": two runs with one culling differ");
       const bool same =
           result.answer == first.answer && result.first == first.first &&
           std::equal(result.pairs.begin(), result.pairs.end(), first.pairs.begin(),

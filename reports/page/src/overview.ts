@@ -90,7 +90,7 @@ function notes({ findings: { times, versions }, subject, verdict, begun }: Run):
       : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
     subject !== null || verdict === "unverified"
       ? ""
-      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}: assay certify issues one.`,
+      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}. To issue one, run assay certify.`,
   ].filter((note) => note !== "");
 }
 
