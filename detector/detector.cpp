@@ -236,7 +236,7 @@ StepLimit Detector::limit(const PositionsView& x_t0, const PositionsView& x_t1,
   if (arithmetic != Arithmetic::exact && arithmetic != Arithmetic::bounded) {
     parts_->evaluated.reset();
     limit.problem = {InputError::proves_nothing, std::string("arithmetic ") + name_of(arithmetic) +
-                                                     " proves no step free; exact and bounded do"};
+                                                     " proves no step free; use exact or bounded"};
     return limit;
   }
   // Only the first contact decides where the way ends, and only a free step is committed.
@@ -302,8 +302,8 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {
     return Problem{InputError::foreign_state,
-                   "the state is of another mesh, or of one with other bodies that do not "
-                   "meet themselves"};
+                   "the state is of a different mesh, or the bodies that do not meet themselves "
+                   "differ"};
   }
   const bool has_views = uses_views(context.options.culling);
   const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,

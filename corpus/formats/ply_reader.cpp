@@ -331,7 +331,7 @@ class PlyReader {
     }
     if (!body_.has_room(element.count, least_size)) {
       return builder_.problem(body_.place(),
-                              fmt::format("{} times element {} do not fit into the rest of the "
+                              fmt::format("{} elements \"{}\" do not fit into the rest of the "
                                           "file",
                                           element.count, element.name));
     }

@@ -391,7 +391,7 @@ Expected<void> StepLog::go_on() {
   }, opened{};
   if (::stat(path_.c_str(), &named) != 0 || ::fstat(::fileno(file_.get()), &opened) != 0 ||
       named.st_ino != opened.st_ino)
-    return problem_in(path_, "another file is in its place now");
+    return problem_in(path_, "it was replaced while it was read");
   if (size_ < scanned_) return problem_in(path_, "it was cut while it was read");
   why_damaged_.clear();
   while (scanned_ < size_ && why_damaged_.empty()) {

@@ -183,8 +183,8 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (!kind) {
     return problem_in(
         csv,
-        "vertex-face or edge-edge queries? Name a folder of the path so, or begin the "
-        "file's name so, or end it in vf or ee, as in posted_vf.csv");
+        "vertex-face or edge-edge queries? Let a folder's name be one of these words, or the "
+        "file's name begin with one, or let it end in vf or ee, as in posted_vf.csv");
   }
   BOOST_OUTCOME_TRY(bytes, read_bytes(csv));
   BOOST_OUTCOME_TRY(queries, CsvReader(bytes, csv, *kind).read());

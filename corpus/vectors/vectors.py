@@ -94,7 +94,7 @@ class VectorSet:
             data = read_bytes(file)
             digest = hashlib.sha256(data).hexdigest()
             if digest != entry["sha256"]:
-                raise Wrong(f"{file}: changed: its SHA-256 is {digest}, and set.json has another")
+                raise Wrong(f"{file}: changed: its SHA-256 is {digest}, not the one in set.json")
             lines += f"{digest}  {entry['file']}\n"
             group = parse_json(data, file)
             check_group(group, file, self.info, entry)
@@ -253,7 +253,7 @@ def check_mesh(case, group, place):
         "a triangle is not three different indices of points")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
-         and steps, place, "steps are not a list (of one, where a limit is asked)")
+         and steps, place, "steps are not a list of steps, or not of one step where a limit is asked")
     number = (lambda x: is_count(x, len(frames))), "the number of a frame"
     for i, step in enumerate(steps):
         here = f"{place}: step {i + 1}"
@@ -285,7 +285,7 @@ def check_truth(truth, place):
         want(is_list(time_, 2, is_number) and 0 <= time_[0] <= time_[1] <= 1, place,
              "first_time is not two times of the step")
         want(time_[1] == time_[0] or time_[1] == next_double(time_[0]), place,
-             "first_time is neither one double nor two neighbouring ones")
+             "first_time is neither one double nor two neighbouring doubles")
     if polynomial is not None:
         want(is_list(polynomial, None, lambda c: is_text(c) and re.fullmatch(r"-?\d+", c)), place,
              "polynomial is not a list of whole numbers written as texts")
@@ -926,7 +926,7 @@ def read_csv(file, truth):
         want(len(ends) == 1, place, "the eight rows of this query differ in label or separation")
         end = ends.pop()
         label = labels[first // 8] if labels else {"1": True, "0": False}.get((*end, "")[0])
-        want(label is not None, place, "this query has no label, so it is no case; --truth gives one")
+        want(label is not None, place, "this query has no label, which a case needs: give labels with --truth")
         distance = None
         if len(end) == 2:
             want(bool(NUMBER.fullmatch(end[1])) and 0 <= float(end[1]) < math.inf, place,
@@ -1000,7 +1000,7 @@ def to_csv(group_file, out, truth):
     group = read_json(group_file)
     want_fields(group, {"schema": SCHEMA, **KIND, "cases": (lambda x: is_list(
         x, None, lambda c: isinstance(c, dict)), "a list of objects")}, group_file)
-    want(group["features"] != "mesh", group_file, "holds meshes, which no query file does")
+    want(group["features"] != "mesh", group_file, "holds meshes, which a query file cannot hold")
     text, labels = "", []
     for case in group["cases"]:
         want_fields(case, {"result": one_of(*RESULTS)}, group_file)

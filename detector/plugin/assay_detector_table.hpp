@@ -227,7 +227,7 @@ std::int32_t limit(assay_handle* handle, const double* x_t0, const double* x_t1,
   return guarded(last_line<D>(), [&] {
     h.limit = h.detector.limit({x_t0, h.vertices}, {x_t1, h.vertices});
     if (!h.limit.positions.empty() && h.limit.positions.size() != 3 * h.vertices)
-      throw std::runtime_error("limit() gives positions of another number of vertices");
+      throw std::runtime_error("limit() gives positions for a wrong number of vertices");
     out->share = h.limit.share;
     if (!h.limit.positions.empty()) out->positions = h.limit.positions.data();
   });

@@ -199,7 +199,7 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   const std::string start = contract.start == StartRule::apart ? "apart" : "free";
   if (says_query(c)) {
     const auto query = query_of(c);
-    if (!query) return "its options call it a query, but it is none";
+    if (!query) return "its options call it a query, but it is not a query's mesh";
     Contract of_any_start = contract;
     of_any_start.start = StartRule::any;
     if (!takes(of_any_start, *query))

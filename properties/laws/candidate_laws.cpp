@@ -100,7 +100,7 @@ Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   const auto& pair = other == theirs.end()                                  ? mine->pair
                      : mine != ours.pairs.end() && mine->pair < other->pair ? mine->pair
                                                                             : other->pair;
-  return fmt::format("{} pairs of {}; ({}, {}) is missing, spurious, or has another time",
+  return fmt::format("{} pairs of {}; ({}, {}) is missing, spurious, or has a wrong time",
                      ours.pairs.size(), theirs.size(), pair.a, pair.b);
 }
 

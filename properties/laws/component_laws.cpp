@@ -37,7 +37,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
       return c.pair == contact.pair && c.time == contact.time;
     };
     if (std::ranges::none_of(pairs, same)) {
-      return fmt::format("({}, {}) of two components is missing or has another time",
+      return fmt::format("({}, {}) of two components is missing or has a wrong time",
                          contact.pair.a, contact.pair.b);
     }
   }
@@ -99,7 +99,7 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
   if (alone.doubts.size() != own.size()) return "no answer alone";
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (among.signs[at(own[i])] != alone.signs[i]) {
-      return fmt::format("triangle {} has another sign where its component is alone", own[i]);
+      return fmt::format("triangle {} has a different sign if its component is alone", own[i]);
     }
     if (among.doubts[at(own[i])] != alone.doubts[i]) {
       return fmt::format("triangle {} has other doubts where its component is alone", own[i]);

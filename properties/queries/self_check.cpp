@@ -169,7 +169,7 @@ std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const 
   if (step) return step_text(step(seed, index));
   const auto task = query(seed, index);
   return task ? exact_text(*task) + answers_text(*task)
-              : "no query has this number: an equal one has another\n";
+              : "no query has this number: an equal query has another number\n";
 }
 
 Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus) {
@@ -228,7 +228,7 @@ Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::
   world("plane-2", "all queries on {0,1}^2", {2, 2, every_point_moves}, 0);
   world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", {3, 2, one_point_moves}, 0);
   steps("steps", "pair sets of small meshes, detector without culling", make_small_step);
-  steps("steps-everyday", "the same of meshes with everyday numbers", everyday_step);
+  steps("steps-everyday", "as steps, for meshes with everyday numbers", everyday_step);
   for (const Family& family : self_test_queries())
     random(family.name.substr(std::string_view("query-").size()), family, family.one_in);
   // A query of distance takes longer than one of contact, so there are fewer.

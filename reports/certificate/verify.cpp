@@ -159,7 +159,7 @@ std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours
   if (certified.detector.built_in && certified.digests.worker != ours.digests.worker)
     return "the built-in detector of this assay is not that of the certificate";
   if (json_of(certified.detector) != json_of(ours.detector))
-    return "the detector has other claims, another contract or other configurations now";
+    return "the detector's claims, contract or configurations differ from the certified ones";
   return "";
 }
 

@@ -353,7 +353,7 @@ class CheckRun {
     // The box of each component is compared with each other box.
     constexpr std::size_t most_components = 1000;
     if (bodies_.empty() && mesh_.components.size() > most_components)
-      return say("  not looked for: components inside of others, because there are over 1,000\n");
+      return say("  not looked for: components inside other ones, because there are over 1,000\n");
     nested_ = nested_bodies(
         step.x_t0, mesh_, bodies_.empty() ? component_by_vertex() : steps_.counted()->body, pairs);
     if (bodies_.empty()) nested_ = innermost(*nested_);

@@ -211,7 +211,7 @@ Expected<detector::StepResult> GivenAnswers::result_of(const corpus::LoggedAnswe
   if (logged.pairs.size() % 2 != 0) return Problem{"its pairs are not two triangles each"};
   if (!logged.pair_times.empty()) {
     if (logged.pair_times.size() != logged.pairs.size())
-      return Problem{"its times of pairs are not two for each pair"};
+      return Problem{"it does not give two times for each pair"};
     raw.pair_times = logged.pair_times.data();
   }
   const auto triangles = static_cast<std::int32_t>(triangles_.rows());

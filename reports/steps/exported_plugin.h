@@ -173,7 +173,7 @@ class Plugin {
     if (!succeeded("result", api_->result(handle, &raw), found)) return;
     const bool reports_none =
         api_->abi_version >= 2 && api_->describe()->reports == ASSAY_REPORTS_NO_PAIRS;
-    found.error = reports_none && raw.pair_count > 0 ? "gives pairs, and says that it reports none"
+    found.error = reports_none && raw.pair_count > 0 ? "gives pairs, but says that it reports none"
                                                      : read_result(case_, raw, found);
     if (step.commit && found.is_answered && found.error.empty())
       succeeded("commit", api_->commit(handle), found);

@@ -188,7 +188,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (e.late.steps > 0) parts.push_back(off_sentence("late", e.late));
   if (e.early.steps > 0) parts.push_back(off_sentence("early", e.early));
   if (m.starts_near > 0)
-    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, which no n counts",
+    parts.push_back(fmt::format("{} step{} near or in contact at t = 0, not counted in n",
                                 m.starts_near, m.starts_near == 1 ? "" : "s"));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));

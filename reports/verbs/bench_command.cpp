@@ -56,7 +56,7 @@ Expected<BenchReport> measure(const BenchRequest& request) {
 
 Expected<int> run_bench(const BenchRequest& request) try {
   if (request.suite.empty() && request.detector.library.empty())
-    return Problem{"bench: --suite NAME, or --detector LIB.so, says what to measure"};
+    return Problem{"bench: say what to measure: --suite NAME or --detector LIB.so"};
   BOOST_OUTCOME_TRY(may_write({request.json_file, request.csv_file}));
   BOOST_OUTCOME_TRY(report, measure(request));
   fmt::print("suite {}, data {}\n", report.suite, request.settings.data);

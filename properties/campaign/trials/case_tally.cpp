@@ -224,7 +224,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
     if (was_killed_from_outside(run.end)) {
       if (++kills == most_kills)
         throw std::runtime_error(
-            fmt::format("{}: {} times the check of laws was {}", case_id, kills, run.end.text));
+            fmt::format("{}: the check of laws was {}, {} times", case_id, run.end.text, kills));
       continue;
     }
     tallies.push_back({1, 0, 1, fmt::format("{}: the check ended: {}", case_id, run.end.text)});

@@ -180,7 +180,7 @@ constexpr Law law_of(std::string_view name, std::string_view statement,
 constexpr Law change_law_table[] = {
     {"L18_RefinedMeshHasTheSameContacts", "L18",
      "Splitting edges at exact places, in all of their triangles and without a loss of area, "
-     "changes no times and no pairs, if each part counts as the triangle that it is of.",
+     "changes no times and no pairs, if each part counts as the triangle that it came from.",
      "nothing", check_form<changes::split_edges>, one_case_in_16, PremiseScope::any_culling,
      &changes::split_edges},
     law_of<changes::vertex_numbers>(

@@ -46,7 +46,7 @@ std::string compare_pairs(const StepResult& whole, const StepResult& first,
     const int half = time.hi <= 0.5 ? 0 : 1;
     const auto node = in_halves.extract(pair);
     if (!node || node.mapped().first != half || !corresponds(time, node.mapped().second, half))
-      return fmt::format("({}, {}) is missing in its half, or has another time", pair.a, pair.b);
+      return fmt::format("({}, {}) is missing in its half, or has a wrong time", pair.a, pair.b);
   }
   if (in_halves.empty()) return {};
   const auto& pair = in_halves.begin()->first;

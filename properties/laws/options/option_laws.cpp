@@ -187,7 +187,7 @@ Reply ask_before(Question question, Random& random, CasePlayer& player, std::siz
     case Question::stopped_limit: {
       auto wrong = ask_and_stop(random, detector, stopped_limit);
       if (wrong.empty() && !is_the_same(whole, detector.limit(x_t0, x_t1)))
-        wrong = "a limit differs after a stopped one";
+        wrong = "a limit differs after a call of limit that was stopped";
       return {wrong, {}};
     }
   }

@@ -237,7 +237,7 @@ Expected<StepResult> step_result(const assay_result& raw, std::int32_t triangle_
   }
   if (raw.answer == ASSAY_BEYOND_CAPACITY) return refused_by_capacity(line_of(raw.message));
   if (!reports_pairs && raw.pair_count > 0) {
-    return Problem{"gives pairs, and says that it reports none"};
+    return Problem{"gives pairs, but says that it reports none"};
   }
   StepResult result;
   std::string problem = read_result(raw, triangle_count, result);

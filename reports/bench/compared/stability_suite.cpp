@@ -297,7 +297,7 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
     add_changes(match, survivals);
     if (!agrees_with_construction(match.c, match.truth[0]))
       report.wrong_answers.push_back(match.c.id +
-                                     ": the oracle finds another answer than it was built for");
+                                     ": the oracle's answer is not the one it was built for");
   };
   Comparison comparison(subjects, plan, of_comparison, progress);
   for (const auto& family : families) {
