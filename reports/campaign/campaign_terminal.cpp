@@ -131,7 +131,7 @@ class CampaignTerminal : public properties::CampaignObserver {
     constexpr double short_limit = 1;
     const bool waits = state.undecided > 1 && state.undecided * share > state.done_trials &&
                        request_.plan.case_seconds > short_limit;
-    return waits ? fmt::format(" (each undecided one takes {:g} s: --case-seconds 1 is quicker)",
+    return waits ? fmt::format(" (each undecided trial takes {:g} s: --case-seconds 1 is quicker)",
                                request_.plan.case_seconds)
                  : "";
   }
@@ -179,7 +179,7 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
 
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words) {
   end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
-                                   "again to go on",
+                                   "command again to go on",
                                    words.out),
                        exit_undecided);
   BOOST_OUTCOME_TRY(plan, properties::find_plan(words.campaign));

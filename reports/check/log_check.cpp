@@ -107,7 +107,7 @@ class RecordedSteps : public corpus::StepSource {
     }
     if (!(asks_answers_ && now_.answer) && !(asks_limits_ && now_.limit)) {
       ++unanswered_;
-      why_left_out_ = "no answer was recorded that its claims are about";
+      why_left_out_ = "no recorded answer is about its claims";
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
     const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;

@@ -235,7 +235,7 @@ class Table : public GivenAnswers {
   std::optional<std::string> left_out() override {
     if (rows_.contains(next_++)) return std::nullopt;
     ++steps_left_out_;
-    return "the table has no row of it";
+    return "the table has no row for this step";
   }
 
   std::vector<properties::NotJudged> beyond_reach() const override {

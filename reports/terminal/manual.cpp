@@ -49,7 +49,7 @@ const std::vector<VerbManual>& verb_manuals() {
          "The same for your own detector; the first run has found the planted faults"},
         {"assay run --campaign smoke --share 1/2 --seed 2 --power run --detector ./detector.so "
          "--out half",
-         "Half of it under another seed, with a certificate to be judged together with others"}}},
+         "Half of the campaign under another seed, with a certificate to be judged with others"}}},
       {"certify",
        judging,
        "01234",

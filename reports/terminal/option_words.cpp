@@ -135,7 +135,7 @@ Check whole_number() {
 void add_limits(CLI::App& verb, std::optional<double>& seconds,
                 std::optional<std::uint64_t>& bytes) {
   add(verb, "--time SECONDS", seconds,
-      "Limit in seconds of processor time, all threads together; what is left is undecided")
+      "Limit in seconds of processor time, all threads together; then the rest is undecided")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", bytes, "a whole number above 0, alone or with K, M or G",
@@ -184,7 +184,7 @@ CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const s
 CLI::Option* add_detector(CLI::App& verb, DetectorWords& detector, const std::string& about) {
   auto library = add_detector_alone(verb, detector, about);
   add(verb, "--threads N", detector.threads,
-      "How many threads the detector may use; a plug-in is told it")
+      "How many threads the detector may use; a plug-in is told the number")
       ->check(in_range(1, most_threads))
       ->capture_default_str()
       ->group(OptionGroup::detector);
@@ -193,7 +193,7 @@ CLI::Option* add_detector(CLI::App& verb, DetectorWords& detector, const std::st
 
 void add_threads(CLI::App& verb, std::uint64_t& threads) {
   add(verb, "--threads N", threads,
-      "How many threads the detector may use; 0: all cores, and a plug-in is told 1")
+      "How many threads the detector may use; 0: all cores, or 1 for a plug-in")
       ->check(in_range(0, most_threads))
       ->capture_default_str()
       ->group(OptionGroup::detector);

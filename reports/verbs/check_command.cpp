@@ -338,7 +338,7 @@ Expected<int> run_check(const CheckRequest& request) {
 // Adds the options that choose steps of a log.
 void add_selection(CLI::App& verb, LogSelection& selection) {
   add(verb, "--share SHARE", selection.share, "Judge this share of a log's steps")->check(share());
-  add(verb, "--from N", selection.from, "Go on with this step of a log, counted from 1")
+  add(verb, "--from N", selection.from, "Begin with this step of a log, counted from 1")
       ->check(in_range(1, std::numeric_limits<std::int64_t>::max()));
   verb.add_flag("--follow", selection.follow, "Wait for steps until the recorder ends the log");
 }

@@ -412,7 +412,7 @@ Expected<int> check_plugin(const QueryQuestion& task, const std::vector<QuerySet
   const auto& detector = subject.detector;
   const double separation = detector.contract.separation;
   if (judged_claims(detector.claims, detector.contract, true).empty())
-    return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
+    return Problem{fmt::format("{}: it makes no claim about its query", words.library)};
   if (task.separation.value_or(separation) != separation) {
     return Problem{fmt::format("--separation {}: {} answers for the separation of its contract, {}",
                                *task.separation, detector.name, separation)};
@@ -491,7 +491,7 @@ void add_query_options(CLI::App& verb, QueryQuestion& task) {
     return method ? std::optional(method) : std::nullopt;
   };
   add_choice(verb, "--method", task.method, join(words, ", "), parse,
-             "Who answers queries (default oracle)");
+             "The method that answers queries (default oracle)");
 }
 
 }  // namespace assay::reports

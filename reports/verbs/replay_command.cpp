@@ -300,7 +300,7 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
 
 void add_options(CLI::App& verb, ReplayRequest& request) {
   add(verb, "CASE", request.id_or_file,
-      "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
+      "A case's id, CAMPAIGN:SEED:FAMILY:INDEX, or a file; LOG#N: step N of a log")
       ->required();
   add(verb, "--export DIR", request.export_folder,
       "Write frames as OBJ, a picture of the first contact and a test in C++ into this folder: "

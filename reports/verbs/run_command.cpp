@@ -164,7 +164,7 @@ void add_certify_options(CLI::App& verb, CampaignWords& words) {
       ->group(OptionGroup::output);
 }
 
-constexpr const char* go_on = "; what is stored stays: run the same again to go on";
+constexpr const char* go_on = "; what is stored stays: run the same command again to go on";
 
 Expected<int> conclude(const properties::CampaignRequest& request,
                        const properties::RunFindings& findings, const std::string& out,
@@ -179,7 +179,7 @@ Expected<int> conclude(const properties::CampaignRequest& request,
     fmt::print("slow cases: {}\n",
                line_to_paste("list slow " + shell_word(out), PastePlace::this_folder));
   if (!is_complete && findings.failures.empty()) {
-    fmt::print("next: run the same again to go on, with --time for another limit\n");
+    fmt::print("next: run the same command again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
     const auto page = (findings.folder / "report.html").string();
     fmt::print("next: {}\n",

@@ -53,7 +53,7 @@ std::optional<Failing> find_failure(const corpus::Case& c,
 }
 
 Expected<int> run_shrink(const ShrinkRequest& request) {
-  end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
+  end_when_interrupted("interrupted: smallest case so far: " + request.out, exit_undecided);
   BOOST_OUTCOME_TRY(may_write({request.out, picture_file(request.out)}, request.files));
   BOOST_OUTCOME_TRY(input, read_case_of(request.files));
   const auto& file = request.files.front();

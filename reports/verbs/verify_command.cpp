@@ -121,7 +121,7 @@ void add_options(CLI::App& verb, VerifyRequest& request) {
       "Seed for the choice of trials by --again (default: a fresh one, printed)")
       ->check(whole_number());
   add_detector(verb, request.detector,
-               "The certified plug-in's library, for --again (default: where it was)");
+               "The certified plug-in's library, for --again (default: its path at the run)");
   add_jobs(verb, request.jobs);
 }
 

@@ -105,7 +105,7 @@ TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
     ASSERT_TRUE(WIFEXITED(status)) << read_text(text);
     EXPECT_EQ(WEXITSTATUS(status), 3) << read_text(text);
     EXPECT_TRUE(says(read_text(text), "interrupted: what was judged is stored in " + out +
-                                          "; run the same again to go on\n"));
+                                          "; run the same command again to go on\n"));
   }
   const auto trials = trials_of(out);
   EXPECT_GE(trials.size(), 20u);
@@ -145,7 +145,7 @@ TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
     // It may have been done already.
     const bool is_told = signal == SIGINT && WIFEXITED(status) && WEXITSTATUS(status) == 3;
     EXPECT_TRUE(
-        says(read_text(text), is_told ? "interrupted: the smallest so far is in " + small : ""));
+        says(read_text(text), is_told ? "interrupted: smallest case so far: " + small : ""));
   }
 }
 

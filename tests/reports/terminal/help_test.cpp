@@ -166,7 +166,7 @@ std::vector<Pasted> lines_to_paste(const Scratch& scratch) {
     const std::string line = (*match)[3];
     // `verify --again` says how many trials it ran again.
     const bool is_count = (*match)[2] == "again" && line.rfind("assay ", 0) != 0;
-    if (!is_count && line.rfind("run the same again", 0) != 0 && lines.size() < 2)
+    if (!is_count && line.rfind("run the same command again", 0) != 0 && lines.size() < 2)
       lines.push_back({is_replay ? "/" : scratch / "", line});
   }
   return lines;

@@ -100,7 +100,7 @@ TEST_F(CheckLog, ATableOfAnswersIsJudgedBesideFrames) {
   const auto file = fmt::format("{}/step-{}/case.json", kept, collision_ + 1);
   EXPECT_EQ(run_assay("replay " + file).exit_code, 0) << "the built-in detector is right there";
   expect_ended(check(rows.substr(0, rows.find("\n3,") + 1)), 0,
-               {"step 3: left out: the table has no row of it"});
+               {"step 3: left out: the table has no row for this step"});
   for (const char* bad : {"", "x", "0,free,", "1,maybe,", "1,collision,2", "1,free,\n1,free,"})
     EXPECT_EQ(check(bad).exit_code, 2) << bad;
 }

@@ -256,7 +256,7 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(took.count(), 20);  // a loaded machine
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
-  expect_says(outcome.out, {"\nincomplete: ", "planted faults", "next: run the same again"});
+  expect_says(outcome.out, {"\nincomplete: ", "planted faults", "next: run the same command"});
   const auto before = trials_of(out).size();
   EXPECT_LT(before, 6000u);
   expect_ended(run("--time 1.5"), 3);
@@ -342,7 +342,7 @@ TEST_F(Run, AFullDiskKeepsWhatIsStored) {
   // No file may grow beyond 100 KiB.
   const auto full = expect_ended(run("--jobs 1", "trap '' XFSZ; ulimit -f 200; "), 2);
   EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
-  expect_says(full.err, {"run.sqlite: ", "run the same again to go on"});
+  expect_says(full.err, {"run.sqlite: ", "run the same command again to go on"});
   const auto stored = trials_of(out);
   EXPECT_GT(stored.size(), 0u);
   EXPECT_LT(stored.size(), 200u);
