@@ -41,10 +41,10 @@ class Detector:
     InputError (a ValueError): a mesh that is refused, by name. ValueError: another shape, an unknown
     word, a number without exact float64. TypeError: no numbers.
 
-    Calls release the interpreter, and ctrl-C ends them: the state stays as it was. A detector is of
-    one thread at a time (RuntimeError otherwise); different ones do not know of each other. Arrays
-    must not change during a call. After os.fork() each process has a detector of its own; one with
-    several threads is refused there (RuntimeError) where the process that forked had one too.
+    Calls release the interpreter, and ctrl-C ends them: the state stays as it was. A detector is used
+    by one thread at a time (RuntimeError otherwise); different detectors are independent. Arrays must
+    not change during a call. After os.fork() each process has a detector of its own; one with several
+    threads is refused there (RuntimeError) if the process that forked had one with several threads.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class Detector:
         return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def commit(self) -> None:
-        """Advances the state to the end of the step or limit asked for last. InputError without one."""
+        """Advances the state to the end of the last step or limit. InputError: there is none to commit."""
         self._detector.commit()
 
     def step(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
@@ -89,9 +89,9 @@ class Detector:
         """Whether there is a contact in [0, until], and which is first; the state stays as it is.
 
         Pairs are those of pairs="first", whatever `pairs` says. "free" says that there is no contact up
-        to `until`; one at `until` counts. Nothing later is looked at, so a search that knows a contact
-        gives its time. Only after until = 1 is there something to commit. InputError: no time from 0
-        to 1.
+        to `until`; one at `until` counts. Nothing later is looked at, so a caller that knows a contact
+        can give its time. Only after until = 1 is there something to commit. InputError: `until` is not
+        from 0 to 1.
         """
         return step_result(self._detector.first_contact(x_t0, x_t1, until), self._triangles, x_t0, x_t1)
 
@@ -100,7 +100,7 @@ class Detector:
 
         To limit.positions the straight way is free, rounding included; commit() then goes there. A
         step that is free is taken whole; else 0.95 of the time until the contact, or less where
-        rounding asks for it (is_short). Share 0: in contact at the start, or all places tried are.
+        rounding asks for it (is_short). Share 0: a contact at the start, or at all places tried.
         InputError: arithmetic "double" or "float", which prove nothing.
         """
         return Limit(*self._detector.limit(x_t0, x_t1))
@@ -110,7 +110,7 @@ class Detector:
         return State(self._detector.state())
 
     def restore(self, state: State) -> None:
-        """Goes on from there. InputError: a state of another mesh or culling."""
+        """Goes on from this state. InputError: it is the state of another mesh or culling."""
         if not isinstance(state, State):
             raise TypeError(f"a State is wanted, not {type(state).__name__}")
         self._detector.restore(state._saved)
@@ -126,7 +126,7 @@ def vertex_face(
     """Whether and when vertices and faces first meet, exactly; about a microsecond a query.
 
     x_t0, x_t1: real numbers (k, 4, 3), the vertex and the three corners of the face at both ends of
-    the step. arithmetic: another of OPTIONS["arithmetic"] is less than exact. separation: above 0,
+    the step. arithmetic: other words of OPTIONS["arithmetic"] are less than exact. separation: above 0,
     whether and when they come within this distance, exactly. ValueError: another shape or word, a
     coordinate that is not finite, or a distance that is no length.
     """
@@ -136,7 +136,7 @@ def vertex_face(
 def edge_edge(
     x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
 ) -> Contacts:
-    """The same of edges: (k, 4, 3) are the two ends of the one, then those of the other."""
+    """The same for two edges: (k, 4, 3) are the two ends of one, then the two ends of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1, *_question(arithmetic, separation)))
 
 

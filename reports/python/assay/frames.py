@@ -42,12 +42,12 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
     """The frames in these files, a file each.
 
     paths: names of files, or patterns such as "sim_*.vtu", whose matches are put in order by their
-    numbers: sim_2 before sim_10. So are files in the order of a shell (sim_1, sim_10, sim_2); any
-    other order stays. OBJ, PLY and OFF (.gz too) are read by Assay's own readers, which keep every
-    bit; others by meshio. A warning tells what was put in order, changed or not looked at.
+    numbers: sim_2 before sim_10. Files in the order of a shell (sim_1, sim_10, sim_2) are put in order,
+    too; any other order stays. OBJ, PLY and OFF (.gz too) are read by Assay's own readers, which keep
+    every bit; others by meshio. A warning tells what was put in order, changed or skipped.
 
-    FileNotFoundError: no such file. ValueError: a file that is none of its format, that has no
-    triangles, or not those of the first.
+    FileNotFoundError: no such file. ValueError: a file that is not in its format, has no triangles, or
+    has other triangles than the first file.
     """
     from . import _judge
 

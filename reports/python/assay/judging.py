@@ -261,16 +261,16 @@ def check(
     """Each step through the detector and the oracle, and the diff: `assay check`.
 
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
-    file; one frame alone is a mesh at rest. detector: None for the built-in one, of which the next
-    four options are; the name of a plug-in's library; "python:MODULE:CLASS"; or a class, which
-    another process imports by its module. jobs: threads of the oracle; threads: of the detector, 0:
-    all cores, and a plug-in is told 1. time: seconds; memory ("6GB"), isolation: as on the command
-    line. progress: called with what is printed; True prints it to stderr.
+    file; one frame alone is a mesh at rest. detector: None for the built-in one, which the next four
+    options are for; the name of a plug-in's library; "python:MODULE:CLASS"; or a class, which another
+    process imports by its module. jobs: threads of the oracle; threads: of the detector, 0: all
+    cores, or 1 for a plug-in. time: seconds; memory ("6GB"), isolation: as on the command line.
+    progress: called with each printed text; True prints it to stderr.
     bodies: integers (n,), the number of each vertex's body, from 0 on; apart: pairs of bodies that
     do not meet, or a body paired with itself. rings: triangles that fewer edges join do not count
     (1: those that share a vertex); rest_distance, a length: nor do those that are nearer in the
-    first frame. weld: vertices of a body that stand at one place in every frame count as one. None
-    of these is of a case file, which says itself what counts.
+    first frame. weld: vertices of a body that stand at one place in every frame count as one. A case
+    file takes none of these options, because it states what counts.
     separation: the oracle alone says which triangles that share no vertex come within this distance,
     when first, and how near any two come; the answer is then a SeparationReport.
 
