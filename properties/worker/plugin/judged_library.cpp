@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-corpus::Problem no_file(const std::string& reason) { return {reason}; }
-
 }  // namespace
 
 std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& word,
@@ -42,33 +40,23 @@ std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& word,
 }
 
 JudgedLibrary::JudgedLibrary(const fs::path& word, const fs::path& worker)
-    : files_{{word, {}}}, digest_(no_file("")) {
+    : files_{{word, {}}}, digest_(Problem{""}) {
   std::error_code error;
-  if (!names_python(word.string())) {
-    // Reading a pipe would wait for its writer.
-    if (!fs::is_regular_file(word, error)) {
-      digest_ = no_file(fs::exists(word, error) ? "not a file" : "no such file");
-      return;
-    }
-    auto files = needed_files(word);
-    if (files) {
-      files.value().insert(files.value().begin(), word);
-      take(files.value());
-    } else {
-      digest_ = files.error();
-    }
+  const bool is_python = names_python(word.string());
+  // Reading a pipe would wait for its writer.
+  if (!is_python && !fs::is_regular_file(word, error)) {
+    digest_ = Problem{fs::exists(word, error) ? "not a file" : "no such file"};
     return;
   }
-  const auto serving = python_plugin(word.string(), worker);
-  const auto module = python_module_files(word.string());
-  if (serving && module) {
-    std::vector<fs::path> files = {serving.value()};
-    files.insert(files.end(), module.value().begin(), module.value().end());
-    take(files);
-    return;
+  const auto library = is_python ? python_plugin(word.string(), worker) : Expected<fs::path>(word);
+  auto files = is_python ? python_module_files(word.string()) : needed_files(word);
+  if (library) files_.front().path = library.value();
+  if (library && files) {
+    files.value().insert(files.value().begin(), library.value());
+    take(files.value());
+  } else {
+    digest_ = library ? files.error() : library.error();
   }
-  if (serving) files_.front().path = serving.value();
-  digest_ = no_file((serving ? module.error() : serving.error()).message);
 }
 
 void JudgedLibrary::take(const std::vector<fs::path>& files) {

@@ -44,11 +44,11 @@ TEST(Winding, FarFromTheOriginAndTiny) {
 TEST(Sides, OfAllAxesAtOnceAreThoseOfEach) {
   std::mt19937 random(1);
   for (int i = 0; i < 3'000; ++i) {
-    constexpr int exponents[] = {0, -530, 530};  // the others are out of the bound's range
     Point p[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const double unit = std::ldexp(1.0, exponents[random() % 3]);
-      for (auto& point : p) point[k] = unit * static_cast<double>(random() % 5);
+      // 1 is in the range of the bound; 2^-530 and 2^530 are out of it.
+      const int exponent = 530 * (static_cast<int>(random() % 3) - 1);
+      for (auto& point : p) point[k] = std::ldexp(static_cast<double>(random() % 5), exponent);
     }
     std::array<int, 3> sides;
     normal_and_sides(p[0], p[1], p[2], sides);
