@@ -1,7 +1,8 @@
 // Tells whether the processor's arithmetic is fit for exact methods.
 //
-// A library that was built for speed can change it for a whole thread or process; loading one that
-// sets flush-to-zero is enough. Every bound and sign of this room would then be worthless.
+// A library that was built for speed can change this arithmetic for a whole thread or process; it
+// is enough to load a library that sets flush-to-zero. Every bound and sign of the oracle would
+// then be worthless.
 #pragma once
 
 namespace assay::oracle {

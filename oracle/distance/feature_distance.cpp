@@ -1,5 +1,5 @@
-// The fast rungs say at which times two features are surely farther apart than d, or surely not,
-// and leave the rest to integers.
+// The fast rungs find times at which two features are surely farther apart than d, and times at
+// which they surely are not. Integers decide the rest.
 #include "oracle/distance/feature_distance.h"
 
 #include <algorithm>

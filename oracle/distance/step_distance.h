@@ -1,11 +1,13 @@
 // Finds which triangles of a mesh come within a distance of each other during a step, when, and how
 // near any two of them come.
 //
-// It works as the exact pair set (mesh/step.h) does. Boxes, grown by the distance, find candidate
-// pairs of features. feature_distance.h judges each as it is found. Two features within d count for
-// all pairs of triangles that hold them. Two triangles are within d at t if two of their closed
-// faces without a common vertex are within d at t, or if t is 0 and an edge of one pierces the
-// other. After t=0 an edge begins to pierce a face only by a contact of two features.
+// The search works like the one for the exact pair set (mesh/step.h). Boxes, grown by the distance,
+// find candidate pairs of features. feature_distance.h judges each pair as soon as it is found. If
+// two features come within d, then so do all pairs of triangles that hold them. Two triangles are
+// within d at t if a closed face of one (the triangle, an edge or a vertex) is within d of a closed
+// face of the other at t, and the two faces have no common vertex. They are also within d if t is 0
+// and an edge of one pierces the other. After t=0 an edge begins to pierce a face only by a contact
+// of two features.
 #pragma once
 
 #include <limits>
@@ -19,35 +21,38 @@
 namespace assay::oracle {
 
 struct DistanceOptions : JudgeOptions {
-  // Whether triangles that share a vertex or an edge count. Their distance is that of the faces
-  // that they do not share.
+  // Whether pairs of triangles that share a vertex or an edge count. The distance of such a pair is
+  // the distance of those faces that have no common vertex.
   bool neighbours = false;
   WantedPair also_asked{};  // says of a pair whether it counts; empty: every pair does
-  // An offset for each vertex. If not empty, the distance is not the same for all pairs: it is the
-  // exact sum of the offsets of the two features, whatever `d` is. REQUIRES finite offsets of 0 or
-  // more, the same for all vertices of a triangle.
+  // An offset for each vertex; empty: `d` is the distance of all pairs. If there are offsets, `d`
+  // is ignored, and the distance of a pair is the exact sum of the offsets of its two features.
+  // REQUIRES finite offsets of 0 or more, the same for all vertices of a triangle.
   std::vector<double> offsets{};
 };
 
-// Judges a step like judge_step, with `within d` in place of `in contact`: collision says that a
-// counted pair comes within d, and feature_candidates counts the feature pairs whose boxes come
-// within d and whose bodies and vertices allow their triangles to count. REQUIRES indices in range,
-// finite positions, equal row counts. Triangles with the same three vertices, which are neighbours,
-// are within every d at t=0. 3 us a candidate in the mean.
+// Judges a step like judge_step, with `within d` in place of `in contact`. `Answer::collision` says
+// that a counted pair comes within d. `feature_candidates` is the number of feature pairs whose
+// boxes come within d and whose triangles are not left out by their bodies, by `neighbours` or by
+// `also_asked`. REQUIRES indices in range, finite positions, equal row counts. Two triangles with
+// the same three vertices are neighbours, and are within every d at t=0. A candidate takes 3 us in
+// the mean.
 StepJudgement judge_distance(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles, const Separation& d,
                              const DistanceOptions& options = {});
 
 struct LeastDistance {
-  bool complete = false;  // false: stopped, and nothing is known
-  // The least double that some counted pair comes within, as in feature_distance.h; infinity if
-  // none.
+  bool complete = false;  // false: the search was stopped, and nothing is known
+  // The least double d such that some counted pair comes within d; infinity if there is no such
+  // double.
   double distance = std::numeric_limits<double>::infinity();
-  // The first, by triangles, of the pairs that come within `distance`, with its time and features.
+  // The first pair, in the order of triangle numbers, that comes within `distance`, with its time
+  // and features.
   std::optional<detector::PairContact> where;
 };
 
-// Finds the least distance of a step. Takes all options except the offsets.
+// Finds the least distance of counted pairs during a step. Ignores the offsets, and obeys all other
+// options.
 LeastDistance least_distance(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles,
                              const DistanceOptions& options = {});

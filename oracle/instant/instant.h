@@ -18,13 +18,13 @@ namespace assay::oracle {
 using IntegerPoint = std::array<Integer, 3>;
 
 // Vertex v is at points()[v] * unit. The unit, 2^exponent_ / denominator_, is the same for all
-// vertices, so a homogeneous polynomial of differences of points() has the sign that it has at the
+// vertices, so a homogeneous polynomial of differences has the same sign for points() as for the
 // true places.
 class Instant {
  public:
-  // The vertices at rest at x. REQUIRES finite coordinates.
+  // Makes the instant of vertices at rest at x. REQUIRES finite coordinates.
   explicit Instant(const detector::PositionsView& x);
-  // The vertices at time t of the step. REQUIRES finite coordinates, and t in [0,1] with a
+  // Makes the instant at time t of a step. REQUIRES finite coordinates, and t in [0,1] with a
   // denominator below 2^31.
   Instant(const detector::SteppedMesh& motion, const RationalTime& t);
 
@@ -54,41 +54,41 @@ class Instant {
   Integer denominator_ = 1;
 };
 
-// Whether features at rest meet, decided by signs of integer determinants alone. The tests are as
-// complete as those of contact.h: they decide degenerate, coplanar, collinear and coinciding
-// features too. On degenerate features they are faster, 1 to 5 us, because no time has to be found.
+// Whether features at rest meet, decided by signs of integer determinants alone. These tests are as
+// complete as the queries of contact.h: they decide degenerate, coplanar, collinear and coinciding
+// features too. For degenerate features they are faster (1 to 5 us), because they find no time.
 
 // Features name their vertices by index into the points.
 using StaticPoints = std::span<const IntegerPoint>;
 
-// Returns whether two closed features have a point in common. A zero-area triangle is the segment
-// or point that it has become. For a piercing edge, returns the condition of
+// Returns whether two closed features have a point in common. A triangle of zero area is treated as
+// the segment or point that it has become. For a piercing edge, returns the condition of
 // segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides of the plane of
 // the face, and the line passes strictly inside all three of its edges.
 bool features_meet(StaticPoints x, const detector::Feature& feature);
 
-// Returns, by triangle, 1 if it meets another triangle of its own component, or a ghost of that
+// Returns for each triangle 1 if it meets another triangle of its own component, or a ghost of that
 // component; else 0. REQUIRES that triangles and ghosts name vertices of this instant. `component`
-// lists the component of each triangle, then that of each ghost.
+// lists the component of each triangle, then the component of each ghost.
 std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& triangles,
                                      const detector::TrianglesView& ghosts,
                                      const std::vector<std::int32_t>& component);
 
 // Returns a pair of triangles that `counts` accepts and that is near, or nothing if there is none.
-// A pair is near if it is in contact at rest (detector/LAWS.md defines that), or if it holds a
-// vertex and a face, or two edges, that share no vertex and are nearer to each other than
-// `distance`. The comparison is exact, of squared distances in rationals. With distance 0 the
-// question is whether there is a contact. REQUIRES indices in range, finite positions, distance
-// finite and not negative. 5 to 20 us for each pair of features whose boxes are that near; stops at
-// the first that it finds.
+// A pair is near if it is in contact at rest (as detector/LAWS.md defines contact), or if it holds
+// a vertex and a face, or two edges, that share no vertex and are nearer to each other than
+// `distance`. Squared distances are compared exactly, in rationals. With distance 0, only pairs in
+// contact are near. REQUIRES indices in range, finite positions, a finite distance >= 0. Takes 5 to
+// 20 us for each pair of features whose boxes are nearer to each other than `distance`; stops at
+// the first near pair.
 std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
                                                       const detector::TrianglesView& triangles,
                                                       double distance, const WantedPair& counts);
 
-// Returns whether two triangles at rest cross. They do if no plane separates them: one triangle on
-// each of its closed sides. Triangles that meet without crossing touch, even if they lie on each
-// other in one plane. Exact, 10 to 30 us.
+// Returns whether two triangles at rest cross. They cross if no plane has one triangle on each of
+// its closed sides. Triangles that meet and do not cross are said to touch, also if they overlap in
+// one plane. Exact; takes 10 to 30 us.
 bool triangles_cross(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      const detector::TrianglePair& pair);
 

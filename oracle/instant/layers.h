@@ -27,8 +27,8 @@ using RationalPoint = std::array<mpq_class, 3>;
 // us); one box tree serves all queries.
 class WindingField {
  public:
-  // REQUIRES a cycle (every directed edge as often as its reverse), indices in range. The instant
-  // has to outlive the field.
+  // REQUIRES a cycle (every directed edge occurs as often as its reverse), indices in range. The
+  // instant has to outlive the field.
   WindingField(const Instant& instant, detector::Triangles cycle);
 
   // Returns the winding number at the point; nothing when the point is on a triangle. Exact for
@@ -37,7 +37,8 @@ class WindingField {
   std::optional<int> at(const RationalPoint& point) const;
 
   // Returns the layer of a triangle of the cycle. REQUIRES that its area is not zero and that no
-  // other triangle contains its centroid; none does when the triangle is in no contact.
+  // other triangle contains its centroid. (If the triangle is in no contact, no other triangle
+  // contains it.)
   Layer layer_of(std::int32_t triangle) const;
 
  private:
@@ -53,9 +54,9 @@ class WindingField {
 
 // Each list has one element for each triangle of the mesh, unless its comment says otherwise.
 struct LayerState {
-  // The component of each triangle, then of each ghost. A component is a set of triangles connected
-  // through shared vertices, ghosts included. Components are numbered in the order of their lowest
-  // triangle.
+  // The component of each triangle, then the component of each ghost. A component is a set of
+  // triangles connected through shared vertices, ghosts included. Components are numbered in the
+  // order of their lowest triangle.
   std::vector<std::int32_t> component;
   // 1: the triangle meets another triangle of its own component, or a ghost of that component.
   std::vector<std::uint8_t> touched;
@@ -67,18 +68,20 @@ struct LayerState {
   // The layer of the triangle: winding numbers of its own component. Nothing for a touched
   // triangle.
   std::vector<std::optional<Layer>> layer;
-  // By component: the common layer, which most of its untouched triangles have. If two layers have
-  // equally many, the one that holds the lowest triangle. Nothing when all are touched.
+  // For each component, its common layer: the layer that most of its untouched triangles have. If
+  // two layers have equally many triangles, the common layer is the one with the lowest-numbered
+  // triangle. Nothing when all triangles of the component are touched.
   std::vector<std::optional<Layer>> common;
   // 1: the triangle is untouched, and its layer is the common layer of its component.
   std::vector<std::uint8_t> clean;
 };
 
-// Finds the layers. REQUIRES closes(triangles, ghosts), indices in range; ghosts name vertices of
-// this instant too. Contacts between two components make nothing dirty here, because such pairs are
-// always candidates and the layers of a component count that component alone (L10). Every untouched
-// triangle has a normal: one of zero area is always touched, by the triangle or ghost at its
-// longest edge, and one that repeats an index counts as touched.
+// Finds the layers. REQUIRES closes(triangles, ghosts), and that triangles and ghosts name vertices
+// of this instant. Contacts between two components make no triangle dirty here, because pairs of
+// two components are always candidates, and the layers of a component are winding numbers of that
+// component alone (L10). Every untouched triangle has a normal: a triangle of zero area is always
+// touched, by the triangle or ghost at its longest edge, and a triangle that repeats an index
+// counts as touched.
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,
                      const detector::TrianglesView& ghosts);
 

@@ -1,5 +1,6 @@
-// Tells whether features and faces at rest are nearer to each other than a distance, compared
-// exactly in rational numbers: 5 to 20 us for two features whose boxes are not apart.
+// Tells whether features and faces at rest are nearer to each other than a distance. Compares
+// exactly, in rational numbers: 5 to 20 us for two features whose boxes are nearer than the
+// distance.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t
                         const Face& face, double distance);
 bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,
                        double distance);
-// Does the same for two whole faces, which are at distance 0 if they share a vertex or pierce each
-// other.
+// Returns whether two whole faces are nearer to each other than `distance`. Faces that share a
+// vertex or pierce each other have distance 0.
 bool faces_nearer_than(const std::vector<detector::Point>& places, const Face& a, const Face& b,
                        double distance);
 

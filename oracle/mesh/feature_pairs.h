@@ -1,6 +1,7 @@
 // Candidate feature pairs of two meshes, or of one mesh with itself: pairs whose boxes meet and
-// that share no vertex. Several threads find them and hand each to a visitor as it is found; none
-// is stored, and the caller can stop them. The exact test of a pair is the caller's.
+// that share no vertex. Several threads find the pairs, and hand each pair to the caller's visitor
+// at once. The visitor tests the pair exactly. No pair is stored, and the caller can stop the
+// threads.
 #pragma once
 
 #include <atomic>
@@ -20,8 +21,8 @@ struct Box {
   detector::Point min, max;
 };
 
-// Returns the box that holds some vertices over the whole step. Their places at the two ends
-// suffice, because each path is the segment between these.
+// Returns the box that holds some vertices over the whole step. The places of a vertex at t=0 and
+// t=1 suffice, because its path is the segment between them.
 template <class Vertices>
 Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
   Box box{motion.start(vertices[0]), motion.start(vertices[0])};
@@ -36,9 +37,9 @@ Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
   return box;
 }
 
-// Finds which of many closed boxes meet a given one: a packed R-tree (Boost.Geometry).
-// Its answers rest on comparisons of doubles alone; rounded sums decide its layout, never an
-// answer. Many threads may ask at once.
+// Finds which of many closed boxes meet another box: a packed R-tree (Boost.Geometry). Its answers
+// rest on comparisons of doubles alone; rounded sums decide its layout, never an answer. Many
+// threads may ask at once.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);
@@ -57,13 +58,13 @@ class BoxTree {
 // Gives the box of a feature from its one, two or three vertices.
 using BoxOfVertices = std::function<Box(std::span<const std::int32_t>)>;
 
-// Returns boxes over the whole step, or boxes at rest if the mesh is given at rest. REQUIRES that
-// the positions outlive the result.
+// Returns a function that gives the box of a feature over the whole step. REQUIRES that the
+// positions outlive the returned function.
 BoxOfVertices swept_boxes(const detector::SteppedMesh& motion);
 
-// The features of one mesh, found by their boxes. The trees are built when first asked for. One
-// mesh may have several of these: for example, one with the boxes of the whole step and one with
-// the boxes at t=0. REQUIRES that the features outlive it.
+// Finds the features of one mesh by their boxes. Each tree is built when it is first needed. One
+// mesh may have several indices: for example, one with the boxes of the whole step and one with the
+// boxes at t=0. REQUIRES that the features outlive the index.
 class FeatureIndex {
  public:
   FeatureIndex(const MeshFeatures& features, BoxOfVertices box_of);
@@ -97,14 +98,14 @@ inline detector::FourPoints points_of(const detector::SteppedMesh& motion,
           feature.kind == detector::FeatureKind::vertex_face ? 1 : 2};
 }
 
-// Asks the caller's stop function every few milliseconds, from one thread at a time.
+// Calls the caller's stop function every few milliseconds, from one thread at a time.
 class StopGate {
  public:
   explicit StopGate(detector::StopFunction stop);
-  // Returns whether the stop function has asked for an end. Asks it if it is time to ask again;
-  // cheap enough to be called for every query.
+  // Returns whether the stop function has demanded a stop. Calls the stop function only every few
+  // milliseconds, so a query is cheap enough to call this each time.
   bool stopped();
-  // Returns whether the stop function has asked for an end so far; does not ask it.
+  // Returns whether the stop function has demanded a stop so far. Does not call the stop function.
   bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
  private:
@@ -117,20 +118,21 @@ class StopGate {
 
 struct Workers {
   int jobs = 1;              // threads; below 1 counts as 1
-  StopGate* gate = nullptr;  // once it has stopped, no further pair is visited; null: no stop
+  StopGate* gate = nullptr;  // after it says stop, no pair is visited; null: never stops
 };
 
-// `worker`, in [0, jobs), is the number of the calling thread. If calls throw, the first exception
-// is thrown again by the function that visits.
+// `worker`, in [0, jobs), is the number of the calling thread. If a call throws, the function that
+// visits the pairs throws the first exception again.
 using VisitPair = std::function<void(const FeaturePair& pair, int worker)>;
 using VisitFaces = std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)>;
 
 // Visits vertices of a with faces of b, or edges of a with edges of b, or (piercing) edges of a
-// with faces of b. If a and b are the same object, two edges come once, the lower edge first.
+// with faces of b. If a and b are the same object, each pair of edges is visited once, with the
+// lower edge first.
 void for_each_pair(const FeatureIndex& a, const FeatureIndex& b, detector::FeatureKind kind,
                    const Workers& workers, const VisitPair& visit);
-// Visits pairs of faces of a mesh whose boxes meet, also faces that share vertices. Each pair comes
-// once, the lower face first.
+// Visits pairs of faces of a mesh whose boxes meet, also faces that share vertices. Each pair is
+// visited once, with the lower face first.
 void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const VisitFaces& visit);
 
 // Says of two triangles, the lower first, whether they count.
@@ -146,14 +148,16 @@ struct PairVisitor {
   // contact of some pair of triangles that hold them matters. With several jobs both functions are
   // called from several threads.
   std::function<bool(std::int32_t of_a, std::int32_t of_b)> matters;
-  // Called for each wanted pair in contact; often several times, because different features meet.
+  // Called for each pair in contact that matters. Called several times for one pair if several of
+  // its features meet.
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };
 
-// Finds the pairs in contact, a triangle of a with one of b, as detector/LAWS.md defines contact:
-// closed faces of the two triangles that share no vertex meet. If a and b are the same object,
-// triangles with the same three vertices are in contact too. asks_piercing: edges are tested with
-// faces too.
+// Finds the pairs in contact of a triangle of a with a triangle of b. As detector/LAWS.md defines,
+// two triangles are in contact if a closed face of one (the triangle, an edge or a vertex) meets a
+// closed face of the other, and the two faces share no vertex. If a and b are the same object,
+// triangles with the same three vertices are in contact too. If `asks_piercing`, edges are also
+// tested for piercing a face.
 void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeaturesMeet& test,
                       const Workers& workers, const PairVisitor& visitor,
                       bool asks_piercing = true);

@@ -1,5 +1,5 @@
-// Decides for the oracle which pairs count (detector/mesh/counted_pairs.h says what that means): by
-// code of its own, in rational numbers.
+// Decides for the oracle which pairs count, as detector/mesh/counted_pairs.h defines it. The code
+// is independent of the detector's, and computes in rational numbers.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,10 @@
 
 namespace assay::oracle {
 
-// Answers for the features of one mesh, and for its faces by their numbers. Both references must
-// outlive the object. Several threads may ask at the same time. No answer is kept. Each takes 1 us,
-// and 5 to 20 us more for each pair of features whose places at rest are compared.
+// Says which pairs of features of one mesh, and which pairs of its faces, count. `counted` and
+// `features` must outlive the object. Several threads may call it at the same time. It stores no
+// answer. A call takes 1 us, and 5 to 20 us more for each pair of features whose distance at rest
+// is compared.
 class PairRelation {
  public:
   // REQUIRES a relation without errors (detector/mesh/mesh_checks.h).
@@ -23,13 +24,14 @@ class PairRelation {
   PairRelation(const detector::CountedPairs& counted, MeshFeatures&& features) = delete;
 
   bool is_of_features() const { return counted_.level == detector::CountedLevel::features; }
-  // Returns whether the bodies of two vertices meet. This is cheap, and needs no triangle that
-  // holds them.
+  // Returns whether the relation lets the bodies of two vertices meet (CountedPairs::apart). This
+  // is cheap, and needs no triangle.
   bool bodies_meet(std::int32_t u, std::int32_t v) const;
-  // Returns whether a pair of faces counts; in a relation of features, whether some feature pair of
-  // the two counts.
+  // Returns whether a pair of faces counts. In a relation of features, two faces count if some
+  // feature pair of theirs counts.
   bool counts_faces(std::int32_t a, std::int32_t b) const;
-  // REQUIRES a relation of features, and two features that share no vertex.
+  // Return whether a pair of features counts. REQUIRES a relation of features, and two features
+  // that share no vertex.
   bool counts_vertex_face(std::int32_t vertex, std::size_t face) const;
   bool counts_edges(const Edge& a, const Edge& b) const;
 
@@ -47,7 +49,8 @@ class PairRelation {
   std::vector<Vertices> neighbours_;  // by vertex
 };
 
-// Keeps those pairs of triangles that count by a relation of triangles, if there is one.
+// Removes the pairs that do not count by `relation`. Removes nothing if there is no relation, or if
+// it is a relation of features.
 void keep_counted(const std::optional<PairRelation>& relation,
                   std::vector<detector::PairContact>& pairs);
 

@@ -1,9 +1,9 @@
 // The exact pair set of one step, with the first contact time of each pair.
 //
-// It is found from the mesh alone; view sets, state and culling play no part. An exact box cull
-// finds candidate pairs of features, the exact query of contact.h judges them, and a contact of
-// two features counts for all pairs of triangles that hold them. Candidates are judged as they are
-// found and never stored: memory is that of the mesh, one box tree and the contacts.
+// The pair set is found from the mesh alone; view sets, state and culling play no part. An exact
+// box cull finds candidate pairs of features, and the exact query of contact.h judges them. If two
+// features meet, all pairs of triangles that hold them are in contact. Candidates are judged when
+// they are found and never stored: only the mesh, one box tree and the contacts take memory.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ enum class AskedFeatures : std::uint8_t { all, vertex_face, edge_edge };
 
 struct JudgeOptions {
   int jobs = 1;                 // threads; the result does not depend on it
-  detector::StopFunction stop;  // asked from one thread at a time
+  detector::StopFunction stop;  // called by one thread at a time
   AskedFeatures features = AskedFeatures::all;
   // Which pairs count; null: all do. The judgement speaks of counted pairs alone. REQUIRES a
   // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
@@ -35,21 +35,24 @@ struct JudgeOptions {
 };
 
 struct StepJudgement {
-  // free or collision; undecided when the judgement was stopped, and then `pairs` holds the pairs
-  // found until then.
+  // `free` or `collision`; or `undecided` if the judgement was stopped: then `pairs` holds the
+  // pairs that were found before.
   detector::Answer answer = detector::Answer::undecided;
   bool complete = false;                     // false: the judgement was stopped
   detector::TimeEnclosure first;             // the least time of all pairs; set for a collision
   std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
-  // If JudgeOptions names one kind of features, or some pairs as tested: the pairs in which two
-  // tested features of that kind meet, each with the first time of such a meeting. With one kind,
-  // edges that pierce a face at t=0 and triangles with the same three vertices do not count here.
-  // Empty if JudgeOptions names no kind and no tested pairs.
+  // The pairs of triangles in which two tested features meet. JudgeOptions::features and
+  // JudgeOptions::tested say which features the detector tests. The time of a pair is the first
+  // time at which two of its tested features meet. If the detector tests only one kind of features,
+  // edges that pierce a face at t=0 and triangles with the same three vertices are left out. Empty
+  // if JudgeOptions names no single kind and no tested pairs.
   std::vector<detector::PairContact> asked_pairs;
-  // Not set by judge_step. The pairs that a detector with a slack may report, ascending, each with
-  // the earliest time that it may state. They are the pairs within a greater distance.
+  // The pairs that a detector with a slack is allowed to report, ascending: all pairs that come
+  // within its separation plus its slack. The time of a pair is the earliest that the detector is
+  // allowed to state. judge_step does not set this.
   std::optional<std::vector<detector::PairContact>> within_slack;
-  // The number of feature pairs (VF, EE) whose boxes meet and whose bodies meet.
+  // The number of feature pairs (vertex-face, edge-edge) whose boxes meet and whose bodies are
+  // allowed to meet.
   std::uint64_t feature_candidates = 0;
   RungCounts rungs;
 };
@@ -64,7 +67,7 @@ class StepFeatures {
  public:
   // Makes the features. If `neighbours` is false, triangles that share a vertex do not count.
   // `also_asked` says of a pair whether it counts; empty: every pair does. REQUIRES indices in
-  // range, finite positions, equal row counts, and a motion that outlives it.
+  // range, finite positions, equal row counts, and a motion that outlives this object.
   StepFeatures(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                const JudgeOptions& options, bool neighbours = true, WantedPair also_asked = {});
   StepFeatures(const StepFeatures&) = delete;
@@ -73,17 +76,17 @@ class StepFeatures {
   // Visits the pairs of features whose boxes meet, with the number of the calling thread.
   void for_each(const BoxOfVertices& boxes, const Workers& workers, const VisitPair& visit) const;
 
-  // Visits the counted pairs of triangles that are in contact at t=0 without two features that
-  // meet.
+  // Visits the counted pairs of triangles that are in contact at t=0 because an edge of one pierces
+  // the other, or because they have the same three vertices.
   using VisitPierced =
       std::function<void(std::int32_t, std::int32_t, const detector::Feature&, int worker)>;
   void for_each_pierced_at_start(const Workers& workers, const VisitPierced& visit) const;
 
-  // Says whether a counted pair of triangles holds the two features. Relations take time, so this
-  // is asked about near features only, and not about every pair that is visited.
+  // Returns whether a counted pair of triangles holds the two features. A look-up in a relation
+  // takes time, so call this for features that are near each other, and not for every visited pair.
   bool some_pair_counts(const FeaturePair& pair) const;
 
-  // Judges the step by the answer to each pair of features whose boxes meet.
+  // Judges the step. Calls `answer` for each pair of features whose boxes meet.
   using AnswerPair =
       std::function<ContactAnswer(const detector::FourPoints&, const detector::Feature&)>;
   StepJudgement judge(const BoxOfVertices& boxes, StopGate& gate, const AnswerPair& answer) const;
@@ -94,7 +97,7 @@ class StepFeatures {
 
   void for_each_of(detector::FeatureKind kind, const BoxOfVertices& boxes, const Workers& workers,
                    const VisitPair& visit) const;
-  bool may_count(std::int32_t s, std::int32_t t) const;  // before the relation
+  bool may_count(std::int32_t s, std::int32_t t) const;  // without a look-up in the relation
   bool counts(std::int32_t s, std::int32_t t) const;
   bool some_of(const FeaturePair& pair, Says says) const;
   static bool passes(const Relation& relation, const FeaturePair& pair);

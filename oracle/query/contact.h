@@ -1,13 +1,13 @@
 // The exact referee for one vertex-face or edge-edge query.
 //
-// Guarantee: the answer is that of exact arithmetic on the doubles given, for every finite input,
-// also for degenerate features, without motion, and for points that are coplanar or collinear
-// throughout. Touching counts, and so do t = 0 and t = 1. Coordinates must be finite.
-// Cost: 0.03 us if an axis separates the two features; 1 to 2 us in interval arithmetic, and about
-// 8 more if a time is wanted; about 10 us in integers for degenerate and nearly degenerate queries
-// (0.4 ms when exponents spread over all doubles).
-// Thread safe, because threads share no number objects. Ends the process when the processor does
-// not round to nearest or flushes denormals.
+// Guarantee: the answer is that of exact arithmetic on the input doubles, for every finite input,
+// also for degenerate features, for features at rest, and for points that are coplanar or collinear
+// throughout. Touching is a contact, and the step includes t = 0 and t = 1. Coordinates must be
+// finite. Cost: 0.03 us if an axis separates the two features; 1 to 2 us in interval arithmetic,
+// and about 8 more if a time is wanted; about 10 us in integers for degenerate and nearly
+// degenerate queries (0.4 ms when exponents spread over all doubles). Thread safe, because threads
+// share no number objects. Ends the process when the processor does not round to nearest or flushes
+// denormals.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace assay::oracle {
 
-// The rung that decided whether there is a contact. The same query may be decided by different
-// rungs for yes_no and for first_time, because a time asks more of a rung.
+// The rung that decided whether there is a contact. Different rungs may decide the same query for
+// `Want::yes_no` and for `Want::first_time`, because a time is harder to decide.
 enum class Rung : std::uint8_t { axis, interval, quadratic };
 
 struct RungCounts {
@@ -40,9 +40,9 @@ ContactAnswer contact_of(const detector::FourPoints& query, detector::Want want)
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want);
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
-// Returns the first contact time, or nothing where there is no contact, by CGAL's algebraic kernel
-// and without the rungs. This second opinion takes 0.1 to 0.4 ms (7 ms when exponents spread over
-// all doubles).
+// Returns the first contact time, or nothing if there is no contact. Uses CGAL's algebraic kernel
+// and none of the rungs, so it checks them independently. Takes 0.1 to 0.4 ms (7 ms when exponents
+// spread over all doubles).
 std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
 // Returns whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2:
@@ -51,9 +51,9 @@ std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::Four
 bool segment_pierces_triangle(const detector::Point& e0, const detector::Point& e1,
                               const std::array<detector::Point, 3>& face);
 
-// The shape of a contact: a special property because of which a careless test misses it. A contact
-// has the first of these shapes that holds. F is the cubic whose zeros are the times at which the
-// four points lie in a plane (contact_events.h).
+// The shape of a contact: a special property that makes a careless test miss the contact. A contact
+// has the first of these shapes that applies to it. F is the cubic whose zeros are the times at
+// which the four points lie in a plane (contact_events.h).
 enum class ContactShape : std::uint8_t {
   parallel_edges,       // the two edges are parallel, or one is a point, throughout the step
   coplanar_throughout,  // F is zero throughout

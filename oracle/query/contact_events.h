@@ -1,5 +1,5 @@
 // The common part of all exact rungs: the polynomials of a query, the times at which a contact can
-// begin, and whether a contact begins.
+// begin, and whether there is a contact at such a time.
 //
 // Notation of this room: x_0..x_3 are the four moving points of a query, S is the first group of
 // them and S' the second (vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}), and u_j = x_j - x_0 for
@@ -9,9 +9,9 @@
 //           lam_1 = [u_2 x u_3]_k, lam_2 = [u_3 x u_1]_k, lam_3 = [u_1 x u_2]_k, lam_0 = -(sum).
 //   L_i   = lam_i on S, -lam_i on S'.
 //   D_ij  = coordinate k of x_i - x_j, i in S, j in S'.
-// At a time at which F is zero, the hulls of S and S' meet exactly when some non-zero dependency
-// is >= 0 on S and <= 0 on S'. To decide that, take any axis whose L are not all zero: the hulls
-// meet exactly when these L do not take both signs.
+// At a time at which F is zero, the hulls of S and S' meet exactly when some non-zero dependency is
+// >= 0 on S and <= 0 on S'. Any axis whose L are not all zero decides this: the hulls meet exactly
+// when no L of the axis is > 0 or none is < 0.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ using detector::four_points;
 using detector::FourPoints;
 
 // The polynomials of one query, with integer coefficients.
-// Makes F and the L when they are first asked for, and keeps them. One object belongs to one query
+// Computes F and the L when they are first needed, and stores them. One object belongs to one query
 // in one thread.
 class ContactPolynomials {
  public:
@@ -63,8 +63,8 @@ struct ExactAnswer {
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
 // - If all L of all axes are identically zero, t=0 and the zeros of the D of an axis whose D are
 //   not all identically zero. If there is no such axis, t=0 alone.
-// Between these times nothing changes, and the set of contact times is closed, so the first of
-// them with a contact is the first time of all.
+// Between two neighbouring times of these, contact neither begins nor ends, and the set of contact
+// times is closed. So the first of these times with a contact is the first contact time.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);
 
 // Returns whether there is a contact at the i-th time. REQUIRES that F is zero at that time.

@@ -43,36 +43,36 @@ int sign_at(const IntegerPolynomial& p, double t);
 // last are p(0) and p(1). Empty for the zero polynomial.
 std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 
-// Returns how often the sign changes in a sequence, zeros left out. For Bernstein coefficients
-// (Descartes' rule), 0 says that there is no zero in the open interval, 1 that there is exactly
-// one.
+// Returns how often the sign changes in a sequence; elements that are 0 are skipped. If the
+// sequence is the Bernstein coefficients of p, then by Descartes' rule 0 says that p has no zero in
+// the open interval, and 1 says that p has exactly one zero there.
 int sign_changes(const std::vector<Integer>& sequence);
 
 // Returns true if Descartes' rule in Bernstein form shows that p has no zero in [0,1]. False says
 // nothing.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 
-// Returns the greatest common divisor, with coefficients without a common divisor; 1 if the two
-// have no zero in common. REQUIRES neither to be zero. A few us if it is 1; else 10 us to 10 ms for
-// coefficients of 300 to 12,000 bits.
+// Returns the greatest common divisor, scaled so that no integer above 1 divides all of its
+// coefficients; 1 if p and q have no common zero. REQUIRES that neither polynomial is zero. Takes a
+// few us if the result is 1; else 10 us to 10 ms for coefficients of 300 to 12,000 bits.
 IntegerPolynomial common_divisor(const IntegerPolynomial& p, const IntegerPolynomial& q);
 
-// Returns p divided by a divisor of p, such as a common_divisor. REQUIRES that the coefficients of
-// the divisor have no common divisor.
+// Returns p divided by a divisor of p, such as a common_divisor. REQUIRES that no integer above 1
+// divides all coefficients of the divisor.
 IntegerPolynomial quotient(const IntegerPolynomial& p, const IntegerPolynomial& divisor);
 
 // Returns p(lo + (hi - lo) x) as a polynomial of x, up to a positive factor. REQUIRES lo and hi in
-// [0,1]; hi may be the lesser.
+// [0,1]; hi may be less than lo.
 IntegerPolynomial on_piece(const IntegerPolynomial& p, double lo, double hi);
 
-// Turns the doubles of a query into integers: it multiplies by the least power of two that makes
-// every coordinate of the points an integer. The sign of any homogeneous polynomial of the
-// coordinates stays as it is, and so does every contact time.
+// Turns the doubles of a query into integers: it multiplies them by the least power of two that
+// makes every coordinate of the points an integer. This changes neither a contact time nor the sign
+// of a homogeneous polynomial of the coordinates.
 class IntegerScale {
  public:
   explicit IntegerScale(std::span<const detector::MovingPoint> points);
 
-  // REQUIRES a coordinate of the given points.
+  // Returns the integer of a coordinate. REQUIRES a coordinate of the constructor's points.
   Integer operator()(double coordinate) const;
   // Returns the exponent: a coordinate is its integer times 2^exponent().
   int exponent() const { return exponent_; }
@@ -88,8 +88,8 @@ using PolynomialVector = std::array<IntegerPolynomial, 3>;
 PolynomialVector moving_difference(const IntegerScale& scale, const detector::MovingPoint& from,
                                    const detector::MovingPoint& to);
 
-// The operations of vectors, whether their coordinates are integers, rationals, polynomials,
-// intervals or doubles.
+// Vector operations for coordinates that are integers, rationals, polynomials, intervals or
+// doubles.
 template <class Number>
 std::array<Number, 3> operator-(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};

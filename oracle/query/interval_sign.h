@@ -1,5 +1,5 @@
 // Certain signs of intervals (of any type with inf() and sup()); polynomials on pieces of the step;
-// and intervals that need no other rounding mode.
+// and intervals that need no change of the rounding mode.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ int sure_sign(const std::array<Interval, N>& coefficients) {
   return sign;
 }
 
-// Returns whether every coordinate of the moving points is less than `bound` in magnitude at both
-// ends.
+// Returns whether every coordinate of the moving points is less than `bound` in magnitude at t=0
+// and at t=1.
 template <class Points>
 bool all_coordinates_below(const Points& points, double bound) {
   for (const auto& p : points) {
@@ -44,10 +44,10 @@ bool all_coordinates_below(const Points& points, double bound) {
 
 // Polynomials on a piece [s,e] of the step, in scaled Bernstein form, over any number type.
 //
-// With w = (t - s)/(e - s), the coefficient c_k is that of (1-w)^(n-k) w^k, without the binomial,
-// so that products are plain convolutions. These basis functions are >= 0 on the piece and never
-// all 0. So if all coefficients have one strict sign, the polynomial has it on the whole (closed)
-// piece. The first and last coefficients are the values at s and e.
+// With w = (t - s)/(e - s), c_k is the coefficient of (1-w)^(n-k) w^k, without the binomial, so
+// that products are plain convolutions. These basis functions are >= 0 on the piece, and at no
+// point are all of them 0. So if all coefficients have one strict sign, the polynomial has that
+// sign on the whole (closed) piece. The first and last coefficients are the values at s and e.
 
 template <class Number, std::size_t Degree>
 using Bernstein = std::array<Number, Degree + 1>;
@@ -61,7 +61,7 @@ struct LinearVector {
   Vector3<Number> s, e;
 };
 
-// The difference of two moving points, kept at both ends of the step.
+// The difference of two moving points, stored for t=0 and for t=1.
 template <class Number>
 class MovingDifference {
  public:
@@ -84,16 +84,17 @@ class MovingDifference {
   Vector3<Number> t0_, t1_;
 };
 
-// A piece of the step that was cut out of it by `depth` cuts.
+// The piece [s,e] of the step, made by cutting the step `depth` times.
 struct StepPiece {
   double s = 0, e = 1;
   int depth = 0;
 };
 
-// The pieces of the step that are still to be judged, the earliest first; at first the whole step.
-// They are cut beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up input
-// and a zero at the end of a piece can never be settled. Each cut adds 5 bits to the ends, so up to
-// a depth of 9 they and 1 minus them are still exact doubles.
+// The pieces of the step that wait to be judged, the earliest first; the first piece is the whole
+// step. A piece is cut beside its middle, because contacts at 1/2, 1/4, ... are frequent in made-up
+// input, and intervals cannot decide a sign at a zero that lies on a bound of a piece. Each cut
+// adds 5 bits to the bounds of a piece. So up to a depth of 9, a bound and 1 minus the bound are
+// exact doubles.
 template <int most_depth>
 class StepPieces {
  public:
@@ -167,19 +168,20 @@ Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Numbe
   return sum(sum(term(0), term(1)), term(2));
 }
 
-// Intervals of doubles that hold exact results, without another rounding mode.
+// Intervals of doubles that hold exact results and need no change of the rounding mode.
 //
 // A result r, rounded to nearest, differs from the exact one by at most 2^-53 |r|, and by half of
 // the least double where it is denormal. The result is widened by `slack(r)` = 2^-52 |r| plus the
-// least double. That is more than twice as much, which makes up for the rounding of the widening
-// itself: at most half a unit in the last place of r or of its neighbour. REQUIRES rounding to
-// nearest, denormals, and results below the greatest double.
+// least double. This is more than twice the error of r. The excess covers the rounding of the
+// widening itself, which is at most half a unit in the last place of r or of its neighbour.
+// REQUIRES rounding to nearest, denormals that are not flushed, and results below the greatest
+// double.
 struct Enclosure {
   double lo = 0, hi = 0;
 
   Enclosure() = default;
   explicit Enclosure(double x) : lo(x), hi(x) {}
-  // All numbers between two rounded results, with their errors.
+  // Holds all numbers between two rounded results, and is widened by the errors of both results.
   Enclosure(double least, double greatest)
       : lo(least - slack(least)), hi(greatest + slack(greatest)) {}
 

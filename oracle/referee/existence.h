@@ -1,16 +1,16 @@
 // The moving hull of differences of a query: the one object that the referee looks at.
 //
 // Two convex hulls meet exactly when the hull of all differences (a point of the first minus a
-// point of the second) contains the origin. For vertex-face that is a triangle, for edge-edge a
-// parallelogram; its corners move linearly. So the question of contact is: does a moving triangle
-// or parallelogram pass over the origin?
+// point of the second) contains the origin. This hull is a triangle for vertex-face and a
+// parallelogram for edge-edge; its corners move linearly. So the question of contact is: does a
+// moving triangle or parallelogram pass over the origin?
 //
 // Notation of the referee: c_0, c_1, c_2 are the corners (and c_3 = c_1 + c_2 - c_0 of a
 // parallelogram); P = c_0, U = c_1 - c_0, V = c_2 - c_0. The hull is P + u U + v V with u, v >= 0
 // and u + v <= 1 (triangle) or u, v <= 1 (parallelogram).
 //
-// The referee has two proofs about it: that it contains the origin at some time, and that it stays
-// away from the origin on a piece of the step.
+// The referee has two proofs: that the hull contains the origin at some time, and that the hull
+// stays away from the origin on a piece of the step.
 #pragma once
 
 #include <gmpxx.h>
@@ -56,21 +56,21 @@ Vector<Number> outer(const Vector<Number>& a, const Vector<Number>& b) {
 }
 
 // The corners at t=0 and t=1 in double, times the power of two, 2^-exponent, that brings the
-// largest coordinate into [1/2,1]. `usable` is false when a difference overflows. Coordinate k of a
-// corner, at either end, is wrong by at most u * size[k] + 2^-1074 (u = 2^-53): the difference is
-// rounded once, and the scaling is exact above the denormals.
+// largest coordinate into [1/2,1]. `usable` is false when a difference overflows. The error of
+// coordinate k of a corner, at t=0 and at t=1, is at most u * size[k] + 2^-1074 (u = 2^-53): the
+// difference is rounded once, and the scaling is exact above the denormals.
 struct DoubleHull {
   Hull<double> t0, t1;
   Vector<double> size = {};  // largest |coordinate| of a corner as computed, at least 2^-900
   int exponent = 0;
   bool usable = false;
 
-  // Returns the corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] +
-  // 2^-1072 (derived in existence.cpp).
+  // Returns the corners at t in [0,1], a multiple of 2^-53. The error of coordinate k is at most
+  // 3.01 u size[k] + 2^-1072 (derived in existence.cpp).
   Hull<double> at(double t) const;
 };
 
-// The same corners, exact: times 2^-unit, which makes all coordinates integers.
+// The exact corners, multiplied by 2^-unit, which makes all coordinates integers.
 struct IntegerHull {
   Hull<mpz_class> t0, t1;
   int unit = 0;
@@ -102,8 +102,8 @@ NearestPoint nearest_to_origin(const Hull<double>& hull);
 // all of [s,e]: the hull lies strictly on one side of a plane through the origin at every time of
 // the piece. If n_s = n_e, the direction is constant, and the swept hull itself is separated.
 
-// near: no tried direction surely separates, but rounding errors leave one of them open, or a
-// difference overflows in double. Integers may yet prove it.
+// `near`: no tried direction surely separates, and rounding errors hide whether some direction
+// does, or a difference overflows in double. Integers may be able to prove the separation.
 enum class SeparationProof : std::uint8_t { separated, near, not_found };
 
 // Looks for a proof on [s,e], in double with error bounds. REQUIRES 0 <= s < e <= 1, both multiples
@@ -129,7 +129,7 @@ Fraction simplest_fraction(std::int64_t k, int depth);
 // A guess at a time and place where the origin lies in the hull.
 struct Crossing {
   double t = 0, u = 0, v = 0;
-  int base = 0;  // the corner that plays P: u and v are counted from it
+  int base = 0;  // the corner that serves as P; u and v start from it
 };
 
 // Guesses by Newton's method in double, started in the middle of [s,e]. Returns nothing when it

@@ -30,9 +30,9 @@ class ExactTimes {
 };
 
 // Returns the canonical enclosure of a time in [lo,hi] that can only be compared with doubles.
-// REQUIRES 0 <= lo <= hi, and that compare(t) is the exact sign of (time - t); it is asked of
-// doubles in [lo,hi] only. A wrong guess costs only work: when it is n units in the last place
-// away, about 2 log2 n comparisons.
+// REQUIRES 0 <= lo <= hi, and that compare(t) is the exact sign of (time - t) for doubles t in
+// [lo,hi]. A wrong guess costs only work: about 2 log2 n comparisons if the guess is n units in the
+// last place away from the time.
 template <class Compare>
 detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
   // Doubles >= 0 are ordered as their bit patterns.
@@ -45,7 +45,7 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   std::uint64_t at = bits(guess + 0.0);
   const int first = compare(value(at));
   if (first == 0) return {value(at), value(at)};
-  // Takes steps that double until the time is passed, then halves.
+  // Doubles its steps until it has passed the time, then halves the interval.
   std::uint64_t below = at, above = at;
   for (std::uint64_t step = 1;; step *= 2) {
     if (first > 0) {
@@ -71,8 +71,8 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   return {value(below), value(above)};
 }
 
-// Returns a zero of f in [s,e] in plain doubles: only a guess, so it has no error bound. f is of
-// degree 6 at most, and `sign_at_s` is its sign at s, opposite to that at e.
+// Guesses a zero of f in [s,e] in plain doubles, without an error bound. REQUIRES a degree of at
+// most 6 and opposite signs of f at s and e; `sign_at_s` is the sign at s.
 double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s);
 
 // Encloses the zero of f in (s,e) by exact integer signs of f at doubles, without the algebraic
@@ -80,18 +80,19 @@ double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s)
 // one, and opposite signs at s and e, and that 0 <= s < e <= 1. 1 to 3 us.
 detector::TimeEnclosure simple_zero_time(const IntegerPolynomial& f, double s, double e);
 
-// Times whose signs are closed formulas: a zero of a polynomial of degree 1 or 2, as an exact
-// number, and the zeros of one cubic in the closed step, between those of its derivative.
+// Times at which closed formulas give the sign of a polynomial: a zero of a polynomial of degree 1
+// or 2, as an exact number; and the zeros of one cubic in the closed step, each between zeros of
+// its derivative.
 
-// The time is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0. It is stored as its
-// integers and the choice between the two zeros. No root is ever taken, and nothing is isolated or
-// refined.
+// The time is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0. It is stored as the
+// integers a, b, c and the choice between the two zeros. No square root is ever computed, and no
+// zero is isolated or refined.
 class QuadraticTime {
  public:
   // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
   static void append_zeros(const IntegerPolynomial& p, std::vector<QuadraticTime>& to);
 
-  // Returns the exact sign of q(r). Some 10 products of integers where q has degree 2.
+  // Returns the exact sign of q(r). Takes some 10 products of integers if q has degree 2.
   int sign(const IntegerPolynomial& q) const;
   // Returns the exact sign of r - other.
   int compare(const QuadraticTime& other) const;
@@ -108,31 +109,32 @@ class QuadraticTime {
   int sign_of_linear(const Integer& u, const Integer& v) const;
   double guess() const;
 
-  Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; a = 0 and b > 0 if it is the only one
+  Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; if it is the only zero, a = 0 and b > 0
   Zero zero_;
 };
 
 // The zeros in the closed step of polynomials of degree 1 and 2, in order.
 class QuadraticTimes final : public ExactTimes {
  public:
-  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. A constant has
-  // none. REQUIRES that no polynomial is identically zero, and degrees <= 2.
+  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. A constant has no
+  // zeros. REQUIRES that no polynomial is identically zero, and degrees <= 2.
   explicit QuadraticTimes(std::span<const IntegerPolynomial> polynomials);
 
   int size() const override { return static_cast<int>(times_.size()); }
   int sign(const IntegerPolynomial& q, int i) const override { return times_[i].sign(q); }
   detector::TimeEnclosure enclosure(int i) const override { return times_[i].enclosure(); }
-  // Gives the times away.
+  // Moves the times out of this object.
   std::vector<QuadraticTime> take() { return std::move(times_); }
 
  private:
   std::vector<QuadraticTime> times_;
 };
 
-// On the pieces of the step between the zeros of its derivative a cubic f is strictly monotone. So
-// its zeros are some of the bounds of these pieces, and one inside of each piece at whose bounds f
-// has opposite signs. A zero is held by its piece. All questions come down to signs of f at zeros
-// of quadratics, which are closed formulas; nothing is isolated or refined.
+// The zeros of a cubic f in the closed step. The zeros of its derivative cut the step into pieces,
+// and f is strictly monotone on each piece. So a zero of f either is a bound of a piece, or is the
+// only zero inside a piece at whose bounds f has opposite signs. A zero is stored as the number of
+// its bound or piece. All signs come from signs of f at zeros of quadratics, which have closed
+// formulas; no zero is isolated or refined.
 class CubicTimes final : public ExactTimes {
  public:
   // REQUIRES degree 2 or 3.
@@ -145,15 +147,15 @@ class CubicTimes final : public ExactTimes {
 
  private:
   struct Zero {
-    std::size_t bound;    // where it is, or where its piece begins
-    bool inside = false;  // of the piece
+    std::size_t bound;    // the zero is here, or its piece begins here
+    bool inside = false;  // the zero is inside the piece
   };
   // Returns the exact sign of the zero minus another time or a double in [0,1].
   template <class Time>
   int compare(const Zero& zero, const Time& other) const;
 
   IntegerPolynomial f_;
-  std::vector<QuadraticTime> bounds_;  // from 0 to 1
+  std::vector<QuadraticTime> bounds_;  // of the pieces, from 0 to 1
   std::vector<int> signs_;             // of f at the bounds
   std::vector<Zero> zeros_;
 };
@@ -161,8 +163,8 @@ class CubicTimes final : public ExactTimes {
 // The zeros of polynomials in the closed step as exact algebraic numbers, by CGAL's algebraic
 // kernel.
 //
-// The kernel stays behind this header. Its numbers are reference counted without regard to
-// threads, so an object belongs to the thread that made it.
+// This header does not show the kernel. The kernel's numbers are reference counted without regard
+// to threads, so an AlgebraicTimes belongs to the thread that made it.
 
 class AlgebraicTimes final : public ExactTimes {
  public:
