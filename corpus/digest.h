@@ -12,7 +12,8 @@ namespace assay::corpus {
 // Returns the digest as 64 hexadecimal digits, lower case.
 std::string sha256_of(std::string_view bytes);
 
-// Does the same for a file, which is read in pieces. The problem states why it cannot be read.
+// Returns the digest of a file's bytes. Reads the file in pieces. The problem says why the file
+// cannot be read.
 Expected<std::string> sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace assay::corpus

@@ -1,6 +1,6 @@
-// Turns JSON text into values, and values into text. The parser's exceptions become problems. Gives
-// typed access to the fields of a value; each error names the file and the field. Reads types that
-// list their fields.
+// Turns JSON text into values, and values into text. Returns the parser's exceptions as problems.
+// Gives typed access to the fields of a value; each problem names the file and the field. Reads
+// types that list their fields.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,21 +26,21 @@ namespace assay::corpus {
 using Json = nlohmann::ordered_json;
 
 // Refuses text that is not JSON (the message names the byte), a number beyond the doubles, and an
-// object in which a key stands twice, because the parser would silently take the last one. A value
-// nested more than 64 levels deep is refused too, because code that prints or copies it descends
-// level by level, and the stack is finite. `file` stands for the text in messages.
+// object that has a key twice, because the parser would silently use the last value. Also refuses a
+// value nested more than 64 levels deep, because code that prints or copies a value calls itself
+// for each level, and the stack is finite. Messages name the text by `file`.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
-// Does the same, for values that sort their keys by name.
+// Does the same, and returns a value that sorts its keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,
                                            const std::filesystem::path& file);
 
 // Returns the text of a value, in one line or with each level indented by `indent` spaces. Never
-// fails: bytes that are no UTF-8, as file names and the words of a plug-in may hold, become U+FFFD.
+// fails: bytes that are not UTF-8, which file names and texts of a plug-in can hold, become U+FFFD.
 std::string json_text(const Json& value, int indent = -1);
 std::string json_text(const nlohmann::json& value, int indent = -1);
 
-// A JSON value and where it stands (`expected.steps[0].pairs`). It refers to the value and to the
-// file path, which both must outlive it.
+// A JSON value and its place in the file (`expected.steps[0].pairs`). It refers to the value and to
+// the file's path, and both must outlive it.
 class JsonField {
  public:
   JsonField(const Json& value, const std::filesystem::path& file, std::string place = "")
@@ -48,9 +48,9 @@ class JsonField {
 
   bool has(std::string_view key) const;
 
-  // Returns the field `key`. Fails when it is missing, and when this is no object.
+  // Returns the field `key`. Fails if the field is missing, and if this value is no object.
   Expected<JsonField> at(std::string_view key) const;
-  // Returns the number of items. Fails when this is no array.
+  // Returns the number of items. Fails if this value is no array.
   Expected<std::size_t> size() const;
   // Returns item i. REQUIRES an array with more than `i` items.
   JsonField item(std::size_t i) const;
@@ -70,32 +70,31 @@ class JsonField {
   std::string place_;
 };
 
-// The rest of this file reads types that list their fields from the objects of a JSON file. The
-// list is written once, in the file that knows the form, and code that writes the object uses it
-// too:
+// The rest of this file reads objects of a JSON file into types that list their fields. The list is
+// written once, in the source file of the format, and the code that writes the object uses it too:
 //
 //   template <class Archive>
 //   void fields(Archive& archive, Case& c) {
-//     archive.must("id", c.id);                        // it is refused if it is missing
-//     archive.may("script", c.script, Below{frames});  // it stays as it is if it is missing
+//     archive.must("id", c.id);                        // fails if the key is missing
+//     archive.may("script", c.script, Below{frames});  // no change if the key is missing
 //   }
 //
-// Rules may follow the member; they say which values are allowed.
+// Rules, such as Below, may follow the member; they say which values are allowed.
 
-// Thrown by a reader; the function that reads the file catches it.
+// A reader throws this; the function that reads the file catches it.
 struct Refused {
   Problem problem;
 };
 
-// Returns the value. Throws Refused if there is none.
+// Returns the value. Throws Refused if `expected` holds a problem.
 template <class T>
 T want(Expected<T> expected) {
   if (!expected) throw Refused{expected.error()};
   return std::move(expected).value();
 }
 
-// Rules: a whole number from 0 to below `end`, and an array of `count` items. Rules for the items
-// may follow.
+// Rules: Below demands a whole number >= 0 and < `end`; Items demands an array of `count` items.
+// Rules for the items may follow Items.
 struct Below {
   std::int64_t end;
 };
@@ -109,7 +108,7 @@ inline void expect_size(const JsonField& field, std::size_t count) {
     throw Refused{field.problem(fmt::format("{} items expected, not {}", count, size))};
 }
 
-// `Reader` derives from this, and has a function `read` for each further kind of value:
+// `Reader` derives from JsonReader, and has a function `read` for each further type of value:
 //
 //   class CaseReader : public JsonReader<CaseReader> {
 //    public:

@@ -1,4 +1,5 @@
-// The fields of a case are listed once, for the code that reads and the code that writes.
+// The fields of a case are listed once; the code that reads and the code that writes both use the
+// list.
 #include "corpus/cases/case_file.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Case files, schema `assay-case/1`: a deforming mesh and the facts that are known of it.
+// Case files, schema `assay-case/1`: a deforming mesh and the known facts about it.
 //
 // The schema is reports/schemas/case.schema.json. Writing is canonical: equal cases give equal
 // bytes. Each vertex, triangle or pair has a line of its own, and numbers are the shortest
@@ -21,7 +21,8 @@ namespace assay::corpus {
 
 inline constexpr std::string_view case_schema = "assay-case/1";
 
-// A view primitive: one place for each frame, linear in between. q1 is empty for a view-point.
+// A view primitive: its end points q0 and q1 have one place for each frame, and move linearly
+// between frames. q1 is empty for a view-point.
 struct CaseView {
   std::vector<detector::Point> q0, q1;
 };
@@ -32,9 +33,9 @@ struct CaseGhosts {
   detector::Triangles triangles;
 };
 
-// One evaluation of a detector, from frame `from` to frame `to`. With `commit` the detector's
-// state advances to the end of the step, else it stays as it is. A step that does not start where
-// the last committed step ended is a new start.
+// One evaluation of a detector, from frame `from` to frame `to`. If `commit`, the detector's state
+// advances to the end of the step; otherwise the state stays unchanged. A step that does not start
+// where the last committed step ended is a new start.
 struct CaseStep {
   std::int32_t from = 0, to = 1;
   bool commit = true;
@@ -47,7 +48,7 @@ struct ExpectedPair {
   friend bool operator==(const ExpectedPair&, const ExpectedPair&) = default;
 };
 
-// Facts of one step. An absent optional states nothing; it does not say that there is nothing.
+// Facts of one step. An absent optional says nothing about its fact.
 struct ExpectedStep {
   detector::Answer answer = detector::Answer::free;
   std::optional<detector::TimeEnclosure> first_time;          // of a collision
@@ -56,16 +57,16 @@ struct ExpectedStep {
   std::optional<std::vector<detector::ViewSign>> ghost_view_signs;  // one for each ghost
 };
 
-// `answer` is collision when a step has a contact, and error for a mesh that must be refused. If it
-// is absent, nothing is known.
+// `answer` is `collision` if a step has a contact, and `error` if a detector must refuse the mesh.
+// If `answer` is absent, nothing is known.
 struct ExpectedFacts {
   std::optional<detector::Answer> answer;
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 
-// The relation of counted pairs, and the facts that hold with it. The `expected` facts of a case
-// speak of all pairs, whatever counts, because laws and state do (L19); `steps` speaks of counted
-// pairs only.
+// The relation of counted pairs, and facts about counted pairs. Case::expected speaks of all pairs,
+// counted or not, because laws and detector state depend on all pairs (L19); `steps` speaks of
+// counted pairs only.
 struct CaseRelation {
   detector::CountedPairs pairs;
   std::vector<ExpectedStep> steps;  // one for each step of the case, without signs, or none
@@ -73,12 +74,12 @@ struct CaseRelation {
 
 struct Case {
   std::string id;      // the file's name without .json
-  std::string about;   // one line: what it shows
-  std::string source;  // where it comes from
+  std::string about;   // one line: the property that the case shows
+  std::string source;  // the origin of the case
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;  // at least one
-  // The steps in order. The caller's responses to collisions show here. If empty, the steps are the
-  // consecutive_steps().
+  // The steps in order, as they are after the caller's responses to collisions. If empty, the steps
+  // are consecutive_steps().
   std::vector<CaseStep> script;
   std::optional<CaseView> view;
   std::optional<CaseGhosts> ghosts;
@@ -86,8 +87,8 @@ struct Case {
   std::map<std::string, std::string, std::less<>> options;
   ExpectedFacts expected;
   std::optional<CaseRelation> counted;  // absent: every pair counts
-  // A JSON object in compact text, kept verbatim: further facts by name, which are explained in
-  // tests/properties/curated/curated_checks.h. "{}" when there are none.
+  // Further facts by name: a JSON object in compact text, stored verbatim.
+  // tests/properties/curated/curated_checks.h explains them. "{}" if there are no further facts.
   std::string pending = "{}";
 };
 
@@ -108,11 +109,11 @@ std::vector<CaseStep> steps_of(const Case& c);
 const detector::Positions& start_of(const Case& c, const CaseStep& step);
 const detector::Positions& end_of(const Case& c, const CaseStep& step);
 
-// Returns the view primitive during steps_of(c)[step]; nothing when the case states none.
+// Returns the view primitive during steps_of(c)[step]; nothing if the case has no view primitive.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
-// Makes a case of one step. `rest`: the frame that a detector is made from, which becomes the first
-// frame; null: the start of the step. `counted`: which pairs count; null: all of them.
+// Makes a case of one step. `rest`: the frame from which a detector is created; it becomes the
+// first frame; null: the start of the step. `counted`: which pairs count; null: all of them.
 Case case_of_step(const detector::Triangles& triangles, const detector::CountedPairs* counted,
                   const detector::Positions* rest, const detector::Positions& x_t0,
                   const detector::Positions& x_t1);
@@ -124,13 +125,13 @@ std::vector<detector::Point> points_of(const detector::Positions& x);
 std::string case_text(const Case& c);
 
 // Reads a case from its text, and checks shape, lengths and index ranges. A mesh triangle may
-// repeat an index only if the expected answer is `error`. `name` stands for the file in messages.
+// repeat an index only if the expected answer is `error`. Messages name the file by `name`.
 Expected<Case> parse_case(std::string_view text, std::string_view name);
 
 Expected<Case> read_case(const std::filesystem::path& path);
-// Refuses every case that read_case would refuse, with the same problem, because a file that was
-// written has to be readable. A coordinate that is not finite has no JSON form, so it is refused
-// too.
+// Writes a case. Refuses every case that read_case would refuse, with the same problem, so that
+// every written file can be read. Also refuses a coordinate that is not finite, because JSON has no
+// form for it.
 Expected<void> write_case(const std::filesystem::path& path, const Case& c);
 
 // Returns the case files of a folder (*.json), sorted by name.

@@ -1,5 +1,5 @@
-// The steps of a case. They stand apart from reading and writing, so that code that only runs cases
-// needs neither.
+// The steps of a case. They are in a file of their own, so that a program that only runs cases
+// links neither the reader nor the writer.
 #include "corpus/cases/case_file.h"
 
 namespace assay::corpus {

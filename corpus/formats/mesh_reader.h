@@ -2,10 +2,11 @@
 //
 // Guarantee: a decimal number becomes the double nearest to it (ties to even); float32 and integer
 // values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i, and
-// triangles keep the file's order. A polygon is fanned from its first vertex. Refused, in words: an
-// index out of range, an index repeated in a triangle, a coordinate that is not finite, and all
-// that MeshBuilder refuses. NOT refused, because the detector judges them: two triangles with the
-// same three vertices, unused or duplicate vertices, zero-area triangles.
+// triangles keep the file's order. A polygon is split into a fan of triangles from its first
+// vertex. The readers refuse an index out of range, an index repeated in a triangle, a coordinate
+// that is not finite, and all else that MeshBuilder refuses; a message says why. They do NOT refuse
+// two triangles with the same three vertices, unused or duplicate vertices, and zero-area
+// triangles, because the detector judges these.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct Place {
   std::size_t number;
 };
 
-// Where each triangle's face stands in its file.
+// For each triangle, the line or byte of its file at which its face begins.
 struct FacePlaces {
   const char* unit = "line";
   std::vector<std::uint32_t> numbers;
@@ -36,66 +37,66 @@ struct FacePlaces {
 struct Mesh {
   detector::Positions positions;
   detector::Triangles triangles;
-  // One line for each kind of content that was split, is ignored, or is suspect.
+  // One line for each kind of content that the reader split or ignored, or that is suspect.
   std::vector<std::string> remarks = {};
   FacePlaces places = {};
 };
 
-// Reads a mesh. The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the
-// extension does (.obj, .obj.gz).
+// Reads a mesh. A signature in the content tells the format (PLY, OFF, gzip); without a signature,
+// the extension tells it (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
-// Refuses a file for faults that show without reading all of it: the file is missing, may not be
-// read, is empty or has no known format. The problem is that of read_mesh.
+// Refuses a file for a fault that shows without reading all of the file: the file is missing, may
+// not be read, is empty or has no known format. Returns the same problem as read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
-// Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if
-// none have, or the file cannot be read.
+// Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if no
+// two faces have, or if the file cannot be read.
 std::string places_of_same_faces(const std::filesystem::path& file);
 
-// The readers of the formats. Each takes the bytes of a file; `file` stands for it in messages.
+// The readers of the formats. Each takes the bytes of a file; messages name the file by `file`.
 
 // Reads OBJ. `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh;
-// texture coordinates, normals, groups and materials are passed over; lines, points, curves and
-// surfaces too, with a remark. A line with any other keyword is refused, so that noise is not taken
-// for a mesh.
+// texture coordinates, normals, groups and materials are ignored; lines, points, curves and
+// surfaces are ignored with a remark. A line with any other keyword is refused, so that noise is
+// not taken for a mesh.
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
-// Returns whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n,
-// capital or not. A file named *.off may lack the word.
+// Returns whether the text begins with the word of an OFF file: OFF after the optional letters ST,
+// C, N, 4, n, in capitals or not. A file named *.off may lack this word.
 bool looks_like_off(std::string_view text);
 // Reads OFF in text form: a header word, the counts, one vertex a line and one polygon a line; `#`
-// starts a comment. Normals, colours and texture coordinates are passed over, faces of one or two
-// corners too, with a remark; 4-dimensional and binary files are refused.
+// starts a comment. Normals, colours and texture coordinates are ignored; faces of one or two
+// corners are ignored with a remark; 4-dimensional and binary files are refused.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
 bool looks_like_ply(std::string_view bytes);
 // Reads PLY, ascii, binary little-endian and big-endian: x, y, z of any type from element `vertex`,
 // and from element `face` a list vertex_indices or vertex_index of an integer type. All other
-// elements (with a remark) and properties are skipped.
+// properties are ignored; all other elements are ignored with a remark.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
 // Collects the vertices and polygons of one mesh file and refuses content that no mesh may hold.
 
 std::string shown(const Place& place);
 
-// REQUIRES: every call gets the place that a reader of the message should look at.
+// Each call takes the place in the file of the vertex or polygon; messages name it.
 class MeshBuilder {
  public:
-  // first_number: the number of the first vertex, as the file counts; messages count in the same
-  // way.
+  // first_number: the number that the file's format gives to its first vertex; messages number
+  // vertices in the same way.
   explicit MeshBuilder(const std::filesystem::path& file, int first_number = 0)
       : file_(file), first_number_(first_number) {}
 
   // Refuses a coordinate that is not finite, and more vertices than indices can name.
   Expected<void> add_vertex(double x, double y, double z, const Place& place);
 
-  // Adds a polygon as a fan of triangles from its first vertex. Vertices are counted from 0. They
-  // may be added later, because finish() checks their range. Refuses fewer than three, an index out
-  // of any range, and a triangle that names one vertex twice.
+  // Adds a polygon as a fan of triangles from its first vertex. Vertices are numbered from 0. They
+  // may be added later, because finish() checks the range of the indices. Refuses fewer than three
+  // vertices, an index that no mesh can have, and a triangle that names one vertex twice.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
-  // Counts content that is no part of the mesh. `what` names it in the singular: "line (l)".
+  // Counts ignored content of the file. `what` names the content in the singular: "line (l)".
   void skip(const std::string& what, std::size_t count = 1);
   // Adds a remark on something in the file that its author should know of.
   void remark(std::string line) { remarks_.push_back(std::move(line)); }
@@ -117,7 +118,7 @@ class MeshBuilder {
   std::size_t split_ = 0;  // polygons of more than three corners
   std::map<std::string, std::size_t> skipped_;
   std::vector<std::string> remarks_;
-  // The highest index so far, and its place: with these, finish() names an index without a vertex.
+  // The highest index so far, and its place: finish() names them if there is no such vertex.
   std::int64_t highest_ = -1;
   Place highest_place_ = {"line", 0};
 };

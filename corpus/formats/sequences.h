@@ -1,5 +1,5 @@
-// Reads the frames of one mesh that deforms, one file a frame, or the frames of several bodies as
-// one mesh. Puts the files in order, finds vertices that stand at one place in every frame, and
+// Reads the frames of a deforming mesh, one file for each frame, or the frames of several bodies as
+// one mesh. Puts the files in order, finds vertices that are at the same place in every frame, and
 // writes meshes and sequences.
 #pragma once
 
@@ -20,34 +20,36 @@ namespace assay::corpus {
 //
 //   sim_1.obj sim_10.obj sim_2.obj  ->  sim_1.obj sim_2.obj sim_10.obj
 //
-// A shell lists names letter by letter; in some languages it ignores marks such as _. If the files
-// came in such an order, they are taken in the order of their numbers. Any other order is the
-// user's own and stays. Files whose names differ in more than numbers are not compared. In names,
-// 0.25 and 0.5 may be decimals, or two numbers each: if that matters, the order stays, too.
+// A shell sorts names letter by letter; in some languages it ignores marks such as _. If the files
+// are in an order of this kind, they are put in the order of their numbers. Any other order is the
+// user's own and stays unchanged. Files whose names differ in more than numbers are not compared.
+// In names, 0.25 and 0.5 may be decimals, or two numbers each: if the two readings give different
+// orders, the order stays unchanged, too.
 
 struct FrameOrder {
   std::vector<std::filesystem::path> files;
-  // One line each if the files were put in order, if they are not in the order of their numbers,
-  // and if numbers are left out or repeated.
+  // One line if the files were put in another order, one if they are not in the order of their
+  // numbers, and one if numbers are missing or repeated.
   std::vector<std::string> remarks;
 };
 
 FrameOrder in_order_of_numbers(const std::vector<std::filesystem::path>& files);
 
-// Returns the names of two files for a message: without their folders if these names differ.
+// Returns the names of two files for a message: without the folders if the names alone differ.
 std::pair<std::string, std::string> short_names(const std::filesystem::path& a,
                                                 const std::filesystem::path& b);
 
-// One mesh that deforms: consecutive frames are the ends of a step.
+// A deforming mesh: a step goes from each frame to the next.
 struct Sequence {
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
-  // One line each on the order of the files, and on content that was changed or is ignored.
+  // Lines on the order of the files, and on content that was changed or ignored.
   std::vector<std::string> remarks = {};
 };
 
-// Reads a frame when it is asked for, each file once, and keeps only the triangles. So a sequence
-// of any length takes the memory of the frames that the caller keeps.
+// Reads one frame at each call of next(), each file once, and stores only the triangles. So the
+// memory in use does not grow with the length of the sequence, if the caller does not store the
+// frames.
 class SequenceReader {
  public:
   explicit SequenceReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
@@ -57,11 +59,12 @@ class SequenceReader {
   bool at_end() const { return next_ == files_.size(); }
 
   // Reads the next frame. All files must hold the same triangles and the same number of vertices;
-  // otherwise the problem names both files. After a problem the reader stays where it is.
+  // otherwise the problem names both files. After a problem, next() reads the same frame again.
   // REQUIRES !at_end().
   Expected<detector::Positions> next();
 
-  // Refuses the remaining frames by look_at_mesh alone, without reading them.
+  // Looks at the remaining files by look_at_mesh, without reading them as a whole, and returns the
+  // first problem.
   Expected<void> look_ahead() const;
 
   // Returns the triangles and the number of vertices of every frame. REQUIRES that a frame was
@@ -72,7 +75,7 @@ class SequenceReader {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  // Returns the problem that the next frame's mesh is not that of the first frame.
+  // Returns the problem that the next frame's mesh differs from the first frame's mesh.
   Problem other_mesh(std::string_view how) const;
 
   std::vector<std::filesystem::path> files_;
@@ -85,21 +88,22 @@ class SequenceReader {
 // Reads all frames, in the order of their numbers. Fails when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
-// Reads frame after frame of several bodies, and makes one mesh of them.
+// Reads the frames of several bodies one by one, and joins the bodies into one mesh.
 //
 // Vertices and triangles of the bodies follow each other in the order of the bodies. A body of one
 // frame stands still.
 class BodiesReader {
  public:
-  // Takes the files of each body, one for each frame. REQUIRES a body, and a file of each.
+  // Takes the files of each body: one file for each frame. REQUIRES at least one body, and at least
+  // one file for each body.
   explicit BodiesReader(std::vector<std::vector<std::filesystem::path>> bodies);
 
-  // Returns nothing if each body has as many frames as the others, or one; else a problem that
-  // names both numbers of frames.
+  // Returns a problem if two bodies of more than one frame each have different numbers of frames.
+  // The problem names both numbers.
   Expected<void> fit() const;
   std::size_t frames() const;
   bool at_end() const { return read_ == frames(); }
-  // Returns the next frame of all bodies. Problems: those of SequenceReader::next(). REQUIRES fit()
+  // Returns the next frame of all bodies, or a problem of SequenceReader::next(). REQUIRES fit()
   // and !at_end().
   Expected<detector::Positions> next();
   Expected<void> look_ahead() const;
@@ -107,7 +111,8 @@ class BodiesReader {
   // Return the triangles, and the number of each vertex's body. Both REQUIRE that a frame was read.
   const detector::Triangles& triangles() const { return triangles_; }
   std::vector<std::int32_t> bodies() const;
-  // Returns the remarks on the first file of each body, with its name if there are several.
+  // Returns the remarks on the first file of each body. If there are several bodies, each remark
+  // names its file.
   std::vector<std::string> remarks() const;
 
  private:
@@ -120,20 +125,21 @@ class BodiesReader {
   detector::Triangles triangles_;
 };
 
-// Finds vertices that stand at one place in every frame. If a format or an exporter doubles the
-// corners of neighbouring triangles (STL, seams of textures), the triangles share no vertex, so
-// they touch.
+// Finds vertices that are at the same place in every frame. If a format or an exporter doubles the
+// corners of neighbouring triangles (STL, seams of textures), these triangles share no vertex, so
+// they are in contact with each other.
 class DoubledCorners {
  public:
-  // `body`: the number of each vertex's body; vertices of two bodies are never counted together.
-  // Vertices of no triangle do not count.
+  // `body`: the number of each vertex's body; two vertices of different bodies are never taken as
+  // one. Vertices of no triangle are ignored.
   DoubledCorners(const detector::Triangles& triangles, const std::vector<std::int32_t>& body);
 
-  // Separates vertices that stand apart in this frame. Two places are equal if all coordinates are
-  // equal (0 = -0).
+  // Separates vertices that are at different places in this frame. Two places are equal if all
+  // coordinates are equal (0 = -0).
   void add(const detector::Positions& x);
 
-  // Returns a remark on the frames that were added; empty if no two vertices stand together.
+  // Returns a remark on the frames that were added; empty if no two vertices are at the same place
+  // in all of them.
   std::string remark(bool is_welded) const;
 
   // Returns the triangles with each vertex replaced by the first vertex at its place.
@@ -143,13 +149,14 @@ class DoubledCorners {
   std::vector<std::int32_t> first_;  // by vertex: the first vertex at its place; -1: in no triangle
 };
 
-// Writes meshes as binary little-endian PLY with double coordinates, which read back bit by bit.
+// Writes meshes as binary little-endian PLY with double coordinates, so that a reader gets the same
+// bits.
 //
-// Every file is written beside its place and then renamed, so a reader sees the old file or the
+// Every file is written under another name and then renamed, so a reader sees the old file or the
 // whole new one.
 
-// Fails, with the reason, when the file system refuses, and when memory does not suffice. `marked`:
-// null, or by triangle 0 for grey, 1 for red, 2 for amber.
+// Writes one mesh. Fails if the file system refuses, with its reason, and if there is too little
+// memory. `marked`: null, or for each triangle 0 for grey, 1 for red, 2 for amber.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
                           const detector::TrianglesView& triangles,

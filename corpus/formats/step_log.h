@@ -1,7 +1,9 @@
-// Logs of steps, as a simulator recorded them (detector/plugin/assay_record.h; the format is in
-// corpus/README.md): a mesh, its detector's claims, and steps with the detector's answers.
+// Reads logs of steps that a simulator recorded (by detector/plugin/assay_record.h;
+// corpus/README.md describes the format). A log holds a mesh, the claims of the simulator's
+// detector, and steps with the detector's answers.
 //
-// A log may be cut anywhere, and any of its bytes may be wrong. It is read up to its first damage.
+// A log may end anywhere, and any of its bytes may be wrong. The reader reads up to the first
+// damage.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +22,15 @@
 
 namespace assay::corpus {
 
-// The bytes with which a log, and each of its records, begins.
+// A log, and each of its records, begins with these bytes.
 inline constexpr std::string_view mark_of_log("\x83\x44\x41\x53\x52\x31", 6);
 
 // The part of a log that holds for all steps.
 struct LogHead {
   std::string name, version;      // of the detector
-  assay_description description;  // its name and version are NULL
+  assay_description description;  // `description.name` and `.version` are NULL
   detector::Triangles triangles;
-  detector::Positions positions;  // the detector was made from these
+  detector::Positions positions;  // the detector was created from these
   std::optional<detector::CountedPairs> counted;
 };
 
@@ -48,12 +50,12 @@ struct LoggedLimit {
 };
 
 struct LogStep {
-  std::uint64_t number = 0;  // of all steps of the run, from 0
+  std::uint64_t number = 0;  // among all steps of the run, from 0
   detector::Positions x_t0, x_t1;
   std::optional<LoggedAnswer> answer;
   std::optional<LoggedLimit> limit;
-  // Why it is unknown which step this is; empty if it is known. If it is unknown, positions mean
-  // nothing.
+  // The reason why this step's positions are unknown; empty if they are known. If they are unknown,
+  // x_t0 and x_t1 mean nothing.
   std::string why_unknown;
 };
 
@@ -61,27 +63,28 @@ struct LogStep {
 struct LogDamage {
   std::uint64_t from = 0, to = 0;  // bytes of the file
   std::string what;                // the damage that begins there
-  bool is_cut = false;             // one record without its end: it was cut, or is being written
+  bool is_cut = false;             // a record without its end: cut off, or still being written
 };
 
 class StepLog {
  public:
-  // Reads the whole file once, to find its records. Refuses a file whose first record is not whole,
-  // or holds no mesh.
+  // Reads the whole file once, to find its records. Refuses a file whose first record is damaged or
+  // holds no mesh.
   static Expected<StepLog> open(const std::filesystem::path& path);
 
   const LogHead& head() const { return head_; }
   std::size_t count() const { return steps_.size(); }
   std::uint64_t number_of(std::size_t i) const { return steps_[i].number; }
   std::optional<std::size_t> place_of(std::uint64_t number) const;
-  // Reads step i < count(). The cost is that of one step, if steps are asked for in order.
+  // Reads step i < count(). If steps are read in order, each call reads only the records of one
+  // step.
   Expected<LogStep> step(std::size_t i);
 
   // Returns nothing if the file was read to its end.
   std::optional<LogDamage> damage() const;
-  // Returns whether the recorder was ended.
+  // Returns whether the log has the record that the recorder writes at its end.
   bool is_ended() const { return is_ended_; }
-  // Returns the caller's notes, each by the number of the step that follows it.
+  // Returns the caller's notes. The key of a note is the number of the step that follows the note.
   const std::multimap<std::uint64_t, std::string>& notes() const { return notes_; }
 
   // Reads the records that were appended since the last reading.
@@ -107,11 +110,11 @@ class StepLog {
   std::uint64_t size_ = 0, scanned_ = 0;
   std::int64_t next_record_ = 0;
   bool is_ended_ = false, is_cut_ = false;
-  std::string why_damaged_;  // what is wrong at offset scanned_
+  std::string why_damaged_;  // the damage at offset scanned_
   LogHead head_{};
   std::vector<Place> steps_;
   std::multimap<std::uint64_t, std::string> notes_;
-  // The end of the step that was read last, so that the next one need not read it again.
+  // The positions at the end of the step that was read last; the next step starts from them.
   std::optional<std::size_t> ended_step_;
   std::optional<detector::Positions> end_;
 };

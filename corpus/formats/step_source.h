@@ -1,5 +1,6 @@
-// The steps of one mesh, one after another, from any input: a case that is in memory as a whole, or
-// files, with two frames in memory at a time. Every input of steps is a StepSource.
+// Gives the steps of one mesh, one after another, from any input: from a case, which is in memory
+// as a whole, or from files, of which two frames are in memory at a time. Every input of steps is a
+// StepSource.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ struct SourceStep {
 // A description of an input in words.
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
-  std::vector<std::string> files = {};    // in the order of reading; empty: in the order given
+  std::vector<std::string> files = {};    // in the order of reading; empty: in the user's order
   std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
@@ -35,82 +36,86 @@ class StepSource {
   virtual ~StepSource() = default;
 
   virtual std::size_t count() const = 0;
-  // Returns whether there is a step s, later than all steps that were asked for. An input that
-  // still grows may wait for the step.
+  // Returns whether there is a step s. An input that still grows may wait for the step. REQUIRES an
+  // s later than all steps that were read.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
-  // Returns the number of step s in the whole that the input is a part of, from 0.
+  // Returns the number of step s in the whole run, from 0: the input may be a part of a run.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // Return lines of text: the notes before the last step that was asked for; and, after all steps,
-  // the lost parts of the input and other remarks.
+  // Return lines of text: notes() the notes before the last step that was read; and, after all
+  // steps, lost() the lost parts of the input and last_remarks() other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
   // Returns the number of frames, in memory or not.
   virtual std::size_t frames() const = 0;
-  // Returns whether there is a single frame, whose one step ends where it starts.
+  // Returns whether there is a single frame, and so one step in which nothing moves.
   bool is_at_rest() const { return frames() == 1 && count() == 1; }
   virtual const detector::Triangles& triangles() const = 0;
-  // Returns the frame that a detector is made from. REQUIRES that no step after the first was asked
-  // for.
+  // Returns the frame from which a detector is created. REQUIRES that no step after the first was
+  // read.
   virtual const detector::Positions& first_frame() const = 0;
 
-  // Returns step s < count(). The frames of the step may be freed when the next step is asked for.
-  // Problems: those of a file whose frame is read now. REQUIRES that steps are asked for in order,
-  // and none after a problem.
+  // Returns step s < count(), or a problem of a file that is read for this step. The next call of
+  // step() may free the frames of this step. REQUIRES that steps are read in order, and that no
+  // step is read after a problem.
   virtual Expected<SourceStep> step(std::size_t s) = 0;
 
-  // Returns which pairs count; null: all of them. The same for all steps.
+  // Returns which pairs count in every step; null: all pairs.
   virtual const detector::CountedPairs* counted() const { return nullptr; }
 
-  // Returns the case, if it is in memory as a whole; else null.
+  // Returns the case if the input is a case in memory; otherwise null.
   virtual std::shared_ptr<const Case> whole() const { return nullptr; }
-  // Returns the same case if it states options and facts; null if it is only triangles and frames.
+  // Returns the same case if it comes from a case file, with options and facts; otherwise null.
   virtual const Case* case_file() const { return nullptr; }
 
-  // Reads the remaining frames, and returns the steps as those of a case in memory. REQUIRES that
-  // no step was asked for. This object must not be used afterwards.
+  // Reads the remaining frames into a case in memory, and returns the steps of the case. REQUIRES
+  // that no step was read. This object must not be used afterwards.
   virtual Expected<std::unique_ptr<StepSource>> read_whole() = 0;
 };
 
-// Returns a problem of these steps' triangles as a Problem. If two faces have the same three
-// vertices, it names their places in their file; for other problems it names `file`.
+// Turns a detector's problem with the triangles of `steps` into a Problem. If two faces have the
+// same three vertices, the message names their file and their places in it; otherwise it names
+// `file`.
 Problem problem_of_triangles(const StepSource& steps, const std::filesystem::path& file,
                              const detector::Problem& problem);
 
-// Makes the steps of a case. `is_case_file` says whether case_file() returns the case or null.
+// Makes a source of the steps of a case. `is_case_file` says whether case_file() returns the case
+// or null.
 std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is_case_file,
                                           InputText text = {});
 
-// Makes steps of files. Each file is a frame, and is read once: the first two now, the others when
-// their step is asked for. One file alone is a mesh at rest. Files that are missing or of no known
-// format are refused now. REQUIRES a file.
+// Makes a source of the steps between files. Each file is a frame and is read once: this function
+// reads the first two, and step() reads the others. One file alone is a mesh at rest. This function
+// refuses files that are missing or have no known format. REQUIRES at least one file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 
-// Several meshes as bodies of one: their vertices and triangles follow each other. A body has a
-// file for each frame, or one file: then it stands still.
+// The files of several bodies that are joined into one mesh: vertices and triangles of the bodies
+// follow each other. A body has one file for each frame; a body with a single file stands still.
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
-  // Which pairs count (detector/mesh/counted_pairs.h): bodies that do not meet, and the pairs that
-  // rings of edges and the distance in the first frame leave out.
+  // Which pairs count (detector/mesh/counted_pairs.h): `apart` lists bodies that do not meet;
+  // `rings` of edges, and `rest_distance` in the first frame, leave out pairs.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;
-  // Vertices of a body that stand at one place in every frame count as one. All files are then read
-  // twice. The vertices keep their numbers.
+  // If true, vertices of a body that are at the same place in every frame count as one vertex, and
+  // all files are read twice. The vertices keep their numbers.
   bool weld = false;
 };
-// Does the same for bodies, with the files of each body in the order of their numbers. The relation
-// of the steps has the bodies. REQUIRES a body, and a file of each.
+// Makes a source of the steps of several bodies, like steps_of_files. Puts the files of each body
+// in the order of their numbers. counted() of the source names the bodies. REQUIRES at least one
+// body, and at least one file for each body.
 Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies);
 
-// The purpose of a file. Its first bytes decide, or its name if they do not decide or cannot be
-// read. If the name does not decide either, the purpose is `frames`: the reader of frames then says
-// what it found.
+// The purpose of a file. The first bytes of the file tell it. If they do not tell it or cannot be
+// read, the name of the file does. If the name does not tell it either, the purpose is `frames`:
+// the reader of frames then reports what is wrong.
 enum class InputKind { frames, case_file, log, queries, answers };
 InputKind kind_of_file(const std::filesystem::path& file);
 
-// Reads the steps of these files: of one case file, or of frames of one mesh. REQUIRES a file.
+// Makes a source of the steps of one case file, or of files that are frames of one mesh. REQUIRES
+// at least one file.
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::corpus

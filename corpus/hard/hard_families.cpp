@@ -1,5 +1,5 @@
-// Puts together the families of all files of hard/, makes a case of a family, makes the meshes on
-// grids that cases are made of, and holds view_families().
+// Joins the families of all files of hard/, makes a case of a family and the grid meshes of cases,
+// and holds view_families().
 #include "corpus/hard/hard_families.h"
 
 #include <fmt/format.h>

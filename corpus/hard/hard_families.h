@@ -1,12 +1,12 @@
-// Families of hard cases: small meshes and one step each, made from a strength and a variant, with
-// the exact answer known by construction.
+// Families of hard cases: each case is a small mesh with one step, is made from a strength and a
+// variant, and has an exact answer that is known by construction.
 //
-// The strength turns one knob, and a greater strength is harder. At strength s the knob stands at
-// 2^(exponent_at_0 + slope * s); the meaning of this value depends on the family: a gap in units of
-// the grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a
-// coordinate of 2^52 units; coordinates are below 2^53. If things in a family can touch, one
-// strength after the strongest ends the scale: exact touching, a gap of 0. The parts that cases are
-// made of come first.
+// The strength sets one parameter, the knob, and a greater strength makes a harder case. At
+// strength s the knob is 2^(exponent_at_0 + slope * s). Its meaning depends on the family: a gap in
+// units of the grid, an offset divided by the size, a scale, a number. One unit of the grid is an
+// ulp of a coordinate of 2^52 units; coordinates are below 2^53. If meshes of a family can touch,
+// there is one more strength after the strongest: exact touching, a gap of 0. The parts of a case
+// come first in this file.
 #pragma once
 
 #include <array>
@@ -21,16 +21,17 @@ namespace assay::corpus {
 
 // Hard cases are made on a grid of integers and then bent out of the axes, without any rounding.
 //
-// Each family is built where its answer is plain to see: a face in the plane z = 0, a vertex that
-// comes down on it. There double arithmetic would be right for free, because most products are 0.
-// So an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied
-// at the end. As an affine map it changes neither contacts nor their times nor the view signs of a
-// point, and the coordinates stay integers below 2^53, so they are exact doubles that fill the
-// mantissa. At last each axis is scaled by a power of two.
+// Each family is first built in a place where its answer is easy to see: for example a face in the
+// plane z = 0, and a vertex that comes down on the face. In such a place plain double arithmetic
+// would be right, because most products are 0. So an integer map of determinant 1 (three shears, a
+// cyclic change of axes, a shift) is applied afterwards. An affine map changes neither contacts nor
+// their times nor the view signs of a view-point. The coordinates stay integers below 2^53, so they
+// are exact doubles that fill the mantissa. Finally each axis is scaled by a power of two.
 
 // The free choices of a hard case: integers that depend on its family, strength and variant alone.
-// They are the same on every platform, provided that no two draws are arguments or operands of one
-// expression: C++ evaluates these in any order, but the items of a braced list from left to right.
+// They are the same on every platform if no two draws are arguments or operands of one expression,
+// because C++ evaluates these in any order. (It evaluates the items of a braced list from left to
+// right.)
 //
 // SplitMix64, seeded by FNV-1a of the family's name.
 class Variation {
@@ -39,14 +40,14 @@ class Variation {
     for (const char c : family) {
       state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     }
-    // States of neighbouring strengths and variants are far apart.
+    // These factors put the states of neighbouring strengths and variants far apart.
     constexpr std::uint64_t strength_stride = 0xd1342543de82ef95u,
                             variant_stride = 0x2545f4914f6cdd1d;
     state_ ^= static_cast<std::uint64_t>(strength + 1) * strength_stride;
     state_ ^= static_cast<std::uint64_t>(variant + 1) * variant_stride;
     next();
   }
-  // Returns a number in lo .. hi; the bias of the remainder does no harm here.
+  // Returns a number in lo .. hi. The bias that the remainder (%) causes does no harm here.
   std::int64_t between(std::int64_t lo, std::int64_t hi) {
     const auto n = static_cast<std::uint64_t>(hi - lo) + 1;
     return lo + static_cast<std::int64_t>(next() % n);
@@ -84,13 +85,13 @@ inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
 struct GridMesh {
   std::vector<GridVertex> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<GridVertex> view;  // none, a point, or the two ends of a line
+  std::vector<GridVertex> view;  // empty, a view-point, or the two end points of a view-line
 
   std::int32_t add(const GridVertex& vertex);
-  // Adds a triangle with three vertices of its own, anticlockwise in the order given.
+  // Adds a triangle with three new vertices, in the order of `corners`.
   void add_triangle(const std::array<GridVertex, 3>& corners);
-  // Adds a tetrahedron with four vertices of its own, whose triangles face outward at t=0. Its
-  // i-th triangle lies opposite to corner i.
+  // Adds a tetrahedron with four new vertices, whose triangles face outward at t=0. The i-th
+  // triangle is opposite corner i.
   void add_tetrahedron(const std::array<GridVertex, 4>& corners);
 };
 
@@ -100,26 +101,26 @@ struct GridMap {
   static constexpr std::int64_t growth = 37;
 
   std::array<std::array<std::int64_t, 2>, 3> shears{};  // each in -2 .. 2
-  int turns = 0;                                        // how often C turns the axes by one
+  int turns = 0;                                        // how often C moves the axes on by one
   GridPoint shift;
 
   // Returns a map whose shears have no coefficient 0.
   static GridMap any(Variation& vary);
-  // Returns a change of axes alone. It is for view-lines, because no shear keeps their nearest
-  // points.
+  // Returns a map that only changes axes. View-lines need it, because a shear changes which point
+  // of the line is nearest.
   static GridMap of_axes(Variation& vary);
   GridPoint operator()(GridPoint p) const;
 };
 
-// The facts that the construction of a case tells. It need not tell first_time and view_signs.
+// The facts that the construction of a case tells. It may leave out first_time and view_signs.
 using KnownFacts = ExpectedStep;
 
-// Returns one step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is
-// not exact the process ends; the tests make every case.
+// Returns one step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If a product
+// is not exact, the process ends; the tests make every case, so that no user sees this.
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
                KnownFacts facts);
 
-// These exponents bring coordinates of usual_size to about 1.
+// These exponents scale coordinates of usual_size to about 1.
 inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
 
 // Returns grid_case under some GridMap::any, with coordinates of about 1.
@@ -127,15 +128,16 @@ Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 
 // The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.
 //
-// Why their answers are plain: the block lies in z <= 0 and the spike above its tip (or its lower
-// edge), so nothing meets before the tip or edge reaches z = 0. In a case where the spike misses
-// the block beside it, a plane of constant x or y lies between the two all the time.
+// Their answers are easy to see: the block lies in z <= 0, and all of the spike lies above its tip
+// (or above its lower edge), so the two do not meet before the tip or edge reaches z = 0. In cases
+// where the spike passes beside the block, a plane of constant x or y separates the two all the
+// time.
 
 // Returns 2^exponent units.
 inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
 
-// The usual size of a solid. With growth (37) and heights up to twice that size, coordinates are
-// below 2^52.
+// The usual size of a solid. With the factor GridMap::growth (37), and heights up to 2 usual_size,
+// coordinates are below 2^52.
 inline constexpr int usual_exponent = 45;
 inline constexpr std::int64_t usual_size = std::int64_t{1} << usual_exponent;
 
@@ -150,19 +152,21 @@ void add_block(GridMesh& mesh, Variation& vary, std::int64_t reach, std::int64_t
 enum class Side { all_around, positive_y, negative_y };
 
 // Adds a tetrahedron that moves along with its tip. The other corners are up to `reach` away from
-// the tip along x and y, only to this side, and `height` to 3 `height` above it.
+// the tip along x and y, only on the side `side`, and between `height` and 3 `height` above the
+// tip.
 void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int64_t reach,
                std::int64_t height, Side side);
 
-// Returns a place at height z, straight over or under the inside of every wide face of this reach.
+// Returns a place at height z that lies straight above or below the inside of every wide_face of
+// this reach.
 GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 
 // Returns a vertex at (p.x, p.y) that goes from height z_t0 to z_t1.
 GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
 
 KnownFacts known_free();
-// Returns the facts of a collision at this first time, which is a double; without an argument, the
-// first time is not stated.
+// Returns the facts of a collision; the first time is `first` exactly. Without an argument, no
+// first time is stated.
 KnownFacts known_collision(double first);
 KnownFacts known_collision();
 
@@ -174,9 +178,9 @@ struct HardFamily {
   int exponent_at_0;
   int slope;
   int strongest;  // strengths with a knob are 0 .. strongest
-  int kinds;      // variants v and v + kinds are of one kind and differ in numbers only
-  int touching;   // number of kinds of exact touching; 0: nothing can touch
-  // Makes a case, without its id. Kinds from `kinds` on are those of exact touching.
+  int kinds;      // variants v and v + kinds are of the same kind, with other numbers
+  int touching;   // the number of kinds of exact touching; 0: the meshes cannot touch
+  // Makes a case without its id. The kinds of exact touching are numbered from `kinds` on.
   Case (*make)(Variation& vary, int exponent, int kind);
 
   int exponent(int strength) const { return exponent_at_0 + slope * strength; }
@@ -187,15 +191,16 @@ struct HardFamily {
 
 std::span<const HardFamily> hard_families();
 
-// Makes a case with id (such as "grazing-s12-v3"), about, one step and its expected answer; first
-// time and view signs are stated if the construction tells them. REQUIRES 0 <= strength <=
-// last_strength(), variant >= 0. Cases are small: at most 4,100 triangles, mostly 8.
+// Makes a case of one step with its id (such as "grazing-s12-v3"), its line `about` and its
+// expected answer. It states the first time and the view signs if the construction tells them.
+// REQUIRES 0 <= strength <= last_strength(), variant >= 0. Cases are small: at most 4,100
+// triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 
-// The hard families that each file makes; hard_families.cpp puts them together.
+// Return the hard families of one file each; hard_families() returns all of them.
 
 std::vector<HardFamily> feature_families();  // near-coplanar, near-parallel, slivers, ...
-std::vector<HardFamily> time_families();     // the ends of the step, multiple roots, lengths
+std::vector<HardFamily> time_families();     // t=0 and t=1, multiple roots, lengths
 std::vector<HardFamily> view_families();     // view tests near zero
 std::vector<HardFamily> number_families();   // offsets, scales, denormals
 std::vector<HardFamily> crowd_families();    // duplicates, coplanar sheets, many at once

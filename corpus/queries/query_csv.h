@@ -1,10 +1,11 @@
 // Reads query sets: vertex-face or edge-edge queries, eight rows a query, plain or gzip.
 //
-// A row is x, y and z, each as numerator,denominator, which must equal a double, or as one decimal,
-// which becomes the double nearest to it. Columns are separated by commas, or, where a row has
-// none, by blanks. A further column is the query's truth (1: contact, 0: none). A column after that
-// is the query's separation, a decimal: the truth then says whether the features come within the
-// separation, and its column may be empty. Blank lines and comments (#) are passed over. Rows of an
+// A row is x, y and z. Each is either numerator,denominator, a fraction that must equal a double,
+// or one decimal, which becomes the double nearest to it. Columns are separated by commas, or by
+// blanks if the row has no comma. The next column, which may be missing, is the query's truth (1:
+// contact, 0: no contact). The column after the truth, which may be missing too, is the query's
+// separation, a decimal: then the truth says whether the features come within the separation, and
+// the column of the truth may be empty. Blank lines and comments (#) are ignored. Rows of an
 // edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at t0,
 // the same at t1.
 #pragma once
@@ -21,18 +22,18 @@ namespace assay::corpus {
 
 struct LabelledQuery {
   detector::FourPoints query;
-  // Whether there is a contact in [0,1], or with a separation whether the features come within it;
-  // absent without a label.
+  // Whether there is a contact in [0,1] or, if there is a separation, whether the features come
+  // within the separation; absent if the file does not say it.
   std::optional<bool> truth;
-  // A length in the units of the points, finite and >= 0; absent where contact is asked for.
+  // A length in the units of the points, finite and >= 0; absent if the query asks for contact.
   std::optional<double> separation;
 };
 
-// Reads the queries of a file. The path tells whether they are vertex-face or edge-edge: it has a
-// folder named `vertex-face` or `edge-edge`, or the file's name begins with one of these words or
-// ends in vf or ee (3036vf.csv, 3036ee.csv.gz); an underscore may stand for the hyphen. Any other
-// file is refused. `truth_json` is a file with an array of booleans, one a query, which replace
-// labels in the rows.
+// Reads the queries of a file. The path tells whether the queries are vertex-face or edge-edge: a
+// folder of the path is named `vertex-face` or `edge-edge`, or the file's name begins with one of
+// these words or ends in vf or ee (3036vf.csv, 3036ee.csv.gz). An underscore may replace the
+// hyphen. Any other path is refused. `truth_json` is a file with an array of booleans, one for each
+// query; they replace the truths in the rows.
 Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv,
     const std::optional<std::filesystem::path>& truth_json = std::nullopt);
@@ -51,8 +52,9 @@ struct RationalValue {
 };
 
 // Returns the double that equals numerator/denominator, two decimal integers of any sign and
-// length. not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no
-// double needs them). not_a_double: no double equals the fraction, overflow included.
+// length. `not_a_number`: the numerator or the denominator has letters, blanks inside, or more than
+// 20,000 digits (no double needs so many). `not_a_double`: no double equals the fraction, or the
+// fraction overflows.
 RationalValue exact_double(std::string_view numerator, std::string_view denominator);
 
 }  // namespace assay::corpus

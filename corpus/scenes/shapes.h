@@ -1,6 +1,6 @@
-// Shapes of the scenes: at rest, and as meshes that move. For a rest shape, `size` is the wanted
-// number of triangles; the shape takes the nearest number that it can have. Closed shapes are
-// cycles with outward normals. Sine and cosine, which shapes and motions use, come last.
+// Shapes of the scenes: at rest, and as moving meshes. For a rest shape, `size` is the wanted
+// number of triangles; the shape has the nearest number that is possible. Closed shapes are cycles
+// with outward normals. Sine and cosine, which shapes and motions use, come last.
 #pragma once
 
 #include <algorithm>
@@ -14,22 +14,22 @@ namespace assay::corpus {
 // Returns the unit sphere: an icosahedron with each face split into f^2 triangles, 20 f^2 in all.
 Mesh sphere_shape(int size);
 
-// Returns a tube along z, radius 0.5, length 6, centre at the origin. With m vertices around it has
-// 4 m^2 triangles and, with flat caps, 2 m more.
+// Returns a tube along z, radius 0.5, length 6, centre at the origin. With m vertices around it,
+// the tube has 4 m^2 triangles; flat caps add 2 m triangles.
 Mesh tube_shape(int size, bool capped);
 
-// Returns a torus around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the
-// thin way.
+// Returns a torus around the z axis, radii 1 and 0.4. With m vertices around the tube of radius
+// 0.4, it has 4 m^2 triangles.
 Mesh torus_shape(int size);
 
 // Returns the square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
 Mesh sheet_shape(int size);
 
-// Returns the rectangle [0,1] x [0,0.5] in the plane z = 0, normal +z, 8 k by k squares: 16 k^2
-// triangles.
+// Returns the rectangle [0,1] x [0,0.5] in the plane z = 0, normal +z. It is cut into 8 k by k
+// squares, and has 16 k^2 triangles.
 Mesh ribbon_shape(int size);
 
-// Returns both meshes as one; b is moved by `offset` along x. Triangles of a come first.
+// Returns both meshes as one mesh; b is moved by `offset` along x. Triangles of a come first.
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
 
 // Returns the n >= least whose count(n) is nearest to size. REQUIRES that count rises with n.
@@ -40,7 +40,7 @@ int nearest_resolution(int size, int least, Count count) {
   return size - count(n) <= count(n + 1) - size ? n : n + 1;
 }
 
-// A grid of so many cells, two triangles each.
+// A grid of `columns` by `rows` cells; each cell has two triangles.
 struct Sheet {
   int columns, rows;
   bool is_round = false;   // the last column meets the first
@@ -48,8 +48,8 @@ struct Sheet {
   bool is_turned = false;  // the orientation of all triangles is reversed
 };
 
-// Adds a sheet to a MeshMaker or anything else with `vertex` and `quad`; place(k, i) says where the
-// vertex of column k and row i is. Returns the first vertex.
+// Adds a sheet to `maker`, and returns its first vertex. `maker` is a MeshMaker, or another class
+// with `vertex` and `quad`; place(k, i) returns the place of the vertex in column k and row i.
 template <class Maker, class Place>
 std::int32_t add_sheet(Maker& maker, const Sheet& sheet, const Place& place) {
   const int across = sheet.columns + (sheet.is_round ? 0 : 1);
@@ -100,7 +100,7 @@ class MeshMaker {
     corners_.insert(corners_.end(), {a, b, c});
   }
 
-  // Takes corners counter-clockwise, and splits the quad along ac.
+  // Adds the quad with corners a, b, c, d, counter-clockwise, split along ac.
   void quad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     triangle(a, b, c);
     triangle(a, c, d);
@@ -120,29 +120,30 @@ class MeshMaker {
   std::vector<std::int32_t> corners_;
 };
 
-// Scenes that give a mesh for every time s of the scene, in [0,1], or for every place of a tip.
+// Functions that give the mesh of a scene for every time s in [0,1] of the scene, or (BoxWithArm)
+// for every height of a tip.
 //
-// Scenes of the first kind fill a collision detector with work: many layers, many bodies, a body
-// wound about itself, many thin strips. At s = 0 nothing touches. How far anything moves, and how
-// thick and close it is, does not depend on `size`, which is the wanted number of triangles; where
-// a shape has a number of parts, a larger size has more of them. Fields for the scenes that move
-// the vertices of one mesh follow.
+// The scenes of times s give a collision detector much work: many layers, many bodies, a body wound
+// about itself, many thin strips. At s = 0 nothing touches. `size` is the wanted number of
+// triangles. Distances, thicknesses and lengths of motion do not depend on `size`; if a shape has
+// several parts, a larger size means more parts. Fields, which move the vertices of a given mesh,
+// follow further below.
 
-// Returns square sheets one over the other, in the same folds. They are nearer to each other than
-// they move, and each slides and bulges in its own way. 50 of them from 1,600 triangles on, else
-// fewer.
+// Returns square sheets, one over the other, in the same folds. They move farther than the distance
+// between them, and each slides and bulges in its own way. There are 50 sheets from 1,600 triangles
+// on, and fewer below that.
 Mesh layered_cloth(int size, double s);
 
-// Returns spheres of 80 triangles and several radii on a cubic grid, which draws together while
-// they turn. 1,000 of them at 80,000 triangles.
+// Returns spheres of 80 triangles each, of several radii, on a cubic grid. The grid shrinks while
+// the spheres turn. 80,000 triangles make 1,000 spheres.
 Mesh pile_of_bodies(int size, double s);
 
-// Returns a closed tube along a trefoil knot. The knot is drawn together while the tube stays as
-// thick as it is. The tube has twelve times as many pieces along its length as around it.
+// Returns a closed tube along a trefoil knot. The knot tightens while the thickness of the tube
+// stays the same. The tube has twelve times as many pieces along its length as around it.
 Mesh tightening_knot(int size, double s);
 
 // Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed:
-// neighbouring columns lean to opposite sides. 5,000 of them at 240,000 triangles.
+// neighbouring columns lean to opposite sides. 240,000 triangles make 5,000 strips.
 Mesh combed_hair(int size, double s);
 
 // A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
@@ -150,12 +151,12 @@ Mesh combed_hair(int size, double s);
 //
 // The box is [-1,1]^3, the hole |x|, |y| < 1/3 at z = 1; the arm is 0.2 wide. All edges are about 2
 // / (3 b) long for a resolution b >= 1, and each of the four sides of the arm is k = max(1, b / 3)
-// edges wide. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the arm is deepest at most
-// 16 b k + 12 k of them are inside: below 5 % if b is 3 or more (1,204 triangles).
+// edges wide. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the arm is deepest, at most
+// 16 b k + 12 k of the triangles are inside the box: below 5 % if b is 3 or more (1,204 triangles).
 struct BoxWithArm {
   explicit BoxWithArm(int size);
 
-  Mesh mesh;  // with the arm at `tip_outside`
+  Mesh mesh;  // with the tip of the arm at height tip_outside
 
   // Returns the positions when the tip of the arm is at height z over the hole's middle. The arm
   // touches nothing for deepest_tip <= z <= tip_outside.
@@ -166,17 +167,18 @@ struct BoxWithArm {
 
  private:
   int resolution_;
-  std::int32_t first_sliding_ = 0;  // vertices from here on are the rings that follow the tip
+  std::int32_t first_sliding_ = 0;  // the vertices from this one on follow the tip
 };
 
-// Fields that move each vertex by itself. All of them are the identity at s = 0.
+// Fields: each maps a vertex at rest to its place at time s. Unless a comment says otherwise, a
+// field is the identity at s = 0.
 //
-// s in [0,1] is the scene's own time. `Extent` scales a field to the mesh that it is applied to.
+// s in [0,1] is the scene's own time. `extent` scales the field to the mesh.
 
 struct Extent {
   detector::Point centre = {0, 0, 0};
   double radius = 1;     // half the longest side of the box around the mesh
-  std::size_t axis = 2;  // of that side
+  std::size_t axis = 2;  // the axis of the longest side
 };
 
 // Returns the middle, half-length and axis of the box around a mesh. A mesh without extent gets
@@ -186,55 +188,58 @@ Extent extent_of(const detector::PositionsView& positions);
 using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
 
 // Moves each vertex along its ray from the centre, by about 25 % and unevenly: out, back, and
-// inward. A mesh that is positive from the centre stays so, between the frames too.
+// inward. A mesh whose triangles are all positive for a view-point at the centre stays so, between
+// the frames too.
 detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
 
-// Bends the long axis into an arc. At the end the arc is 1.02 turns of a circle, so a tube's ends
-// meet.
+// Bends the long axis into an arc. At s = 1 the arc is 1.02 turns of a circle, so the two ends of a
+// tube meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
-// Turns each place about the long axis in proportion to its height, one turn from end to end.
+// Turns each place about the long axis in proportion to its height, by one turn over its whole
+// length at s = 1.
 detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 
 // Shrinks and adds waves that fold the surface over itself.
 detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
 
-// Pushes the cap around +z down through the sphere and out at the other side. This field and those
-// below are for shapes of this room, in their own coordinates; they do not use `extent`.
+// Pushes the cap around +z down through the sphere and out at the other side. This field and the
+// fields below are for the shapes of this file, in the shapes' own coordinates; they do not use
+// `extent`.
 detector::Point dent(const detector::Point& x, double s, const Extent& extent);
 // Presses the torus's hole shut at x = 0.
 detector::Point pinch(const detector::Point& x, double s, const Extent& extent);
-// Rolls the sheet up about a line x = 0.15 until its free edge comes down on it.
+// Rolls the sheet up about the line x = 0.15 until its free edge comes down on the sheet.
 detector::Point fold(const detector::Point& x, double s, const Extent& extent);
-// Narrows the tube to a waist around z = 0, at the end 40 % as wide.
+// Narrows the tube to a waist around z = 0; at s = 1 the waist is 40 % as wide as the tube.
 detector::Point narrow(const detector::Point& x, double s, const Extent& extent);
 
-// Takes unclosed surfaces through their own holes, or around them, and back again.
+// Fields that move unclosed surfaces through their own holes, or around them, and back again.
 //
-// These are fields too, for shapes of this room in their own coordinates, but periodic: the places
-// at s = 1 are those at s = 0, bit by bit, so that a sequence can be played again and again. Fields
-// of a tube take tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is at most
-// a fortieth of the period.
+// They are periodic: the places at s = 1 equal the places at s = 0, bit by bit, so a sequence can
+// be repeated without end. They are for shapes of this file, in the shapes' own coordinates: tubes
+// are tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is at most a fortieth
+// of the period.
 
-// Rolls the tube's upper end outward and down over the tube until all of it is inside out. The
+// Rolls the tube's upper end outward and down over the tube until the whole tube is inside out. The
 // identity at s = 0.
 detector::Point turn_inside_out(const detector::Point& x, double s, const Extent& extent);
 
 // Tapers the tube to the upper end, cuts it obliquely there, and bends it to an arc: of 0.85 turns
-// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While the
-// narrow end goes in, the fans over the two ends cross.
+// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside the wide end. While the
+// narrow end goes in, the fans that close the two ends cross.
 detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
 
-// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 at s = 1/2. Its own fan
-// lies right across it.
+// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 turns at s = 1/2. The fan
+// that closes the ribbon lies right across the spiral.
 detector::Point wind(const detector::Point& x, double s, const Extent& extent);
 
 // Returns the height of a ball over the tube's middle: it goes along the axis from -4.5 to 4.5 and
 // back.
 double ball_height(double s);
 
-// Sine and cosine of a part of a turn, from + - * / and floor only. Libraries differ in the last
-// bit of std::sin, and a scene must be the same mesh everywhere.
+// Sine and cosine of a fraction of a turn, computed with + - * / and floor only. Libraries differ
+// in the last bit of std::sin, and a scene must be the same mesh everywhere.
 
 inline constexpr double pi = 3.14159265358979323846;
 
