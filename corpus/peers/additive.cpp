@@ -1,26 +1,28 @@
-// Additive continuous collision detection (Li et al. 2021) of two simulators, in doubles, on the
-// CPU: CodimIpc if ASSAY_PEER_CODIM_IPC is 1, otherwise Libuipc.
+// Additive continuous collision detection (Li et al. 2021) as two simulators implement it, in
+// doubles, on the CPU: CodimIpc if ASSAY_PEER_CODIM_IPC is 1, otherwise Libuipc.
 //
 //   CodimIpc  Point_Triangle_CCD and Edge_Edge_CCD of Math/Distance/CCD, commit 9c6cbe3a
-//             (2022-11-01) of ipc-sim/Codim-IPC: eta 0.1, thickness 0, after its test of boxes, as
-//             FEM/IPC calls them
+//             (2022-11-01) of ipc-sim/Codim-IPC, with eta 0.1 and thickness 0. Its test of boxes
+//             comes first, as in FEM/IPC
 //   Libuipc   point_triangle_ccd and edge_edge_ccd of utils/distance/ccd, commit 619a5412
-//             (2026-07-08) of spiriMirror/libuipc, which are compiled for host and device: eta 0.1,
-//             thickness 0, at most 1000 rounds, after its test of boxes that are d_hat 0.01 apart,
-//             as stackless_bvh_simplex_trajectory_filter calls them
+//             (2026-07-08) of spiriMirror/libuipc, with eta 0.1, thickness 0 and at most 1000
+//             rounds. These functions are compiled for host and device. Its test whether boxes are
+//             d_hat 0.01 apart comes first, as in stackless_bvh_simplex_trajectory_filter
 //
-// Contract: 1e-6 apart at the start ("we ensured other place that all dist smaller than dHat are
-// positive", both say, and a distance of 0 by rounding gives NaN), and coordinates of usual sizes;
-// the time is a lower bound. Claims: free-sound and not-late, because the authors of both claim it:
-// C-IPC "interpenetration-free" (its paper's abstract), libuipc "penetration-free frictional
-// contact" (README, line 18). Neither says that it reports contacts only: features that come near
-// may be reported. As limiters (limiter.h) their share is the time. Claim: path-free.
+// Contract: features are 1e-6 apart at the start (both sources say "we ensured other place that all
+// dist smaller than dHat are positive", and a distance that rounds to 0 gives NaN), and coordinates
+// are of usual sizes; the time is a lower bound. Claims: free-sound and not-late, because the
+// authors of both simulators promise it: C-IPC "interpenetration-free" (its paper's abstract),
+// libuipc "penetration-free frictional contact" (README, line 18). Neither promises to report
+// contacts only, so features that only come near can be reported. As a limiter (limiter.h), each
+// gives the time as its share, and claims path-free.
 //
-// Expected before the first run: both stop before contacts, and announce features that come near.
-// Parallel edges: where the lines' distance is rounded to 0, both go by the corners ("this must be
-// some far away nearly parallel edges"), which may be farther apart than the edges are: a miss.
-// (That run did not yet leave out starts nearer than the contract allows. Such starts gave what was
-// expected, and CodimIpc never ended where a vertex starts at a face.)
+// Expected before the first run: both stop before contacts, and report features that only come
+// near. If the distance of the lines of parallel edges is rounded to 0, both use the distance of
+// the corners ("this must be some far away nearly parallel edges"). The corners can be farther
+// apart than the edges, so a contact is missed. (The first run did not yet leave out starts that
+// are nearer than the contract allows. These starts gave the expected results, and CodimIpc never
+// ended if a vertex started on a face.)
 #include <cmath>
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>

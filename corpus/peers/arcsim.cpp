@@ -1,19 +1,20 @@
 // ArcSim (Narain et al. 2012): the elementary test of its collision handling.
 //
 // Version: commit e17d93b5 (2022-07-17) of kaist-silab/arcsim, which calls itself 0.3.1. Function:
-// collision_test of its source collision, which is no part of a header, so that file is included as
-// it is; find_impacts calls it for pairs that share no node and whose boxes meet. Settings: the
-// values that are fixed there (a distance below 1e-6, weights above -1e-6, Newton's method to 1e-6
-// of the step). Contract: no contact at the start, and coordinates of usual sizes. Claims:
-// free-sound, because collision_response moves until find_impacts is empty, and its header mesh
-// calls the result the "collision-free position" of the next step; not-late is not claimed, because
-// Newton's method ends within 1e-6 on either side.
+// collision_test of its source file collision. No header declares the function, so this file
+// includes that source file unchanged. find_impacts calls the function for pairs that share no node
+// and whose boxes meet. Settings: the values that are fixed in the function (a distance below 1e-6,
+// weights above -1e-6, Newton's method to 1e-6 of the step). Contract: no contact at the start, and
+// coordinates of usual sizes. Claims: free-sound, because collision_response moves vertices until
+// find_impacts finds nothing, and its header mesh calls the result the "collision-free position" of
+// the next step. Not-late is not claimed, because Newton's method can end up to 1e-6 too early or
+// too late.
 //
 // Expected before the first run: four points that start within a millionth of one plane are skipped
-// ("initially coplanar"), so that edges of one plane that fold through each other are missed. The
-// end of the step is put behind the roots ("also check at end of timestep"), but the loop ends
-// before it. Newton's method returns the last place but one, and 1e-6 is a length: misses where
-// coordinates or ways are large. Motion within a plane is missed.
+// ("initially coplanar"), so edges of one plane that fold through each other are missed. The end of
+// the step is appended to the roots ("also check at end of timestep"), but the loop stops before
+// this last entry. Newton's method returns its second-to-last iterate, and 1e-6 is a length, so
+// contacts are missed if coordinates or motions are large. Motion within a plane is missed.
 #include <fstream>
 #include <iostream>
 

@@ -1,21 +1,22 @@
-// Bernstein sign classification in its two public forms, ASSAY_PEER_SIGNS: BSC (Tang et al. 2014,
-// which is exact where a filter cannot tell) and TightCCD (Wang et al. 2015, with error bounds).
+// Bernstein sign classification in its two public forms: BSC (Tang et al. 2014), which is exact if
+// its filter cannot decide, and TightCCD (Wang et al. 2015), which uses error bounds.
+// ASSAY_PEER_SIGNS chooses one of them.
 //
 // Version: commits 8db61b25 (2020-09-25) of
 // Continuous-Collision-Detection/Root-Parity-and-Bernstein-Sign-Classification, and 366384ba
 // (2020-09-23) of Continuous-Collision-Detection/TightCCD. Functions: Intersect_VF_robust (the
-// vertex stands last, as in CCD-Wrapper) and Intersect_EE_robust of the headers bsc and
+// vertex is the last argument, as in CCD-Wrapper) and Intersect_EE_robust of the headers bsc and
 // bsc_tightbound; they tell no time. An exception of BSC ("Inflection points are not handled
-// exactly in BSC!") counts as a collision, as CCD-Wrapper has it ("Conservative answer upon
-// failure"). Settings: none. Contract: no contact at the start; coordinates of usual sizes. Claims:
-// free-sound from the abstracts of their papers: BSC offers "a geometrically exact CCD algorithm
-// ... to perform reliable Boolean collision queries", TightCCD "eliminates all the false negatives
-// and 90 - 95% of the false positives". No-spurious is claimed for neither.
+// exactly in BSC!") counts as a collision, as in CCD-Wrapper ("Conservative answer upon failure").
+// Settings: none. Contract: no contact at the start; coordinates of usual sizes. Claims: free-sound
+// from the abstracts of their papers: BSC offers "a geometrically exact CCD algorithm ... to
+// perform reliable Boolean collision queries", TightCCD "eliminates all the false negatives and 90
+// - 95% of the false positives". No-spurious is claimed for neither.
 //
-// Expected before the first run: both are in doubt where the cubic has an inflection in the step
-// (bsc_tightbound says of its own line "here has false negatives"); motion within a plane, where
-// all coefficients are 0; triangles without area. Differences of coordinates are rounded before
-// anything is exact, which BSC's bounds leave out.
+// Expected before the first run: both can be wrong if the cubic has an inflection in the step (a
+// comment of bsc_tightbound says of its own line "here has false negatives"), for motion within a
+// plane, where all coefficients are 0, and for triangles without area. Differences of coordinates
+// are rounded before the exact arithmetic begins, and BSC's bounds do not cover this rounding.
 #include <cfenv>
 #include <stdexcept>
 #include ASSAY_PEER_HEADER

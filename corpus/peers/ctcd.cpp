@@ -1,19 +1,22 @@
 // CTCD, Etienne Vouga's root finder in floating point (Harmon et al. 2011; FPRF of Wang et al.
-// 2021). It is built with ASSAY_PEER_SEPARATION 0 and 1e-3, which is its distance eta. With eta 0,
-// no features are "closer than a distance eta", so for contacts eta is 1e-8.
+// 2021). It is built twice, with ASSAY_PEER_SEPARATION 0 and 1e-3. The separation is its distance
+// eta; for separation 0 eta is 1e-8, because with eta 0 no features are "closer than a distance
+// eta".
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,
-// edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as its
-// CTCDNarrowPhase combines them. Settings: eta alone. Contract: no contact at the start;
-// coordinates of usual sizes, because eta is a length. Claims: free-sound and not-late, from that
-// header ("Returns true if the vertex and face ever come closer than a distance eta to each other,
-// and stores the earliest time"; of edges "Does not work correctly if two edges are parallel at the
-// time of intersection -- vertexEdgeCTCD should catch this case, though", which is asked, too).
+// edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as in its
+// CTCDNarrowPhase. Settings: eta alone. Contract: no contact at the start; coordinates of usual
+// sizes, because eta is a length. Claims: free-sound and not-late, from the header CTCD ("Returns
+// true if the vertex and face ever come closer than a distance eta to each other, and stores the
+// earliest time"; of edges "Does not work correctly if two edges are parallel at the time of
+// intersection -- vertexEdgeCTCD should catch this case, though"; the peer calls vertexEdgeCTCD,
+// too).
 //
-// Expected before the first run: with 1e-8, the polynomial of degree 6 is the square of the cubic
-// but for 1e-16, and rpoly loses its double roots, so that plain contacts are missed. With 1e-3,
-// faces and edges that turn (polynomials of full degree) and large coordinates; parallel edges are
-// caught by the vertices; quadratics with b = 0 and D = 0 are 0/0.
+// Expected before the first run: with eta 1e-8, the polynomial of degree 6 differs from the square
+// of the cubic by only 1e-16, and rpoly loses its double roots, so simple contacts are missed. With
+// eta 1e-3, contacts of turning faces and edges (polynomials of full degree) and contacts at large
+// coordinates are missed. The tests of vertices find contacts of parallel edges. Quadratics with b
+// = 0 and D = 0 give 0/0.
 #include <CTCD.h>
 
 #include "corpus/peers/feature_pairs.h"

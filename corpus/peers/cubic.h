@@ -1,6 +1,6 @@
-// The textbook method of many simulators. The times at which four points lie in one plane are the
-// roots of a cubic (Provot 1997). At each root the point has to lie in the triangle, or the edges
-// have to cross, up to a tolerance. All is computed in numbers of one kind.
+// The textbook method, which many simulators use. The times at which four points lie in one plane
+// are the roots of a cubic (Provot 1997). At each root the point has to lie in the triangle, or the
+// edges have to cross, up to a tolerance. Everything is computed in one number type.
 #pragma once
 
 #include <cmath>
@@ -41,9 +41,9 @@ struct Roots {
   }
 };
 
-// `Solver` has `using Number`; `static constexpr Number tolerance`, for barycentric numbers and
-// for times; and `static Roots<Number> roots_of(a, b, c, d)`, the roots of a t^3 + b t^2 + c t +
-// d, or none if that polynomial is zero.
+// `Solver` has `using Number`; `static constexpr Number tolerance`, for barycentric coordinates and
+// for times; and `static Roots<Number> roots_of(a, b, c, d)`, the roots of a t^3 + b t^2 + c t + d,
+// or none if that polynomial is zero.
 template <class Solver>
 class CubicTests {
   using Number = typename Solver::Number;
@@ -68,7 +68,8 @@ class CubicTests {
     return share >= -Solver::tolerance && share <= 1 + Solver::tolerance;
   }
 
-  // Returns whether the point lies over the triangle.
+  // Returns whether the point's projection onto the triangle's plane lies in the triangle, up to
+  // the tolerance.
   static bool point_meets(const V& p, const V& a, const V& b, const V& c) {
     const V normal = cross(b - a, c - a);
     const Number area = dot(normal, normal);
@@ -78,7 +79,7 @@ class CubicTests {
     return is_inside(v) && is_inside(w) && is_inside(1 - v - w);
   }
 
-  // Returns whether the nearest points of the two lines lie on the edges.
+  // Returns whether the nearest points of the edges' lines lie on the edges, up to the tolerance.
   static bool edges_meet(const V& a, const V& b, const V& c, const V& d) {
     const V normal = cross(b - a, d - c);
     const Number area = dot(normal, normal);
@@ -91,7 +92,7 @@ class CubicTests {
   // Returns the first time at which the four points lie in one plane and `meets` holds.
   template <class Meets>
   static Time first_time(const FourPaths& paths, const Meets& meets) {
-    V x[4], v[4];  // place at t = 0 and motion, relative to the first point
+    V x[4], v[4];  // place at t = 0, and motion, relative to the first point
     for (int i = 1; i < 4; ++i) {
       x[i] = vector_of(paths.at[0][i]) - vector_of(paths.at[0][0]);
       v[i] = vector_of(paths.at[1][i]) - vector_of(paths.at[1][0]) - x[i];
@@ -111,7 +112,7 @@ class CubicTests {
   }
 };
 
-// Returns the description that all peers of this method share, but for their names.
+// Returns the description that all peers of this method have in common; it lacks a name.
 inline plugin::Description cubic_description() {
   plugin::Description d;
   d.version = "1";

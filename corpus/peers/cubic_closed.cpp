@@ -1,20 +1,20 @@
-// The textbook method (cubic.h), the roots in closed form, in doubles (Doubles) and in floats
-// (Floats), as it runs on graphics cards: ASSAY_PEER_NUMBERS says which.
+// The textbook method (cubic.h) with the roots in closed form. ASSAY_PEER_NUMBERS chooses Doubles,
+// or Floats, as the method runs on graphics cards.
 //
-// Version: 1, of this file. Settings: one tolerance, of barycentric numbers and of times: 1e-6 in
-// doubles; in floats 1e-5, which is some 80 steps of a float below 1, and coefficients below 1e-7
-// of the greatest count as zero. Contract: no contact at the start, coordinates of usual sizes (in
-// floats float32), times within the tolerance. Claims: free-sound and not-late, because Bridson,
-// Fedkiw and Anderson, Robust treatment of collisions, contact and friction for cloth animation
-// (2002), section 6.1, offer the same test ("we check for interference at the roots") as one that
-// finds all collisions of a step; total and deterministic, because it is a function of its
-// arguments. The paper promises all of this without a word on rounding, and speaks of no
+// Version: 1, of this file. Settings: one tolerance, of barycentric coordinates and of times. It is
+// 1e-6 in doubles and 1e-5 in floats (some 80 steps of a float below 1). In floats, coefficients
+// below 1e-7 of the greatest coefficient are treated as zero. Contract: no contact at the start,
+// coordinates of usual sizes (in floats float32), times within the tolerance. Claims: free-sound
+// and not-late, because Bridson, Fedkiw and Anderson, Robust treatment of collisions, contact and
+// friction for cloth animation (2002), section 6.1, offer the same test ("we check for interference
+// at the roots") and say that it finds all collisions of a step; total and deterministic, because
+// it is a function of its arguments. The paper promises this without a word on rounding or
 // arithmetic.
 //
-// As a limiter (limiter.h) it stops at 0.9 of the first time, the part that solvers with a line
-// search keep (Li et al., Incremental potential contact, 2020, scale the time of a collision
-// before they step). Claims: commit-free and path-free, from the same place: a step that stops a
-// tenth before the first of all collisions is free.
+// As a limiter (limiter.h) it stops at 0.9 of the first time, as solvers with a line search do (Li
+// et al., Incremental potential contact, 2020, scale the time of a collision before they step).
+// Claims: commit-free and path-free, because of the same promise of the paper: if the first time is
+// the time of the first collision, a step that stops a tenth earlier is free.
 #include "corpus/peers/cubic.h"
 #include "corpus/peers/limiter.h"
 

@@ -1,13 +1,14 @@
-// The textbook method (cubic.h) in doubles, the roots by Eigen's PolynomialSolver.
+// The textbook method (cubic.h) in doubles, with the roots by Eigen's PolynomialSolver.
 //
-// Version: that of the Eigen it is compiled with. Functions: Eigen::PolynomialSolver of the
-// unsupported module Polynomials, compute and realRoots. Settings: the defaults (a root is real if
-// its imaginary part is below the dummy precision of doubles, 1e-12), and the tolerance of
-// cubic_closed.cpp. The solver divides by the leading coefficient, so leading coefficients that are
-// 0 are left out, as its users do. Contract and claims: those of cubic_closed.cpp, from the same
-// place, because they are the method's. Eigen promises less: its solver is "guaranteed to provide a
-// correct result only when the complex roots have distinct moduli", so a contact that is missed
-// when two roots have the same modulus is no fault of Eigen's.
+// Version: the version of the Eigen library that it is compiled with. Functions:
+// Eigen::PolynomialSolver of the unsupported module Polynomials, compute and realRoots. Settings:
+// the defaults (a root is real if its imaginary part is below the dummy precision of doubles,
+// 1e-12), and the tolerance of cubic_closed.cpp. The solver divides by the leading coefficient, so
+// the peer leaves out leading coefficients that are 0, as users of the solver do. Contract and
+// claims: as in cubic_closed.cpp and from the same paper, because they belong to the method. Eigen
+// promises less: its solver is "guaranteed to provide a correct result only when the complex roots
+// have distinct moduli". So it is no fault of Eigen's if a contact is missed because two roots have
+// the same modulus.
 #include <Eigen/Core>
 #include <unsupported/Eigen/Polynomials>
 

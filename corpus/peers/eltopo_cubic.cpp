@@ -1,18 +1,19 @@
 // El Topo (Brochu and Bridson 2009): the elementary tests of its default, a cubic solver.
 //
 // Version: commit 5579391e (2025-05-22) of tysonbrochu/eltopo. Functions: point_triangle_collision
-// and segment_segment_collision of its ccd_wrapper, called as its collisionpipeline calls them;
-// they tell no time. Settings: USE_CUBIC_SOLVER_CCD, its default, with the values that are fixed
-// there (coplanarity to 1e-8 of the sum of the coefficients, distance below 1e-6). Contract: no
+// and segment_segment_collision of its ccd_wrapper, called as in its collisionpipeline; they tell
+// no time. Settings: USE_CUBIC_SOLVER_CCD, its default, with the values that are fixed in its
+// sources (coplanarity to 1e-8 of the sum of the coefficients, distance below 1e-6). Contract: no
 // contact at the start; coordinates of usual sizes, because 1e-6 is a length. Claim: free-sound,
 // because its readme says that el_topo_integrate "moves the surface vertices while guaranteeing no
-// self-intersections", and the wrapper "If there is a collision, returns true". Features that come
-// within 1e-6 may be announced, so no-spurious is not claimed.
+// self-intersections", and its ccd_wrapper says "If there is a collision, returns true". Features
+// that only come within 1e-6 can be reported, so no-spurious is not claimed.
 //
-// Expected before the first run: motion within a plane is missed, because the cubic is 0 throughout
-// and then t = 0 and t = 1 alone are looked at. Large coordinates and long ways are missed, because
-// a root is known to 1e-10 of the coefficients alone, and at the time found the features may be
-// farther apart than 1e-6. Ends of features and small lengths are right.
+// Expected before the first run: contacts of motion within a plane are missed, because the cubic is
+// 0 throughout, and then only t = 0 and t = 1 are looked at. Contacts at large coordinates and on
+// long paths are missed, because a root is only accurate to 1e-10 of the coefficients, and at that
+// time the features can be farther apart than 1e-6. Answers at ends of features and for small
+// lengths are right.
 #include <ccd_wrapper.h>
 
 #include "corpus/peers/feature_pairs.h"

@@ -1,18 +1,20 @@
 // El Topo's other method: root parity (Brochu, Edwards and Bridson 2012).
 //
 // Version: commit 5579391e (2025-05-22) of tysonbrochu/eltopo. Function:
-// rootparity::RootParityCollisionTest::run_test, as its wrapper calls it; it tells no time.
-// Settings: none; -O2, as its makefile has it. Contract: no contact at the start; coordinates of
-// usual sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number
-// of ray intersections (corresponding to an odd number of roots of F in the domain)", and an odd
-// number is at least one. It also says that an even number is answered "no", so free-sound is not
-// claimed; contacts that it misses stand in brackets, and are looked into where the number is odd.
-// Deterministic is not claimed either: culled rays are drawn by rand().
+// rootparity::RootParityCollisionTest::run_test, called as in its wrapper; it tells no time.
+// Settings: none; -O2, as in its makefile. Contract: no contact at the start; coordinates of usual
+// sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number of ray
+// intersections (corresponding to an odd number of roots of F in the domain)", and an odd number is
+// at least one. This also says that the answer for an even number is "no", so free-sound is not
+// claimed. Contacts that it misses are shown in brackets, and are looked into if the number of
+// roots is odd. Deterministic is not claimed either, because the function draws the rays for
+// culling by rand().
 //
-// Expected before the first run: features that pass twice are missed, as promised. Motion within a
-// plane maps the domain into a plane, where crossings of the ray are degenerate: there it gives up
-// or answers at random. It rounds differences of coordinates before it is exact, so near misses and
-// contacts may be judged wrongly unless coordinates are small whole numbers.
+// Expected before the first run: features that pass each other twice are missed, as the header
+// says. Motion within a plane maps the domain into a plane, and a ray crosses that plane in a
+// degenerate way: then the function gives up or answers at random. It rounds differences of
+// coordinates before its exact arithmetic begins. So near misses and contacts can be judged
+// wrongly, unless coordinates are small whole numbers.
 #include <rootparitycollisiontest.h>
 
 #include "corpus/peers/feature_pairs.h"

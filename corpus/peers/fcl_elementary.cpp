@@ -7,9 +7,9 @@
 // epsilons are lengths; times within ten times its resolution. Claims: free-sound and not-late
 // from its README ("continuous collision detection: detecting whether the two moving models
 // overlap during the movement, and optionally, the time of contact"); total and deterministic,
-// because they are functions of their arguments that return a bool. Its public function for meshes
-// takes rigid motions alone, so the two are called directly; the adapter takes care of neighbours
-// that share vertices.
+// because they are functions of their arguments that return a bool. FCL's public function for
+// meshes takes rigid motions alone, so the peer calls the two tests directly; feature_pairs.h
+// leaves out features that share a vertex.
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
 #include "corpus/peers/feature_pairs.h"

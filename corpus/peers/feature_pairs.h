@@ -1,8 +1,8 @@
 // The common part of the peers that test features. Two triangles have six pairs of a vertex and a
-// face and nine of two edges. The peer's elementary tests are asked about all of these that share
-// no vertex, as FCL's own traversal of meshes does, and the first time of the two triangles is the
-// least of the tests. Two features that several pairs of triangles hold are tested again for each
-// pair.
+// face and nine of two edges. The peer's elementary tests judge all of these pairs that share no
+// vertex, as in FCL's own traversal of meshes. The first time of the two triangles is the least
+// time of the tests. Two features that belong to several pairs of triangles are tested again for
+// each pair of triangles.
 #pragma once
 
 #include <type_traits>
@@ -12,13 +12,13 @@
 
 namespace assay::peers {
 
-// Four points of a step: a vertex and the corners of a face, or the ends of two edges.
+// Four points of a step: a vertex and the corners of a face, or the end points of two edges.
 struct FourPaths {
   const double* at[2][4];  // at t = 0 and at t = 1
 };
 
-// Calls test(four points at t = 0, the same at t = 1, more...) with points of the peer's own type,
-// which is made of three numbers.
+// Calls test(four points at t = 0, the four points at t = 1, more...) with points of the peer's own
+// type, which has a constructor of three numbers.
 template <class Point, class Test, class... More>
 auto ask_points(const Test& test, const FourPaths& paths, More&&... more) {
   using Number = std::decay_t<decltype(std::declval<Point&>()[0])>;
@@ -30,8 +30,9 @@ auto ask_points(const Test& test, const FourPaths& paths, More&&... more) {
               std::forward<More>(more)...);
 }
 
-// Return the time of a contact, if one was found: for a peer that knows the time, for one that
-// knows a time before which there is no contact, and for one that knows no time.
+// Return the time of a contact, or nothing if `found` is false. at_time is for a peer that tells
+// the time, not_before for a peer that tells a lower bound of the time, some_time for a peer that
+// tells no time.
 inline Time at_time(bool found, double time) {
   return found ? Time(plugin::Interval{{time, time}}) : std::nullopt;
 }
@@ -40,9 +41,9 @@ inline Time not_before(bool found, double time) {
 }
 inline Time some_time(bool found) { return not_before(found, 0); }
 
-// Returns the description that most peers have in common. They want a free start, and coordinates
-// of usual sizes, because their tolerances are lengths. They are functions of their arguments that
-// return a bool.
+// Returns the description that most peers have in common. These peers demand a start without
+// contact, and coordinates of usual sizes, because their tolerances are lengths. They claim to be
+// deterministic and total, because they are functions of their arguments that return a bool.
 inline plugin::Description usual_description(const char* name, const char* version,
                                              std::uint32_t claims) {
   plugin::Description d;
@@ -55,8 +56,8 @@ inline plugin::Description usual_description(const char* name, const char* versi
   return d;
 }
 
-// `Tests` has `Time vertex_face(const FourPaths&)` and `edge_edge`: when the two features meet
-// first, or nothing when they do not.
+// `Tests` has `Time vertex_face(const FourPaths&)` and `edge_edge`, which return the first time at
+// which the two features meet, or nothing if they do not meet.
 template <class Tests>
 struct FeatureTests {
   static Time first_time(const TrianglePath& s, const TrianglePath& t) {
@@ -118,7 +119,8 @@ class FeaturePairs : public TrianglePairs<FeatureTests<Tests>> {
   }
 };
 
-// The peer of a `Tests` that also has `static plugin::Description describe()`.
+// The peer with the elementary tests of `Tests`, which also has `static plugin::Description
+// describe()`.
 template <class Tests>
 struct PeerOf : FeaturePairs<Tests> {
   explicit PeerOf(const plugin::Mesh& mesh) : FeaturePairs<Tests>(mesh, describe().separation) {}

@@ -1,11 +1,13 @@
-// Assay behind the interfaces of the IPC Toolkit, for a program that is built on the toolkit:
+// Implements the broad and narrow phase interfaces of the IPC Toolkit by Assay, for a program that
+// uses the toolkit:
 //
 //   AssayBroadPhase broad_phase;
 //   const double size = ipc::compute_collision_free_stepsize(
 //       mesh, x_t0, x_t1, min_distance, &broad_phase, AssayNarrowPhase());
 //
-// Detector::limit gives the step in one call, with end positions that have no contact even after
-// rounding: ipc_line_search.cpp shows both ways. ipc_mesh.h states the version of the toolkit.
+// Alternatively, Detector::limit gives the step size in one call, with end positions that have no
+// contact even after rounding. ipc_line_search.cpp shows both ways. ipc_mesh.h states the version
+// of the toolkit.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +26,13 @@
 
 namespace assay::peers {
 
-// Answers vertex-face and edge-edge queries in exact arithmetic on the given, finite doubles.
-// Passes point-point and point-edge queries on to the toolkit's Tight-Inclusion.
+// Answers vertex-face and edge-edge queries in exact arithmetic on the input doubles, which must be
+// finite. Passes point-point and point-edge queries on to the toolkit's Tight-Inclusion.
 //
 // Let t be the first time in [0,1] at which two features are within min_distance. Then toi is
 // conservative_rescaling * t, and a collision is reported if toi <= tmax. Comparing toi, not t,
 // keeps the margin of every pair, because the toolkit passes the toi of one pair as tmax of the
-// next. toi is never above t, and 0 only if t is 0 or below the least positive double.
+// next. toi is never above t. toi is 0 only if t is 0 or below the least positive double.
 class AssayNarrowPhase : public ipc::TightInclusionCCD {
   using Vector = Eigen::ConstRef<Eigen::Vector3d>;
   using AnyVector = Eigen::ConstRef<ipc::VectorMax3d>;  // in the plane or in space
@@ -75,7 +77,7 @@ class AssayNarrowPhase : public ipc::TightInclusionCCD {
     const ProcessorState state;
     ++exact;
     const double until = std::min(1., tmax / conservative_rescaling);
-    // To compute an exact time costs more than to see that it is too late.
+    // To compute an exact time costs more than to prove that it is later than `until`.
     const auto is_later = [&] {
       return d > 0 ? filter_near(query, d).lo > until : surely_later(query, until) != Later::no;
     };
@@ -90,12 +92,13 @@ class AssayNarrowPhase : public ipc::TightInclusionCCD {
 };
 
 // Lists face-vertex and edge-edge candidates by the detector's tree and feature pairs, in one
-// thread: all pairs without a common vertex that come within twice the inflation radius, because
-// each element is inflated. With a radius of 0, neighbours that are proved apart are left out.
+// thread. The candidates are all pairs without a common vertex that come within twice the inflation
+// radius, because both elements of a pair are inflated. With a radius of 0, the list leaves out
+// neighbours that are proved apart.
 //
-// The toolkit's LBVH answers the rest: other kinds of candidates, boxes, and meshes that lie in the
-// plane, have a vertex or an edge of no face, or name their edges twice or not at all. The tree is
-// kept until faces or edges change.
+// The toolkit's LBVH answers all else: other kinds of candidates, input that is given as boxes, and
+// meshes that are two-dimensional, have a vertex or an edge of no face, or list an edge twice or
+// not at all. The tree is used again until faces or edges change.
 class AssayBroadPhase : public ipc::BroadPhase {
   using Matrix = Eigen::ConstRef<Eigen::MatrixXd>;
   using Indices = Eigen::ConstRef<Eigen::MatrixXi>;
@@ -164,7 +167,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
   }
 
  private:
-  // Makes the tree, if the elements differ from those that the last tree was made for.
+  // Makes the tree if the edges or faces differ from the edges and faces of the last tree.
   void take(Matrix x, Indices edges, Indices faces) {
     using namespace detector;
     const auto are = [](const Eigen::MatrixXi& a, Indices b) {
@@ -182,7 +185,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
       const auto edge = std::ranges::lower_bound(all, ends);
       if (edge != all.end() && *edge == ends) row_of_edge_[edge - all.begin()] = row;
     }
-    const auto& starts = topology_.vertex_triangles.starts;  // two are equal: a vertex of no face
+    const auto& starts = topology_.vertex_triangles.starts;  // equal starts: a vertex of no face
     is_served_ = edges.rows() == std::ssize(all) && std::ranges::count(row_of_edge_, -1) == 0 &&
                  std::ranges::adjacent_find(starts) == starts.end();
     edges_ = edges;
@@ -199,7 +202,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
     return lbvh_;
   }
 
-  // Returns the feature pairs of both kinds, and finds them if that is not done yet.
+  // Returns the vertex-face and edge-edge pairs. The first call after build() finds them.
   const std::vector<detector::FeatureKey>& near() const {
     using namespace detector;
     ++served;
@@ -223,15 +226,15 @@ class AssayBroadPhase : public ipc::BroadPhase {
     WideSearch().search({topology_, *tree_, marks, everything}, counts, take_pair);
     return near_;
   }
-  // Returns, as the toolkit does, whether some vertex of the one may collide with some vertex of
-  // the other.
+  // Returns whether some vertex of `one` is allowed to collide with some vertex of `other`, as the
+  // toolkit does.
   bool may_collide(std::span<const int> one, std::span<const int> other) const {
     return std::ranges::any_of(one, [&](int v) {
       return std::ranges::any_of(other, [&](int w) { return can_vertices_collide(v, w); });
     });
   }
 
-  // The elements that tree_ was made for.
+  // The edges and faces for which tree_ was made.
   Eigen::MatrixXi edges_, faces_;
   detector::Topology topology_;
   std::vector<int> row_of_edge_;  // in edges_, by edge of the topology

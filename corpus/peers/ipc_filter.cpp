@@ -2,25 +2,25 @@
 // of Offset Geometric Contact (Chen et al. 2025), and planes of Divide and Truncate (Chen et al.
 // 2026). They are limiters that give positions.
 //
-// Functions: those of ipc::ogc::TrustRegion, ipc/ogc/trust_region.hpp, one target each
-// (ASSAY_PEER_FILTER), with min_distance ASSAY_PEER_SEPARATION, 0 or 1e-3:
+// Functions: members of ipc::ogc::TrustRegion, ipc/ogc/trust_region.hpp. ASSAY_PEER_FILTER chooses
+// one of four filters for a target; min_distance is ASSAY_PEER_SEPARATION, 0 or 1e-3:
 //
 //   warm_start    warm_start_time_step, which moves the vertices itself
 //   trust_region  update, then filter_step
 //   planar        update, then planar_filter_step ("a drop-in replacement for filter_step")
-//   tutorial      update_if_needed, given dhat as the tutorial "Offset Geometric Contact" writes it
-//                 in the place of min_distance, then filter_step; only with distance 0
+//   tutorial      update_if_needed, then filter_step; as in the tutorial "Offset Geometric
+//                 Contact", dhat is the argument for min_distance; only with distance 0
 //
-// Settings: the defaults; dhat 1e-3; the radius of the query is that of warm_start_time_step, 2
-// dhat or the longest way of a vertex, for the tutorial calls that one first. Claims: commit-free,
-// by their documentation. The tutorial says that the method is "designed to guarantee
-// penetration-free simulation", and of the filtered step "Now dx is safe to apply: x += dx". The
-// header of the planar filter says "while retaining the penetration-free guarantee", and the header
-// of all filters "Minimum distance between elements". Deterministic and total, because the filters
-// are functions of their arguments. They leave the straight path, so nothing is claimed about the
-// path or about how far they go. If features of neighbours start nearer than min_distance, an
-// assertion of compute_per_vertex_safe_distances refuses the start. The filters are not asked then,
-// and the mesh stays.
+// Settings: the defaults, with dhat 1e-3. The radius of the query is that of warm_start_time_step
+// (2 dhat, or the longest path of a vertex), because the tutorial calls warm_start_time_step first.
+// Claims: commit-free, by the toolkit's documentation. The tutorial says that the method is
+// "designed to guarantee penetration-free simulation", and of the filtered step "Now dx is safe to
+// apply: x += dx". The header says of the planar filter "while retaining the penetration-free
+// guarantee", and for all filters "Minimum distance between elements". Also claimed: deterministic
+// and total, because the filters are functions of their arguments. The filters leave the straight
+// path, so nothing is claimed about the path or about how far they go. If features of neighbours
+// start nearer than min_distance, an assertion of compute_per_vertex_safe_distances refuses the
+// start. In this case the peer does not call the filters, and the mesh does not move.
 #include <ipc/ogc/trust_region.hpp>
 
 #include "corpus/peers/ipc_mesh.h"

@@ -1,20 +1,22 @@
-// A line search with the IPC Toolkit, with Assay behind the toolkit's interfaces, and with a
-// Detector, side by side: ipc_line_search FRAME FRAME...
+// Compares a line search by the IPC Toolkit, by Assay behind the toolkit's interfaces, and by a
+// Detector: ipc_line_search FRAME FRAME...
 //
-// As in a solver, the mesh goes from where it is toward the next frame as far as it may, and then
-// toward the one after. On each way twenty questions are asked: how far may it go toward the frame,
-// and toward places 0.9, 0.9^2, ... of the way there. Each question is put to
+// As in a solver, the mesh moves toward the next frame as far as it can without contact, and then
+// from there toward the frame after that. The program asks twenty questions on the way to a frame:
+// how far can the mesh go toward the frame, and toward the places at 0.9, 0.9^2, ... of the way.
+// Five methods answer each question:
 //
 //   toolkit    LBVH's candidates, Tight-Inclusion
 //   narrow     LBVH's candidates, AssayNarrowPhase
 //   both       the candidates of AssayBroadPhase, AssayNarrowPhase
-//   limit      Detector::limit with keeps_near; the way to its places is free, as they are rounded
-//   first      Detector::first_contact with keeps_near: the exact time alone
+//   limit      Detector::limit with keeps_near; the way to its rounded end positions is free
+//   first      Detector::first_contact with keeps_near; gives only the exact time
 //
-// As solvers do, the first three list candidates once a way, at its first question, because a
-// shorter step needs no others. A Detector keeps what it found up to the first contact, so it
-// answers shorter steps in less time once they end before it. All work in one thread. Each row is a
-// question: the shares of the way that may be taken, and milliseconds.
+// The first three methods list candidates once for each frame, at the first question, as solvers
+// do: a shorter step needs no other candidates. A Detector stores what it found before the first
+// contact, so it needs less time for shorter steps that end before this contact. All methods work
+// in one thread. A row of the output is one question: for each method, the share of the way that
+// can be taken, and milliseconds.
 #include <tbb/global_control.h>
 
 #include <chrono>

@@ -1,6 +1,6 @@
-// The common part of the peers of the IPC Toolkit: its collision mesh, the number of its threads,
-// and the contract: no contact at the start, and coordinates of usual sizes, because the toolkit's
-// tolerances are lengths. The toolkit reports no pairs.
+// The common part of the peers of the IPC Toolkit: the toolkit's collision mesh, the number of its
+// threads, and the contract. The contract demands no contact at the start, and coordinates of usual
+// sizes, because the toolkit's tolerances are lengths. The toolkit reports no pairs.
 //
 // Version: 1.6.0, commit b40e9c07 of its public sources. Version 1.5.0 has no planar filter
 // (ipc_filter.cpp).
@@ -23,12 +23,12 @@ class IpcMesh {
  public:
   static constexpr double separation = ASSAY_PEER_SEPARATION;
 
-  // Limits the number of TBB's threads, because the toolkit works in these.
+  // Limits the number of TBB's threads, because the toolkit works in TBB's threads.
   static void use_threads(std::uint32_t count) {
     static std::unique_ptr<tbb::global_control> limit;
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
-    ipc::logger().set_level(spdlog::level::err);  // else it warns for each pair
+    ipc::logger().set_level(spdlog::level::err);  // otherwise the toolkit warns for each pair
   }
 
   static plugin::Description description() {
@@ -46,8 +46,8 @@ class IpcMesh {
  protected:
   explicit IpcMesh(const plugin::Mesh& mesh) : used_(used_of(mesh)), mesh_(made(mesh)) {}
 
-  // Returns the rows of the vertices that are corners of triangles. The toolkit would take the
-  // other vertices for points that collide, and its own way to leave vertices out
+  // Returns the rows of the vertices that are corners of triangles. The toolkit would treat the
+  // other vertices as points that collide, and its own function that leaves out vertices
   // (build_from_full_mesh) rounds positions.
   Eigen::MatrixXd rows_of(plugin::Positions positions) const {
     return plugin::eigen(positions)(used_, Eigen::all);

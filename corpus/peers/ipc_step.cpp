@@ -1,30 +1,32 @@
-// A step of the IPC Toolkit (ipc_mesh.h): the broad phase LBVH, and the largest part of the step
-// that is free of collisions by one of its narrow phases.
+// A step of the IPC Toolkit (ipc_mesh.h): the broad phase LBVH and one of two narrow phases find
+// the largest part of the step that is free of collisions.
 //
-// Functions: ipc::CollisionMesh and ipc::compute_collision_free_stepsize of ipc/ipc.hpp, as its
-// tutorial "Getting started" calls them. Settings: the defaults of each, and min_distance
+// Functions: ipc::CollisionMesh and ipc::compute_collision_free_stepsize of ipc/ipc.hpp, called as
+// in its tutorial "Getting started". Settings: the defaults, and min_distance
 // ASSAY_PEER_SEPARATION: 0, or 1e-3 ("The minimum distance allowable between any two elements";
-// "CCD with a minimum separation distance"). Contract of both narrow phases: that of ipc_mesh.h
-// ("Assumes vertices_t0 is intersection free"). Neither promises how near two features are that it
-// takes for a collision.
+// "CCD with a minimum separation distance"). Contract of both narrow phases: as in ipc_mesh.h
+// ("Assumes vertices_t0 is intersection free"). Neither narrow phase promises a distance below
+// which it reports a collision.
 //
 // ASSAY_PEER_NARROW chooses the narrow phase:
 //
 // tight_inclusion, its default. Claims: free-sound and not-late, from its documentation ("provably
 // conservative (i.e., never misses collisions)", Getting started, section "Narrow phase"; "Computes
 // a maximal step size that is collision free", ipc.hpp); deterministic and total, because it is a
-// function of its arguments that returns a number. The step it gives stays clear of the contact on
-// purpose. The report shows how early it is, and does not hold that against it. As a limiter
-// (limiter.h): path-free and commit-free, from the same places, for the caller of Getting started
+// function of its arguments that returns a number. By design, its step ends before the contact. The
+// report shows how much too early it ends, and this is no defect. As a limiter (limiter.h):
+// path-free and commit-free, from the same documentation, because the caller in "Getting started"
 // goes to "(vertices_t1 - vertices_t0) * max_step_size + vertices_t0" and is then "collision-free".
-// Not progress: "maximal" cannot be meant of a step that stays clear.
+// It does not claim progress, because "maximal" cannot be meant literally of a step that ends
+// before the contact.
 //
-// additive: additive CCD (Li et al. 2021). Claims: deterministic and total. Not free-sound:
-// additive_ccd.hpp says of it that it "is not provably conservative and so can potentially produce
-// false negatives (i.e., miss collisions) due to floating-point rounding error". Contacts that it
-// misses are shown, and not held against it. As a limiter: path-free and commit-free, from ipc.hpp
-// ("A step-size in [0, 1] that is collision free"), which excepts no narrow phase. The exception
-// above stays: failures by rounding are shown, and not held against it.
+// additive: additive CCD (Li et al. 2021). Claims: deterministic and total. It does not claim
+// free-sound: additive_ccd.hpp says that the method "is not provably conservative and so can
+// potentially produce false negatives (i.e., miss collisions) due to floating-point rounding
+// error". Contacts that it misses are shown, and are no defects. As a limiter: path-free and
+// commit-free, from ipc.hpp ("A step-size in [0, 1] that is collision free"), which excludes no
+// narrow phase. The sentence of additive_ccd.hpp still applies: failures by rounding are shown, and
+// are no defects.
 #include <ipc/ccd/additive_ccd.hpp>
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 #include <ipc/ipc.hpp>

@@ -1,5 +1,6 @@
-// Makes a limiter, which says how far a step may be taken, of a peer that tells when the step first
-// touches. Each such peer is built twice: NAME with ASSAY_PEER_LIMIT 0, and NAME_limit with 1.
+// Turns a peer that tells the first contact time into a limiter, which tells how far a step can be
+// taken. Each such peer is built twice: as NAME with ASSAY_PEER_LIMIT 0, and as NAME_limit with
+// ASSAY_PEER_LIMIT 1.
 #pragma once
 
 #include <type_traits>
@@ -9,8 +10,8 @@
 namespace assay::peers {
 
 // `Peer` is a detector that also has `static constexpr double part_of_time`, the part of the first
-// time that a caller goes, and `static constexpr std::uint32_t limit_claims`. The caller stops at
-// x_t0 + share (x_t1 - x_t0), as the IPC Toolkit's Getting started writes it.
+// contact time up to which a caller goes, and `static constexpr std::uint32_t limit_claims`. The
+// caller stops at x_t0 + share (x_t1 - x_t0), as in "Getting started" of the IPC Toolkit.
 template <class Peer>
 class LimiterOf {
  public:
@@ -20,7 +21,7 @@ class LimiterOf {
     plugin::Description d = Peer::describe();
     d.claims = Peer::limit_claims | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
     d.limit_gives = ASSAY_LIMIT_START_PLUS;
-    d.margin = 0;  // a margin is for reports
+    d.margin = 0;  // only reports of pairs use a margin
     return d;
   }
 
@@ -39,7 +40,8 @@ class LimiterOf {
   Peer peer_;
 };
 
-// The peer of `Tests` whose times are lower bounds, so that a caller may go up to the time itself.
+// The peer of `Tests` whose times are lower bounds of contact times, so a caller can go up to the
+// time itself.
 template <class Tests>
 struct LowerBoundOf : PeerOf<Tests> {
   static constexpr double part_of_time = 1;

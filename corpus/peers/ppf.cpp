@@ -2,18 +2,18 @@
 //
 // Version: commit f23b3565 (2026-08-07) of st-tech/ppf-contact-solver. Functions:
 // accd::point_triangle_ccd and accd::edge_edge_ccd of contact/accd, which its emulator compiles for
-// the host, too. Settings: offset 0, ghat 1e-3 (the gap that stays free between surfaces is a
-// hundredth of it), and its defaults line_search_max_t 1.25 and ccd_eps 1e-7. Contract: float32,
-// 1e-5 apart at the start, where it parks features that come nearer, and coordinates up to 10
-// ("compare ghat against FLT_EPSILON times the scene radius", its source says, and gives 10 as an
-// example); the time is a lower bound. Claims: free-sound and not-late ("Contact resolutions are
-// penetration-free", its README, line 33). It does not say that it reports contacts only. As a
-// limiter (limiter.h) its share is the time. Claim: path-free.
+// the host, too. Settings: offset 0, ghat 1e-3 (surfaces keep a gap of a hundredth of ghat), and
+// its defaults line_search_max_t 1.25 and ccd_eps 1e-7. Contract: float32; features 1e-5 apart at
+// the start, the distance at which it stops features that come nearer; and coordinates up to 10
+// (its source says "compare ghat against FLT_EPSILON times the scene radius", and gives 10 as an
+// example). The time is a lower bound. Claims: free-sound and not-late ("Contact resolutions are
+// penetration-free", its README, line 33). It does not promise to report contacts only. As a
+// limiter (limiter.h) it gives the time as its share, and claims path-free.
 //
-// Expected before the first run: few defects, because its distances are the least of all
-// candidates, and the last step is verified. A float loses digits of differences of positions, so
-// it fails for large coordinates and near misses; features that come within 1e-5 are announced. A
-// start at which a float takes the distance for 0 gives a share of 0.
+// Expected before the first run: few defects, because its distance is the least distance of all
+// candidates, and it verifies its last step. A float loses digits in differences of positions, so
+// it fails for large coordinates and near misses; features that only come within 1e-5 are reported.
+// If the distance at the start is 0 in floats, the share is 0.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

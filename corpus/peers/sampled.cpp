@@ -1,14 +1,16 @@
-// No continuous detection: static tests of triangles at SAMPLES times of the step, evenly spaced
-// and the last at its end, as programs do that have a static test alone. The tests are exact.
+// No continuous detection: exact static tests of triangles at ASSAY_PEER_SAMPLES times of the step,
+// evenly spaced, the last at the end of the step. Programs that only have a static test work like
+// this.
 //
-// Version: that of the CGAL it is compiled with. Function: CGAL::do_intersect of two Triangle_3 of
-// a kernel with exact predicates (oracle/referee/static_check.cpp), put to triangles that share no
-// vertex and whose boxes meet at that time; positions at a time are rounded to doubles. Settings:
-// none but the number of samples. Contract: no contact at the start; no neighbours, because the
-// function says nothing of triangles that share a vertex; coordinates as the others have them. A
-// triangle without area is not tested, as the function demands. Claims: deterministic and total
-// alone, because nobody promises that samples see everything. The time told is the interval between
-// a sample with a contact and the sample before.
+// Version: the version of the CGAL library that it is compiled with. Function: CGAL::do_intersect
+// of two Triangle_3 of a kernel with exact predicates (oracle/referee/static_check.cpp). It tests
+// triangles that share no vertex and whose boxes meet at the time of the sample; positions at that
+// time are rounded to doubles. Settings: the number of samples. Contract: no contact at the start;
+// no neighbours, because the function says nothing about triangles that share a vertex; coordinates
+// of usual sizes. A triangle without area is not tested, because the function demands an area.
+// Claims: deterministic and total alone, because nobody promises that samples find every contact.
+// The reported time is the interval from the sample before a contact to the sample with the
+// contact.
 #include "corpus/peers/triangle_pairs.h"
 
 extern "C" int assay_triangles_meet_now(const double* a, const double* b);

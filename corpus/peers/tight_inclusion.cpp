@@ -1,32 +1,33 @@
-// Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021), put to all pairs
-// of features of triangles whose swept boxes meet. It is built with ASSAY_PEER_SEPARATION 0, and
-// with 1e-3, its minimum separation ms; and each of these again as a limiter (limiter.h).
+// Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021). It tests all
+// pairs of features of triangles whose swept boxes meet. It is built with ASSAY_PEER_SEPARATION 0
+// and with 1e-3, which is its minimum separation ms, and each of the two also as a limiter
+// (limiter.h).
 //
 // Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:
-// ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
-// README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query),
+// ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, as its README
+// suggests for a single query: err {-1, -1, -1} (then it computes the error bound of the query),
 // tolerance 1e-6, t_max 1, max_itr 1e6, no_zero_toi false, breadth-first. Contract: no contact at
-// the start, and coordinates of usual sizes, because its tolerance is a length; its time is a
-// lower bound. Claims: free-sound and not-late from its README ("Because our method is
-// conservative, we guarantee a result of false implies no collision occurs"; "toi: ... it will
-// return the earliest collision time"); total and deterministic, because they are functions of
-// their arguments that return a bool. It announces a collision when features only come nearer to
-// each other than tolerance, so of ms 0 no-spurious is not claimed.
+// the start, and coordinates of usual sizes, because its tolerance is a length; its time is a lower
+// bound. Claims: free-sound and not-late from its README ("Because our method is conservative, we
+// guarantee a result of false implies no collision occurs"; "toi: ... it will return the earliest
+// collision time"); total and deterministic, because they are functions of their arguments that
+// return a bool. It also reports a collision if features only come nearer to each other than its
+// tolerance, so no-spurious is not claimed with ms 0.
 //
-// With ms the same is claimed of features that come within ms ("We guarantee a collision will be
-// reported if the distance between the two primitives is less than ms"), and no-spurious too: a
-// false alarm happens "only if the minimal distance ... is no larger than tolerance + ms + err".
-// It does not say which distance that is. The code compares each coordinate (interval_root_finder,
-// evaluate_bbox_one_dimension_vector), so it is the greatest difference along an axis, and the
-// slack is given for that: sqrt(3) (ms + tolerance + err) - ms. Queries that end by max_itr are
-// excepted there ("the solving precision may not reach the target precision"), and are not told
-// apart here.
+// With ms 1e-3 the same is claimed for features that come within ms ("We guarantee a collision will
+// be reported if the distance between the two primitives is less than ms"). No-spurious is claimed,
+// too: a false alarm happens "only if the minimal distance ... is no larger than tolerance + ms +
+// err". The README does not say how this distance is measured. The code compares each coordinate
+// (interval_root_finder, evaluate_bbox_one_dimension_vector), so the distance is the greatest
+// difference along an axis, and the slack of this peer is sqrt(3) (ms + tolerance + err) - ms. The
+// README excludes queries that end by max_itr ("the solving precision may not reach the target
+// precision"); this peer does not recognise them.
 //
-// As a limiter its share is toi. Claim: path-free, because toi is the time of a conservative test
-// (README.md: "it will return the earliest collision time"). Not commit-free: it calls a step
-// "intersection-free" only for simulators that keep clear by an ms above 0, and it says nothing
-// about the rounding of positions. Not progress, nor whole-when-safe, because features that come
-// within tolerance, ms and err may stop it.
+// As a limiter it gives toi as its share. Claim: path-free, because toi is the time of a
+// conservative test (README.md: "it will return the earliest collision time"). It does not claim
+// commit-free: the README calls a step "intersection-free" only for simulators that keep a distance
+// ms above 0, and it says nothing about the rounding of positions. It claims neither progress nor
+// whole-when-safe, because features that come within tolerance, ms and err can stop it.
 #include <cmath>
 #include <tight_inclusion/ccd.hpp>
 

@@ -1,7 +1,7 @@
-// The common part of the peers that test two triangles at a time. They test every pair of triangles
-// whose swept boxes meet, and the step's first time is the least of the pairs' times. If a peer is
-// asked for a distance, it tests only triangles that share no vertex, and boxes count up to that
-// distance.
+// The common part of the peers that test one pair of triangles at a time. They test every pair of
+// triangles whose swept boxes meet, and the first time of the step is the least time of the pairs.
+// A peer with a separation tests only triangles that share no vertex, and grows the boxes by the
+// separation.
 #pragma once
 
 #include <algorithm>
@@ -45,10 +45,11 @@ struct Box {
 };
 
 // Finds which triangles come near each other in a step, by a tree of boxes that is made once and
-// fitted to each step, as any detector has one. Peers share it, so the time by which they differ
-// is that of their elementary tests.
+// fitted to each step, as is usual in detectors. All peers use this tree, so differences of their
+// running times come from their elementary tests.
 //
-// Halves the boxes at the median of their centres along the widest axis until each is alone.
+// Splits the boxes at the median of their centres along the widest axis until each leaf has one
+// box.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes) {
@@ -59,7 +60,7 @@ class BoxTree {
     grow(boxes, items.data(), items.data() + items.size());
   }
 
-  // Fits the same tree to other boxes of the same items.
+  // Fits the tree to new boxes of the same items.
   void fit(const std::vector<Box>& boxes) {
     for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand behind their parents
       Node& node = nodes_[i];
@@ -68,7 +69,7 @@ class BoxTree {
     }
   }
 
-  // Calls visit(a, b) for every two items whose boxes meet, a < b, each once.
+  // Calls visit(a, b), a < b, once for every two items whose boxes meet.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -142,8 +143,8 @@ struct TrianglePath {
   }
 };
 
-// `Test` has `static Time first_time(const TrianglePath&, const TrianglePath&)`: when the two
-// triangles meet first, or nothing when they do not.
+// `Test` has `static Time first_time(const TrianglePath&, const TrianglePath&)`, which returns the
+// first time at which the two triangles meet, or nothing if they do not meet.
 template <class Test>
 class TrianglePairs {
  public:
@@ -188,7 +189,7 @@ class TrianglePairs {
       for (const auto& at : path.at) {
         for (const double* p : at) box.take(p);
       }
-      // Half of it would be enough without rounding.
+      // Without rounding, half of the separation would be enough.
       box.grow(separation_);
       boxes_.push_back(box);
     }

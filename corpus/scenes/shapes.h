@@ -196,8 +196,8 @@ detector::Point breathe(const detector::Point& x, double s, const Extent& extent
 // tube meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
-// Turns each place about the long axis in proportion to its height, by one turn over its whole
-// length at s = 1.
+// Turns each place about the long axis in proportion to its height: at s = 1 the two ends of the
+// axis differ by one turn.
 detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 
 // Shrinks and adds waves that fold the surface over itself.
