@@ -2,7 +2,7 @@
 """Confirms the numbers printed in FINDINGS.md, and the cases of meshes/, by arithmetic that nothing
 else here uses: fractions, polynomials through values at five times, and Sturm's theorem.
 
-It prints a line for each finding, and ends with 1 if one is refuted.
+It prints a line for each finding. Its exit code is 1 if a finding or a case is refuted.
 """
 import json
 import math
@@ -14,8 +14,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 MESHES, VECTORS = HERE / "meshes", HERE.parent / "vectors"
-MOST_WORDS = 150  # of a finding, as it would stand in a tracker
-# Beyond the step, and no short fractions: halves of what lies between are never roots, nor ends.
+MOST_WORDS = 150  # of a finding, so that it fits into an issue
+# Beyond the step, and no short fractions, so that no midpoint of a bisection is a root or an end.
 LO, HI = Fraction(-1, 10007), 1 + Fraction(1, 10009)
 
 
@@ -35,7 +35,7 @@ def remainder(p, q):
 
 
 def polynomial(values):
-    """Through values at 0, 1, 2, ..."""
+    """Returns the polynomial that has these values at 0, 1, 2, ..."""
     total, basis = [], [Fraction(1)]
     for k, v in enumerate(values):
         factor = (v - value(total, k)) / value(basis, k)
@@ -45,7 +45,7 @@ def polynomial(values):
 
 
 def count(p, lo, hi):
-    """How many roots there are between."""
+    """Returns the number of different roots of p between lo and hi."""
     chain = [p, trimmed([i * c for i, c in enumerate(p)][1:])]
     while chain[-1]:
         chain.append([-c for c in remainder(chain[-2], chain[-1])])
@@ -55,13 +55,13 @@ def count(p, lo, hi):
 
 
 class Root:
-    """The only one of p between lo and hi."""
+    """The only root of p between lo and hi."""
 
     def __init__(self, p, lo, hi):
         self.p, self.lo, self.hi = p, lo, hi
 
     def sign(self, q):
-        """The sign of another polynomial there."""
+        """Returns the sign of the polynomial q at this root."""
         p, shared = q, self.p
         while p:
             p, shared = remainder(shared, p), p
@@ -78,7 +78,7 @@ class Root:
 
 
 def roots(p, lo=LO, hi=HI):
-    """Those of the step."""
+    """Returns the roots of p in the step."""
     found, middle = count(p, lo, hi), (lo + hi) / 2
     if found > 1:
         return roots(p, lo, middle) + roots(p, middle, hi)
@@ -103,8 +103,8 @@ def points_at(t, x0, x1):
 
 
 def facts(is_face, a, b, c, d):
-    """Four points: their volume, the normal (3), what is not negative within, and of each end and
-    segment: what is 0 on its line (3), and not negative between its ends."""
+    """Returns for four points: the volume, the normal (3), values that are >= 0 inside; for each
+    end point and segment: values that are 0 on its line (3), and one that is >= 0 within it."""
     if is_face:
         normal = cross(minus(c, b), minus(d, b))
         inside = [dot(cross(minus(q, p), minus(a, p)), normal) for p, q in ((b, c), (c, d), (d, b))]
@@ -119,7 +119,7 @@ def facts(is_face, a, b, c, d):
 
 
 def contacts(is_face, x0, x1):
-    """Times of the step at which they meet, the first among them."""
+    """Returns times of the step at which the features meet; the first such time is among them."""
     values = [facts(is_face, *points_at(t, x0, x1)) for t in range(5)]
     volume, *others = map(polynomial, zip(*values))
     borders = 3 if is_face else 4
@@ -136,8 +136,8 @@ def contacts(is_face, x0, x1):
 
 
 def pierces(triangle, other, x):
-    """Whether an edge passes strictly through the other triangle. What only touches is a contact
-    of two features."""
+    """Returns whether an edge of `triangle` passes strictly through `other`. An edge that only
+    touches is a contact of two features."""
     def side(*four):
         a, *rest = ([Fraction(c) for c in x[i]] for i in four)
         volume = dot(minus(rest[0], a), cross(minus(rest[1], a), minus(rest[2], a)))
@@ -162,14 +162,14 @@ def mesh_contacts(triangles, x0, x1):
 
 
 def begin(times, lo, hi):
-    """Whether the first is one of these times; if there are none, whether there is none."""
+    """Returns whether the first of `times` is in [lo, hi]; if lo is None, whether none is there."""
     if lo is None:
         return not times
     return all(t.compared(lo) >= 0 for t in times) and any(t.compared(hi) <= 0 for t in times)
 
 
 def square(a, b, c, d):
-    """Of the distance of a vertex from a face."""
+    """Returns the squared distance of a vertex from a face."""
     sizes = []
     for p, q in ((b, c), (c, d), (d, b)):
         share = max(0, min(1, dot(minus(q, p), minus(a, p)) / dot(minus(q, p), minus(q, p))))
@@ -181,8 +181,8 @@ def square(a, b, c, d):
 
 
 def told(text):
-    """The times that the page allows: a fraction and a root to the end, what is rounded by its
-    digits; None, None of what is free."""
+    """Returns the least and the greatest time that the text allows: equal for a fraction, 10^-30
+    apart for sqrt(3), by the digits for a decimal; None, None if the text says free."""
     if "Exact: free" in text:
         return None, None
     word = re.search(r"Exact: .*?t = (sqrt\(3\)|[\d./]+(?<=\d)(?:e-\d+)?)", text)[1]
@@ -195,7 +195,7 @@ def told(text):
 
 
 def stated_of_set():
-    """First times of the conformance set, of two neighbouring doubles, by the points of a query."""
+    """Returns the first times (two neighbouring doubles) of the set's queries, by their points."""
     cases = [case for file in sorted(VECTORS.glob("*-findings.json"))
              for case in json.loads(file.read_text())["cases"] if "t0" in case]
     return {points_key(c["t0"], c["t1"]): tuple(map(Fraction, c.get("first_time", ()))) for c in cases}
@@ -206,7 +206,7 @@ def points_key(x0, x1):
 
 
 def is_mesh_right(name, first=None):
-    """Whether it has the first times that it states, and the first one that is told."""
+    """Returns whether the mesh has the first times of its file and, in its first step, `first`."""
     case = json.loads((MESHES / f"{name}.json").read_text())
     for i, step in enumerate(case["expected"]["steps"]):
         times = mesh_contacts(case["triangles"], *case["frames"][i:i + 2])
@@ -217,8 +217,8 @@ def is_mesh_right(name, first=None):
 
 
 def points_of(text):
-    """Whether it is a vertex and a face, and the points at t = 0 and t = 1. Those of a query are
-    four, a vertex first."""
+    """Returns whether the text names a vertex and a face, and the points at t = 0 and at t = 1. A
+    query has four points; a vertex comes first."""
     given = re.search(r"(?:Input:|\*\*,) ((?:edges|a [fv]).*?)(?:Answers|:| of a triangle)", text)
     point = r"\(([^(),]*),([^(),]*),([^(),]*)\)"
     points = re.findall(f"{point}(?: to {point})?", given[1]) if given else []
@@ -229,7 +229,7 @@ def points_of(text):
 
 
 def has_points(name, x0, x1):
-    """Whether the mesh has them all."""
+    """Returns whether the mesh has all of these points."""
     frames = json.loads((MESHES / f"{name}.json").read_text())["frames"]
     return set(points_key(x0, x1)) <= set(points_key(*frames[:2]))
 

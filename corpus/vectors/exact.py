@@ -1,8 +1,8 @@
-"""Exact facts of two moving features, in whole numbers: whether they pass or only touch, and the
-polynomials of their times. oracle/query/contact_events.h defines coplanarity, sides and gaps, as F,
-L and D; here they are computed in another way.
+"""Exact facts of two moving features, in whole numbers: whether they cross or only touch, and
+polynomials that are zero at their times. oracle/query/contact_events.h defines coplanarity, sides
+and gaps, and calls them F, L and D; this file computes them in another way.
 
-A polynomial is a list of whole numbers: c0 + c1 t + ...
+A polynomial c0 + c1 t + ... is a list of whole numbers: [c0, c1, ...].
 """
 import itertools
 import math
@@ -39,19 +39,19 @@ def derivative(p):
 
 
 class Time:
-    """The only zero of a polynomial between lo and hi; that number if both are equal."""
+    """The only zero of a polynomial between lo and hi; if lo and hi are equal, that number."""
 
     def __init__(self, polynomial, lo, hi):
         self.lo, self.hi = Fraction(lo), Fraction(hi)
         self.chain = sturm_chain(polynomial)
 
     def sign(self, q):
-        """The sign of another polynomial at this time."""
+        """Returns the sign of the polynomial q at this time."""
         a, b = self.chain[0], primitive(q)
         while b:
             a, b = b, remainder(a, b)
         if self.lo < self.hi and len(a) > 1 and has_zero(a, self.lo, self.hi):
-            return 0  # what both have in common
+            return 0  # a zero of both polynomials
         while self.lo < self.hi and has_zero(q, self.lo, self.hi):
             middle = (self.lo + self.hi) / 2
             if sign_at(self.chain[0], middle) == 0:
@@ -64,7 +64,7 @@ class Time:
 
 
 def without(p, t):
-    """The polynomial without its zeros at that time."""
+    """Returns the polynomial p without its zeros at the time t."""
     p = primitive(p)
     while len(p) > 1 and sign_at(p, t) == 0:
         quotient = list(itertools.accumulate(p[::-1], lambda above, c: above * t + c))[-2::-1]
@@ -74,13 +74,13 @@ def without(p, t):
 
 
 def vanishes_within(p, lo, hi):
-    """Whether there is a zero between the two times, or at them if they are equal."""
+    """Returns whether p has a zero strictly between lo and hi, or at lo if lo and hi are equal."""
     lo, hi = Fraction(lo), Fraction(hi)
     return sign_at(p, lo) == 0 if lo == hi else has_zero(without(without(p, lo), hi), lo, hi)
 
 
 def zeros_inside(p):
-    """The zeros in (0, 1). REQUIRES that not all coefficients are 0."""
+    """Returns the zeros of p in (0, 1). REQUIRES that not all coefficients are 0."""
     p = without(without(p, Fraction(0)), Fraction(1))
     chain, found, left = sturm_chain(p), [], [(Fraction(0), Fraction(1))]
     while left:
@@ -114,7 +114,7 @@ class Features:
                      for k in range(3)]
 
     def events(self):
-        """Polynomials of which the first time of a contact is a zero."""
+        """Returns polynomials; the first time of a contact is a zero of one of them."""
         if any(self.coplanarity):
             return [self.coplanarity]
         for polynomials in self.sides + self.gaps:
@@ -123,7 +123,7 @@ class Features:
         return [[0, 1]]
 
     def meets(self, time):
-        """REQUIRES a time at which the four points lie in one plane."""
+        """Returns whether the features meet. REQUIRES four coplanar points at `time`."""
         for sides in self.sides:
             signs = {time.sign(p) for p in sides} - {0}
             if signs:
@@ -135,13 +135,13 @@ class Features:
         return True
 
     def passes(self):
-        """Whether, inside of the step, they meet while the cubic changes its sign."""
+        """Returns whether the features meet inside the step while F changes its sign."""
         f, slope = self.coplanarity, derivative(self.coplanarity)
         return any((time.sign(slope) or not time.sign(derivative(slope))) and self.meets(time)
                    for time in (zeros_inside(f) if any(f) else ()))
 
     def within(self, d):
-        """Polynomials of which the first time within a distance is a zero, simple ones first."""
+        """Yields polynomials, simple ones first; one is zero at the first time within d."""
         square = (Fraction(d) * self.scale) ** 2
         a, b = self.x[:self.first], self.x[self.first:]
         lines = [(p, q, r) for ends, others in ((a, b), (b, a))

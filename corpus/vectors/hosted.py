@@ -1,4 +1,4 @@
-"""Detectors that answer through the Python module `assay`: the built-in one, and plug-ins.
+"""Detectors that answer through the Python module `assay`: the built-in detector, and plug-ins.
 
 `vectors.py run --arithmetic WORD` and `--detector NAME` use them (README.md).
 """
@@ -16,9 +16,9 @@ def demand_module():
 
 
 class BuiltIn:
-    """The built-in detector with all pairs, in an arithmetic.
+    """The built-in detector with all pairs, in one arithmetic.
 
-    Limits are answered by those arithmetics alone that prove something, distances by `exact`.
+    Only `exact` and `bounded`, which prove their answers, answer limits; only `exact` distances.
     """
 
     def __init__(self, arithmetic):
@@ -67,7 +67,7 @@ class BuiltIn:
 
 
 class PlugIn:
-    """A library, or a class in Python by the word "python:MODULE:CLASS"."""
+    """A plug-in: a library, or a class in Python with the name "python:MODULE:CLASS"."""
 
     def __init__(self, detector, seconds):
         try:
@@ -90,7 +90,7 @@ class PlugIn:
 
 
 def case_file_of(case):
-    """A case of a set as a case file holds it (corpus/README.md)."""
+    """Returns a case of a set in the form of a case file (corpus/README.md)."""
     file = {"schema": "assay-case/1", "id": case.id, "about": case.about,
             "source": case.json["source"], "options": {}, "expected": {"steps": []}, "pending": {}}
     if case.triangles is None:

@@ -32,7 +32,7 @@ def points_of(frame, indices):
 
 
 def as_mesh(query):
-    """The two features as a mesh of two triangles without area, at both ends of the step."""
+    """Returns two triangles without area that are the two features, at t = 0 and at t = 1."""
     corners = [0, 0, 0, 1, 2, 3] if query.first == 1 else [0, 1, 1, 2, 3, 3]
     return [[0, 1, 2], [3, 4, 5]], *(points_of(end, corners) for end in (query.t0, query.t1))
 
@@ -43,13 +43,13 @@ def least_distance(query):
 
 
 def comes_nearer(query, distance):
-    """Whether they come within less than the distance: less by a 2^60th of it."""
+    """Returns whether the features come nearer than (1 - 2^-60) times the distance."""
     return assay.judge(*as_mesh(query), separation=(distance, -distance * 2.0**-60),
                        jobs=1).answer == "collision"
 
 
 def facts_of(result, first, candidates):
-    """The polynomial is the first of the candidates that has a zero at the time."""
+    """Returns facts of a result, with the first of the candidates that has a zero at `first`."""
     polynomial = [0, 1] if first[1] == 0 else primitive(
         next(p for p in candidates if vanishes_within(p, *first)))
     return {"result": result, "first_time": list(map(float, first)),
@@ -57,7 +57,7 @@ def facts_of(result, first, candidates):
 
 
 def query_facts(query, distance=0):
-    """Facts of a contact, or of coming within a distance."""
+    """Returns facts of a contact or, if the distance is above 0, of coming within the distance."""
     stated = {"result": "free"}
     if distance:
         stated["distance"], least = distance, least_distance(query)
@@ -101,7 +101,7 @@ def query_flags(query, stated, is_float):
 
 
 def features_of(judgement, k, t0, t1):
-    """The two features of a pair that meet first; None of a piercing or of the same vertices."""
+    """Returns the two features of pair k that meet first; None for piercing or same_vertices."""
     kind = assay.FEATURE_KINDS[judgement.features[k][0]]
     if kind not in ("vertex_face", "edge_edge"):
         return None
@@ -121,7 +121,7 @@ def pair_passes(triangles, judgement, k, t0, t1):
 
 
 def step_facts(triangles, t0, t1, flags, is_float):
-    """Facts of a step of a mesh; adds the flags that it has."""
+    """Returns facts of a step of a mesh, and adds the flags of the step to `flags`."""
     judgement = assay.judge(triangles, t0, t1, jobs=1)
     flags |= number_flags(t0, t1, is_float)
     if judgement.answer == "free":
@@ -141,7 +141,7 @@ def step_facts(triangles, t0, t1, flags, is_float):
 
 
 def mesh_facts(case, is_float):
-    """Facts and flags of a mesh."""
+    """Returns facts and flags of a mesh."""
     triangles, frames = case["triangles"], case["frames"]
     script = case.get("script") or [[i, i + 1, "commit"] for i in range(len(frames) - 1)]
     flags = {"Sequence"} if len(script) > 1 else set()
@@ -155,7 +155,7 @@ def mesh_facts(case, is_float):
 
 
 def read_case(file):
-    """A case file that the project's own reader takes."""
+    """Reads a case file. Refuses every file that the project's own reader refuses."""
     from assay import _judge
     try:
         _judge.read_case(str(file))

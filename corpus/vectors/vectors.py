@@ -39,7 +39,7 @@ SET_SCHEMA, RESULTS_SCHEMA, PROTOCOL = "assay-vectors/1", "assay-results/1", "as
 RESULTS = ("collision", "free", "acceptable")
 NO_ANSWERS = ("crash", "timeout", "error", "undecided")
 ANSWERS = ("free", "collision", "share", "unsupported", *NO_ANSWERS)
-# What a case comes to is the first of these that one of its steps comes to.
+# The outcome of a case is the first of these that is the outcome of one of its steps.
 OUTCOMES = ("miss", "late", "alarm", *NO_ANSWERS, "unsupported", "right")
 LONGEST_ANSWER = 1 << 24  # bytes of a line
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -49,13 +49,13 @@ if hasattr(sys, "set_int_max_str_digits"):
 
 
 class Wrong(Exception):
-    """Wrong input, in one line."""
+    """Wrong input. The message is one line."""
 
 
 # --- the set ------------------------------------------------------------------------------------
 
 class Step:
-    """A query, or one step of a mesh: what is asked and what is right."""
+    """A query, or one step of a mesh: its points at t = 0 and t = 1, and the right answer."""
 
     def __init__(self, t0, t1, truth):
         self.t0, self.t1 = t0, t1
@@ -78,7 +78,7 @@ class Case:
 
 
 class VectorSet:
-    """A folder with set.json and its groups, checked as it is read."""
+    """A folder with set.json and its groups. The constructor reads and checks all of them."""
 
     def __init__(self, folder=None, only=None):
         self.folder = Path(folder) if folder else Path(__file__).resolve().parent
@@ -115,7 +115,7 @@ class VectorSet:
         return {key: self.info[key] for key in ("version", "profile", "digest")}
 
     def members(self):
-        """The ids of each flag, and of each group."""
+        """Returns the ids of the cases of each flag, and of each group."""
         flags = {flag: [c.id for c in self.cases if flag in c.flags] for flag in self.info["flags"]}
         groups = {g["group"]: [c["id"] for c in g["cases"]] for g in self.groups}
         return flags, groups
@@ -165,7 +165,7 @@ def want(holds, place, what):
 
 
 def want_fields(value, fields, place):
-    """Each field by its name: what its value has to be, and that in words."""
+    """Demands fields. `fields` holds for each name a test of the value, and that test in words."""
     want(isinstance(value, dict), place, "no object")
     for name, (good, words) in fields.items():
         want(name in value, place, f"no field {name}")
@@ -299,14 +299,14 @@ def is_float32(x):
 
 
 def next_double(x):
-    """The double after x >= 0."""
+    """Returns the double after x. REQUIRES x >= 0."""
     return struct.unpack("<d", struct.pack("<q", struct.unpack("<q", struct.pack("<d", x))[0] + 1))[0]
 
 
 # --- polynomials --------------------------------------------------------------------------------
 
 def sign_at(polynomial, t):
-    """The sign of a polynomial with whole coefficients at a fraction."""
+    """Returns the sign of a polynomial with whole coefficients at the fraction t."""
     total, power = 0, 1
     for c in reversed(polynomial):
         total, power = total * t.numerator + c * power, power * t.denominator
@@ -314,7 +314,7 @@ def sign_at(polynomial, t):
 
 
 def primitive(polynomial):
-    """Without zeros at its end, and without the factor that its coefficients share."""
+    """Returns the polynomial without zeros at its end, divided by the common factor."""
     while polynomial and polynomial[-1] == 0:
         polynomial = polynomial[:-1]
     factor = math.gcd(*polynomial)
@@ -322,7 +322,7 @@ def primitive(polynomial):
 
 
 def sturm_chain(p):
-    """The chain of a polynomial; its last member is what p shares with its derivative."""
+    """Returns the Sturm chain of p. Its last member is a common divisor of p and its derivative."""
     p = primitive(p)
     chain = [p, primitive([i * c for i, c in enumerate(p)][1:])]
     while chain[-1]:
@@ -331,7 +331,7 @@ def sturm_chain(p):
 
 
 def remainder(rest, divisor):
-    """Of a division, times a number above 0: whole numbers stay whole, and signs stay."""
+    """Returns the remainder of a division, times a number > 0 that makes it whole."""
     while len(rest) >= len(divisor):
         shift, factor = len(rest) - len(divisor), abs(divisor[-1])
         lead = rest[-1] if divisor[-1] > 0 else -rest[-1]
@@ -341,7 +341,7 @@ def remainder(rest, divisor):
 
 
 def zeros_between(chain, lo, hi):
-    """How many zeros there are in (lo, hi], by Sturm's theorem. REQUIRES that neither is one."""
+    """Returns the number of zeros in (lo, hi], by Sturm's theorem. REQUIRES no zero at lo or hi."""
     def changes(t):
         signs = [s for s in (sign_at(q, t) for q in chain) if s != 0]
         return sum(a != b for a, b in zip(signs, signs[1:]))
@@ -349,7 +349,7 @@ def zeros_between(chain, lo, hi):
 
 
 def has_zero(coefficients, lo, hi):
-    """Whether the polynomial has a zero in [lo, hi], exactly."""
+    """Returns whether the polynomial has a zero in [lo, hi]. Exact."""
     p = primitive([int(c) for c in coefficients])
     lo, hi = Fraction(lo), Fraction(hi)
     return bool(p) and (0 in (sign_at(p, lo), sign_at(p, hi)) or
@@ -357,7 +357,7 @@ def has_zero(coefficients, lo, hi):
 
 
 def check(folder):
-    """Everything that can be checked without an oracle. Returns the set."""
+    """Checks all that can be checked without an oracle. Returns the set."""
     vectors = VectorSet(folder)
     for case in vectors.cases:
         truths = case.json["steps"] if case.triangles is not None else [case.json]
@@ -370,7 +370,7 @@ def check(folder):
 
 
 def check_halves(cases):
-    """Halves are those of a step, and have a contact just if the whole has one."""
+    """Demands that halves make up a step, and have a contact exactly if the whole step has one."""
     halves = collections.defaultdict(list)
     for case in cases.values():
         if "split_of" in case.json:
@@ -401,7 +401,7 @@ def number_of(word):
 
 
 def parse_answer(line, case):
-    """An answer of the line protocol; "error" for what is none."""
+    """Returns the answer in a line of the protocol; "error" if the line is no answer."""
     try:
         words = line.split()
         answer = {"answer": words[0]}
@@ -432,7 +432,7 @@ def parse_answer(line, case):
 
 
 def decimal(x):
-    """The shortest decimal that stands for the double."""
+    """Returns the shortest decimal that reads back as the double x."""
     return repr(float(x)).removesuffix(".0")
 
 
@@ -441,11 +441,11 @@ def numbers_text(points):
 
 
 class NoAnswer(Exception):
-    """The program crashed, or ran out of time."""
+    """The program crashed, ran out of time, or did not keep to the protocol."""
 
 
 class Program:
-    """A program that speaks the line protocol. It is started anew after each trouble."""
+    """A program that speaks the line protocol. It starts again after a case without an answer."""
 
     def __init__(self, command, seconds, restarts):
         self.command, self.seconds, self.restarts = command, seconds, restarts
@@ -472,8 +472,8 @@ class Program:
             self.stop()
             raise Wrong(f"{self.command[0]}: did not say its name ({problem})") from None
 
-    # Each works on the process and the queues of one start: a program that does not end leaves its
-    # threads behind, and they must not meddle with the next.
+    # write() and read() use the process and the queues of one start, because the threads of a
+    # program that does not end go on, and they must not disturb the next process.
     @staticmethod
     def write(process, requests, _):
         try:
@@ -492,7 +492,7 @@ class Program:
         try:
             for line in iter(lambda: process.stdout.readline(LONGEST_ANSWER), b""):
                 if not line.endswith(b"\n"):
-                    break  # cut: the program ended, or will not stop
+                    break  # the line is cut: the program ended, or the line is too long
                 lines.put(line.decode("utf-8", "replace"))
         except (OSError, ValueError):
             pass
@@ -500,7 +500,7 @@ class Program:
 
     def ask(self, request, seconds=None):
         if not self.lines.empty():
-            # It ended; or it spoke unasked, and nobody knows what its lines answer.
+            # The program ended, or it wrote a line before it was asked a question.
             raise NoAnswer("crash" if self.lines.get() is None else "error")
         self.requests.put(request)
         try:
@@ -523,7 +523,7 @@ class Program:
         self.process = None
 
     def end(self):
-        """Lets the program end by itself, within its time."""
+        """Lets the program end by itself, and kills it after self.seconds."""
         if self.process:
             self.requests.put(None)
             try:
@@ -556,7 +556,7 @@ class Program:
                         case, "limit" if case.question == "limit" else "step", step))
         except NoAnswer as problem:
             self.stop()
-            # What would have been asked after it has no answer either.
+            # The steps after this one have no answer either.
             given += [{"answer": str(problem)}] * (len(case.steps) - len(given))
         if self.restarts:
             self.end()
@@ -573,7 +573,7 @@ class Program:
 
 
 class Functions:
-    """A Python function or object that answers."""
+    """A Python function or object that answers the questions of a set."""
 
     METHODS = {("vertex-face", "contact"): "vertex_face", ("edge-edge", "contact"): "edge_edge",
                ("vertex-face", "distance"): "vertex_face_within",
@@ -622,7 +622,7 @@ class Functions:
 
 
 def true_or_false(said, case):
-    """A bool, of NumPy too. A time would pass for one: 0.0 for free."""
+    """Returns a bool, also of NumPy. Refuses a number, because a time of 0.0 would mean free."""
     is_bool = getattr(getattr(said, "dtype", None), "kind", "") == "b" and not said.shape
     want(isinstance(said, bool) or is_bool, case.id,
          f"{said!r} is no answer: True, False, None, or a line such as \"collision 0.25\"")
@@ -650,7 +650,7 @@ def run(answer, set=None, groups=None):
 
 
 def write_results(results, file):
-    """One case a line."""
+    """Writes results, one case on each line."""
     text = json.dumps({key: item for key, item in results.items() if key != "answers"})[:-1]
     cases = ",\n".join(f"{json.dumps(i)}:{json.dumps(a, separators=(',', ':'))}"
                        for i, a in results["answers"].items())
@@ -669,18 +669,18 @@ def write_text(file, text, mode="w"):
 # --- judging ------------------------------------------------------------------------------------
 
 class Judged:
-    """What the answers of a product come to."""
+    """The outcomes of a product's answers, and counts over them."""
 
     def __init__(self, product):
         self.product = product
         self.outcome = {}  # by id
         self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
         self.closed = self.open = self.missing = self.spurious = 0
-        self.met = self.named = 0  # pairs of triangles, of those steps of which pairs are judged
-        self.times, self.late_by, self.early_by = 0, [], []  # of first times; shares of the step
+        self.met = self.named = 0  # right pairs and answered pairs, of steps whose pairs are judged
+        self.times, self.late_by, self.early_by = 0, [], []  # judged first times; parts of a step
         self.gave_pairs = False
-        self.uses = []  # of the way that could be gone, the share that a limiter let go
-        self.limits = 0  # that have one right answer
+        self.uses = []  # the shares of the possible way that a limiter allows
+        self.limits = 0  # the limits that have one right answer
 
     def name(self, *version):
         return ", ".join(filter(None, (self.product["name"], *version, self.product["settings"])))
@@ -794,12 +794,12 @@ def check_answer(answer, case, place):
 
 
 def letter_of(i):
-    """A, B, ... Z, A2, B2, ..."""
+    """Returns A, B, ... Z, A2, B2, ... for i = 0, 1, ..."""
     return chr(ord("A") + i % 26) + (str(i // 26 + 1) if i >= 26 else "")
 
 
 def table_text(rows, left):
-    """Columns, of which the first `left` are set to the left."""
+    """Returns a table as text. The first `left` columns are aligned to the left."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = ("  ".join(c.ljust(w) if i < left else c.rjust(w)
                        for i, (c, w) in enumerate(zip(row, widths))) for row in rows)
@@ -812,7 +812,7 @@ def uses_text(judged):
 
 
 def matrix_rows(title, members, every, brief):
-    """A row a name: misses/cases of each product among the ids of that name."""
+    """Returns a row for each name: misses/cases of each product, for the ids of the name."""
     rows = [[title] + [letter_of(i) for i in range(len(every))]]
     for name, ids in members.items():
         counts = []
@@ -899,7 +899,7 @@ def double_of(words, place):
 
 
 def read_csv(file, truth):
-    """Queries as (t0, t1, label, distance)."""
+    """Returns queries as (t0, t1, label, distance)."""
     data = read_bytes(file)
     if data[:2] == b"\x1f\x8b":
         import gzip
@@ -964,7 +964,7 @@ def from_csv(files, out, features, truth):
 
 
 def write_set(out, info, groups):
-    """Writes groups, each with its cases, and a set.json that names them beside those of `info`."""
+    """Writes groups with their cases, and a set.json that names them and the groups of `info`."""
     out = Path(out)
     try:
         out.mkdir(parents=True, exist_ok=True)
@@ -986,7 +986,7 @@ def write_set(out, info, groups):
     info = {**info, "groups": list(entries.values()),
             "cases": sum(entry["cases"] for entry in entries.values()),
             "digest": hashlib.sha256(digests.encode()).hexdigest()}
-    # Nothing is written of what would be refused, so that a set that is there stays whole.
+    # Checks before it writes, so that a wrong set does not replace a good one.
     check_set(info, out / "set.json")
     for name, text in texts.items():
         write_text(out / name, text)
@@ -996,7 +996,7 @@ def write_set(out, info, groups):
 
 
 def to_csv(group_file, out, truth):
-    """Labels stand in the rows, or in a file of their own. `acceptable` is the label 1."""
+    """Writes queries with labels in the rows, or in the file `truth`. `acceptable` has label 1."""
     group = read_json(group_file)
     want_fields(group, {"schema": SCHEMA, **KIND, "cases": (lambda x: is_list(
         x, None, lambda c: isinstance(c, dict)), "a list of objects")}, group_file)
@@ -1072,7 +1072,7 @@ def parser_of_all():
 
 
 def asked_by(given, command):
-    """What answers: a program, or a detector of Assay."""
+    """Returns the object that answers: a Program, or a detector of Assay."""
     ways = [way for way in (command, given.detector, given.arithmetic) if way]
     want(len(ways) == 1, "run", "who answers? -- COMMAND ARGS..., --detector or --arithmetic")
     want(0 < given.timeout < math.inf, "--timeout", "it has to be a number above 0")

@@ -17,7 +17,7 @@ except ImportError as missing:
 
 
 class IpcToolkit:
-    """Features are asked of Tight-Inclusion, whole steps of is_step_collision_free."""
+    """Tight-Inclusion answers for two features, is_step_collision_free for whole steps."""
     name = "ipctk"
     version = getattr(ipctk, "__version__", "unknown")
     settings = "Tight-Inclusion, defaults"

@@ -1,18 +1,18 @@
-/* The textbook test: solve the cubic of coplanarity, and look whether the features then overlap.
-   It is no good detector, but a short one. Build: cc -std=c99 -O2 plain.c -o plain -lm */
+/* The textbook test: solve the cubic of coplanarity, and test at its roots for an overlap of features.
+   It is a short detector, not a good one. Build: cc -std=c99 -O2 plain.c -o plain -lm */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static double p[2][4][3], c[4]; /* the points at t = 0, how far each moves; the cubic */
-static int edges;               /* whether these are two edges, or a vertex and a face */
+static double p[2][4][3], c[4]; /* the points at t = 0, and their motions; the cubic */
+static int edges;               /* true: two edges; false: a vertex and a face */
 static double dot(double *a, double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static double det(double *a, double *b, double *d) {
   return a[0] * (b[1] * d[2] - b[2] * d[1]) + a[1] * (b[2] * d[0] - b[0] * d[2]) +
          a[2] * (b[0] * d[1] - b[1] * d[0]);
 }
 static double cubic(double t) { return ((c[3] * t + c[2]) * t + c[1]) * t + c[0]; }
-/* With the points in one plane: the solution of r = s u + w v tells where they meet. */
+/* Tests features in one plane: the solution of r = s u + w v tells whether they overlap. */
 static int overlap(double t) {
   double x[4][3], r[3], u[3], v[3];
   for (int i = 0; i < 12; ++i) x[i / 3][i % 3] = p[0][i / 3][i % 3] + t * p[1][i / 3][i % 3];
@@ -27,7 +27,7 @@ static int overlap(double t) {
 }
 static double first_time(void) { /* a root in [0,1] at which the features overlap, or -1 */
   double d[2][3][3], ends[4] = {0, 0, 1, 1};
-  for (int i = 0; i < 18; ++i) /* all as seen from the first point */
+  for (int i = 0; i < 18; ++i) /* each point minus the first */
     d[i / 9][i / 3 % 3][i % 3] = p[i / 9][i / 3 % 3 + 1][i % 3] - p[i / 9][0][i % 3];
   memset(c, 0, sizeof c);
   for (int i = 0; i < 8; ++i)
@@ -52,7 +52,7 @@ int main(void) {
       for (int i = 0; i < 12; ++i) p[1][i / 3][i % 3] -= p[0][i / 3][i % 3];
       double t = first_time();
       t < 0 ? puts("free") : printf("collision %.17g\n", t);
-    } else { /* another question, or the host's greeting, of which the rest is skipped */
+    } else { /* another question, or the host's greeting: the rest of the line is skipped */
       puts(strcmp(word, "assay-vectors") ? "unsupported" : "plain-c 1 textbook cubic in doubles");
       scanf("%*[^\n]");
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The textbook test in Python: Cardano's formula, and whether the features overlap at the roots."""
+"""The textbook test in Python: roots by Cardano's formula, and an overlap test at each root."""
 import cmath
 import sys
 
@@ -17,7 +17,7 @@ def minus(a, b):
 
 
 def overlap(edges, x):
-    """With the points in one plane: the solution of r = s u + w v tells where they meet."""
+    """Tests features in one plane: the solution of r = s u + w v tells whether they overlap."""
     r, u, v = ((minus(x[2], x[0]), minus(x[1], x[0]), minus(x[2], x[3])) if edges else
                (minus(x[0], x[1]), minus(x[2], x[1]), minus(x[3], x[1])))
     uu, uv, vv = dot(u, u), dot(u, v), dot(v, v)
