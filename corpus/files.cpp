@@ -26,7 +26,7 @@ struct EndInflate {
 };
 
 Problem too_large(const std::filesystem::path& path, std::size_t limit) {
-  return problem_in(path, fmt::format("larger than {} bytes, the most that are read", limit));
+  return problem_in(path, fmt::format("larger than {} bytes, the limit for a file", limit));
 }
 
 Problem no_memory(const std::filesystem::path& path) {

@@ -60,7 +60,7 @@ namespace {
 constexpr int deepest = 64;
 
 // Looks at a text while it is parsed, for a fault that the value does not show afterwards: a key
-// that stands twice (the parser takes the last one).
+// that occurs twice (the parser uses the last value).
 template <class Value>
 class Watch {
  public:
@@ -69,14 +69,14 @@ class Watch {
   // Looks at an event. Returns whether to go on.
   bool see(int depth, Event event, const Value& value) {
     // Parsing needs no stack, but printing and copying descend level by level.
-    if (depth > deepest) problem_ = "JSON nested too deeply";
+    if (depth > deepest) problem_ = "the JSON is nested too deeply";
     if (!problem_.empty()) return false;
     if (event == Event::object_start || event == Event::array_start) {
       levels_.push_back({event == Event::array_start});
     } else if (event == Event::key) {
       auto& level = levels_.back();
       level.key = value.template get_ref<const std::string&>();
-      if (!level.keys.insert(level.key).second) problem_ = place() + " stands twice";
+      if (!level.keys.insert(level.key).second) problem_ = place() + " occurs twice";
     } else {
       if (event != Event::value) levels_.pop_back();
       if (!levels_.empty()) ++levels_.back().items;
@@ -119,7 +119,7 @@ Expected<Value> parse_as(std::string_view text, const std::filesystem::path& fil
 } catch (const typename Value::parse_error& error) {
   return problem_in(file, fmt::format("byte {}: not JSON", error.byte));
 } catch (const typename Value::out_of_range&) {
-  return problem_in(file, "a number beyond the doubles");
+  return problem_in(file, "a number that is too large for a double");
 } catch (const typename Value::exception&) {
   return problem_in(file, "not JSON");
 }

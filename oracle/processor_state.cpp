@@ -27,7 +27,7 @@ void require_exact_processor_state() {
   if (processor_state_is_exact()) return;
   std::fputs(
       "assay::oracle: the processor does not round to nearest, or flushes denormals to zero;\n"
-      "a library or the calling code has changed it, and no exact answer is possible\n",
+      "a library or the calling code has set this mode, and no exact answer is possible\n",
       stderr);
   std::abort();
 }

@@ -208,7 +208,7 @@ class CaseReader : public JsonReader<CaseReader> {
       read(item.item(2), action);
       step.commit = action == "commit";
       if (!step.commit && action != "evaluate")
-        throw Refused{item.item(2).problem("commit or evaluate expected")};
+        throw Refused{item.item(2).problem("\"commit\" or \"evaluate\" expected")};
     }
     if (size == 0) throw Refused{field.problem("at least one step expected")};
   }

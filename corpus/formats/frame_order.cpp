@@ -141,7 +141,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     const auto i = place_of_difference(order);
     const auto [a, b] = short_names(paths[i], order[i].path);
     remarks.push_back(fmt::format(
-        "frames are taken as given, {} before {}: their numbers may be whole or decimal", a, b));
+        "frames stay in your order, {} before {}: are their numbers whole or decimal?", a, b));
     names = decimals;
   } else if (paths_of(names) != paths) {
     const bool is_of_a_shell = is_order_of_a_shell(paths);
@@ -150,7 +150,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     remarks.push_back(
         is_of_a_shell
             ? fmt::format("frames are taken in the order of their numbers: {} before {}", b, a)
-            : fmt::format("frames are taken as given, not in the order of their numbers: {} "
+            : fmt::format("frames stay in your order, not in the order of their numbers: {} "
                           "before {}",
                           a, b));
     if (!is_of_a_shell) names = decimals;

@@ -63,7 +63,7 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
   const auto end = mesh_extension(path);
   const std::string read = "OBJ, PLY and OFF are read: ";
   if (end == ".npz" || end == ".npy")
-    return problem_in(path, "a NumPy file; " + read + "ask from Python, by assay.check");
+    return problem_in(path, "a NumPy file; " + read + "use assay.check in Python");
   for (const auto& [ends, name, by_meshio] : other_formats) {
     if (end.empty() || (std::string(ends) + ".").find(end + ".") == std::string::npos) continue;
     if (by_meshio.empty())

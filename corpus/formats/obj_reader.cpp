@@ -75,7 +75,7 @@ Expected<void> read_face(const Words& words, const Place& place, MeshBuilder& bu
   for (std::size_t i = 1; i < words.size(); ++i) {
     const auto vertex = corner_vertex(words[i]);
     if (!vertex) {
-      return builder.problem(place, excerpt(words[i]) + " is no corner");
+      return builder.problem(place, excerpt(words[i]) + " is no corner of a face");
     }
     if (*vertex == 0 || *vertex < -count) {
       return builder.problem(

@@ -71,7 +71,7 @@ class OffReader {
     } else if (words_.size() == 1) {
       BOOST_OUTCOME_TRY(next_line("the counts"));
     } else if (words_[1] == "BINARY") {
-      return wrong("binary OFF files are not read: write it as text");
+      return wrong("binary OFF files are not read: write the file as text");
     } else {
       words_.erase(words_.begin());
     }
@@ -83,7 +83,7 @@ class OffReader {
     if (vertices < 0 || faces < 0) return wrong("a negative count");
     if (vertices > most || faces > most) {
       return wrong(
-          fmt::format("{} vertices and {} faces in a file of {} bytes", vertices, faces, size_));
+          fmt::format("{} vertices and {} faces do not fit into {} bytes", vertices, faces, size_));
     }
     vertices_ = vertices;
     faces_ = faces;
@@ -109,7 +109,7 @@ class OffReader {
     BOOST_OUTCOME_TRY(count, integer(0, "the number of corners"));
     // The line may go on with a colour.
     if (count < 0 || static_cast<std::size_t>(count) > words_.size() - 1) {
-      return wrong(fmt::format("a face of {} corners lists {}", count, words_.size() - 1));
+      return wrong(fmt::format("a face of {} corners lists {} vertices", count, words_.size() - 1));
     }
     corners_.clear();
     for (std::size_t i = 1; i <= static_cast<std::size_t>(count); ++i) {

@@ -120,7 +120,7 @@ class HeaderReader {
 
   Expected<void> element() {
     const auto count = words_.size() == 3 ? parse_integer(words_[2]) : std::nullopt;
-    if (!count || *count < 0) return wrong("element, a name and a count expected");
+    if (!count || *count < 0) return wrong("\"element NAME COUNT\" expected");
     const auto same = [&](const PlyElement& other) { return other.name == words_[1]; };
     if (std::any_of(header_.elements.begin(), header_.elements.end(), same)) {
       return wrong(fmt::format("element {} is declared twice", excerpt(words_[1])));
@@ -133,7 +133,7 @@ class HeaderReader {
     if (header_.elements.empty()) return wrong("a property before any element");
     PlyProperty property;
     const bool list = words_.size() == 5 && words_[1] == "list";
-    if (!list && words_.size() != 3) return wrong("property, a type and a name expected");
+    if (!list && words_.size() != 3) return wrong("\"property TYPE NAME\" expected");
     property.name = std::string(words_.back());
     const auto type = type_named(words_[words_.size() - 2]);
     if (!type) return wrong(excerpt(words_[words_.size() - 2]) + " is no PLY type");
@@ -141,7 +141,7 @@ class HeaderReader {
     if (list) {
       property.count_type = type_named(words_[2]);
       if (!property.count_type || !is_integer(*property.count_type)) {
-        return wrong(excerpt(words_[2]) + " is no integer type to count a list");
+        return wrong(excerpt(words_[2]) + " is no integer type for a list's count");
       }
     }
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
@@ -264,7 +264,7 @@ class PlyBody {
   }
   Problem truncated() const {
     return problem_in(file_,
-                      fmt::format("{}: the file ends before its header's counts", shown(place())));
+                      fmt::format("{}: the file has less than its header states", shown(place())));
   }
   Problem malformed(std::string_view word) const {
     return problem_in(file_, fmt::format("{}: {} is not of the type in the header", shown(place()),

@@ -23,7 +23,7 @@ std::string shown(const detector::Triangles& triangles, Eigen::Index t) {
 
 Problem SequenceReader::other_mesh(std::string_view how) const {
   return problem_in(files_[next_],
-                    fmt::format("{}: all frames are of one mesh; for two: --body {} --body {}", how,
+                    fmt::format("{}: not the same mesh; for two meshes: --body {} --body {}", how,
                                 files_[0].string(), files_[next_].string()));
 }
 
@@ -43,7 +43,7 @@ Expected<detector::Positions> SequenceReader::next() {
   } else if (mesh.triangles != triangles_) {
     Eigen::Index t = 0;
     while (mesh.triangles.row(t) == triangles_.row(t)) ++t;
-    return other_mesh(fmt::format("triangle {} is {}, but in {} {}", t, shown(mesh.triangles, t),
+    return other_mesh(fmt::format("triangle {} is {}, but {} has {}", t, shown(mesh.triangles, t),
                                   files_[0].string(), shown(triangles_, t)));
   }
   ++next_;
@@ -89,8 +89,8 @@ Expected<void> BodiesReader::fit() const {
     const std::size_t count = readers_[b].frames();
     if (count == 1 || count == frames()) continue;
     return problem_in(first_files_[b],
-                      fmt::format("{} frames of body {}, but another body has {} (a body of one "
-                                  "frame stands still)",
+                      fmt::format("{} frames of body {}, but another body has {} frames (a body of "
+                                  "one frame stands still)",
                                   count, b, frames()));
   }
   return boost::outcome_v2::success();
@@ -195,15 +195,15 @@ std::string DoubledCorners::remark(bool is_welded) const {
   }
   const auto places = static_cast<std::size_t>(std::ranges::count(is_shared, 1));
   if (places == 0) return "";
-  const auto counts = fmt::format("{} vertices stand at {} place{}", vertices + places, places,
+  const auto counts = fmt::format("{} vertices are at {} place{}", vertices + places, places,
                                   places == 1 ? "" : "s");
   return is_welded ? fmt::format(
-                         "welded: {} and count as {}; where sheets rest on each other, their "
-                         "vertices are welded, too",
+                         "welded: {} and count as {} vertices; where sheets rest on each other, "
+                         "their vertices are welded, too",
                          counts, places)
                    : counts +
                          ": neighbours do not share their corners, so they touch; --weld "
-                         "counts the vertices of a place as one";
+                         "counts all vertices of a place as one vertex";
 }
 
 detector::Triangles DoubledCorners::welded(detector::Triangles triangles) const {

@@ -339,7 +339,7 @@ Expected<void> StepLog::begin() {
     std::string start;
     const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
     if (start.starts_with("\x1f\x8b"))
-      return problem_in(path_, "it is packed, and a log is read where it lies: gunzip it first");
+      return problem_in(path_, "it is compressed, and logs are read uncompressed: gunzip it first");
     return problem_in(path_,
                       is_log ? "its first record is damaged, so its mesh and detector are unknown"
                              : "it is no log of steps");
@@ -350,12 +350,12 @@ Expected<void> StepLog::begin() {
   const Json& body = record->body;
   if (text(value_of(body, "type")) != "begin") return wrong("it does not begin a log");
   if (const auto version = integer(value_of(body, "log")); version != 1)
-    return wrong(version ? fmt::format("log version {}, this program reads 1", *version)
+    return wrong(version ? fmt::format("log version {}, but this program reads version 1", *version)
                          : "its field `log` is missing or no number");
   head_.name = text(value_of(body, "name"));
   head_.version = text(value_of(body, "version"));
   if (const auto field = read_description(body, head_.description); !field.empty())
-    return wrong(field + " is none");
+    return wrong(field + " is missing or wrong");
   const auto vertices = integer(value_of(body, "vertices"));
   const auto triangles = integers(value_of(body, "triangles"));
   const auto positions = doubles(value_of(body, "positions"));
@@ -365,14 +365,14 @@ Expected<void> StepLog::begin() {
   head_.triangles = Eigen::Map<const detector::Triangles>(
       triangles->data(), static_cast<Eigen::Index>(triangles->size() / 3), 3);
   const auto placed = positions_of(*positions, *vertices);
-  if (!placed) return wrong(fmt::format("positions are not those of {} vertices", *vertices));
+  if (!placed) return wrong(fmt::format("the positions do not fit {} vertices", *vertices));
   head_.positions = *placed;
   if (const auto bad = detector::check_positions(head_.positions, *vertices))
     return wrong(bad->message);
   if (const auto bad = detector::check_triangles(head_.triangles, *vertices))
     return wrong(bad->message);
   if (const Json& counted = value_of(body, "counted"); body.contains("counted")) {
-    if (!counted.is_object()) return wrong("counted is none");
+    if (!counted.is_object()) return wrong("counted is no object");
     if (const auto field = read_counted(counted, head_.counted.emplace()); !field.empty())
       return wrong(fmt::format("counted.{} is invalid", field));
     if (const auto bad = detector::check_counted_pairs(*head_.counted, head_.triangles, *vertices))
@@ -392,7 +392,7 @@ Expected<void> StepLog::go_on() {
   if (::stat(path_.c_str(), &named) != 0 || ::fstat(::fileno(file_.get()), &opened) != 0 ||
       named.st_ino != opened.st_ino)
     return problem_in(path_, "it was replaced while it was read");
-  if (size_ < scanned_) return problem_in(path_, "it was cut while it was read");
+  if (size_ < scanned_) return problem_in(path_, "it became shorter while it was read");
   why_damaged_.clear();
   while (scanned_ < size_ && why_damaged_.empty()) {
     const auto record = record_at(scanned_);
@@ -413,7 +413,7 @@ std::string StepLog::take(const Json& body) {
   const auto type = text(value_of(body, "type"));
   const auto number = integer(value_of(body, "record"));
   if (type.empty() || !number) return "a record of an unknown kind";
-  if (type == "begin") return "another log begins; read it by itself";
+  if (type == "begin") return "another log begins; check it by itself";
   if (*number != next_record_)
     return fmt::format("record {} in place of record {}", *number, next_record_);
   const auto step = integer(value_of(body, "step"));
@@ -422,7 +422,7 @@ std::string StepLog::take(const Json& body) {
   const auto place = static_cast<std::uint64_t>(step.value_or(0));
   if (type == "note") notes_.emplace(place, text(value_of(body, "text")));
   if (type == "step") {
-    if (!steps_.empty() && place <= steps_.back().number) return "a step not after the one before";
+    if (!steps_.empty() && place <= steps_.back().number) return "a step number that does not rise";
     steps_.push_back({scanned_, place});
   }  // records of later versions are passed over
   is_ended_ |= is_end;
@@ -448,21 +448,20 @@ std::string StepLog::read_motion(const Json& body, std::size_t i, LogStep& step)
       end_ = before ? end_of(before->body, vertices) : std::nullopt;
     }
     start = end_;
-    if (!start) return "it starts where the step before it ended, and that is not known";
+    if (!start) return "it starts at the end of the step before it, and that end is unknown";
   } else {
-    return "it starts where the step before it ended, and that one is lost";
+    return "it starts at the end of the step before it, and that step is lost";
   }
   const auto end = places(value_of(body, "x1"), vertices),
              way = places(value_of(body, "dx"), vertices);
-  if (!start || end.has_value() == way.has_value())
-    return "its positions are not those of the mesh";
+  if (!start || end.has_value() == way.has_value()) return "its positions do not fit the mesh";
   step.x_t0 = *start;
   if (end) {
     step.x_t1 = *end;
   } else if (const auto sum = exact_sum(*start, *way)) {
     step.x_t1 = *sum;
   } else {
-    return "the exact end of its displacement is no double";
+    return "its start plus its displacement is no double";
   }
   for (const auto* x : {&step.x_t0, &step.x_t1}) {
     if (detector::check_positions(*x, head_.positions.rows())) return "a coordinate is not finite";

@@ -199,8 +199,8 @@ Expected<std::unique_ptr<StepSource>> steps_of_bodies(const BodyFiles& bodies) {
     triangles = corners.welded(std::move(triangles));
     if (const auto bad = detector::check_triangles(triangles, first.rows()))
       return problem_in({},
-                        fmt::format("--weld: {} once corners at one place in every frame are one "
-                                    "vertex: remove such faces",
+                        fmt::format("--weld: {} if corners at the same place in every frame become "
+                                    "one vertex: remove such faces",
                                     bad->message));
   } else {
     corners.add(first);
@@ -237,7 +237,7 @@ InputKind kind_of_file(const std::filesystem::path& file) {
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
   const auto kind = kind_of_file(files[0]);
-  if (kind == InputKind::log) return problem_in(files[0], "it is a log of steps: assay check");
+  if (kind == InputKind::log) return problem_in(files[0], "it is a log of steps: use assay check");
   if (files.size() > 1 || kind != InputKind::case_file) return steps_of_files(files);
   BOOST_OUTCOME_TRY(c, read_case(files[0]));
   return steps_of_case(std::make_shared<const Case>(std::move(c)), true);

@@ -126,18 +126,18 @@ Case short_step(Variation& vary, int exponent, int kind) {
 }  // namespace
 
 std::vector<HardFamily> time_families() {
-  return {{"contact-at-start", "a spike leaves a face: from just above, from just inside",
+  return {{"contact-at-start", "a spike leaves a face, and starts just above it or just inside",
            "distance at t=0", "ulp", 40, -1, 40, 2, 1, at_the_start},
           {"contact-at-end", "a spike almost reaches a face, or reaches it just before the end",
            "distance at t=1", "ulp", 40, -1, 40, 2, 1, at_the_end},
-          {"double-root", "height over a turning face is a square in time, less or plus a little",
+          {"double-root", "height over a turning face is a square in time, -+ a little",
            "least height", "ulp", 40, -2, 20, 2, 1, double_root},
           {"triple-root", "three roots close together, or one root beside a complex pair, or none",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
-          {"long-steps", "a spike through a face, or past it",
-           "length of the motion over the usual size", "", 0, 1, 40, 2, 1, long_step},
-          {"short-steps", "a spike into a face, or toward it", "length of the motion", "ulp", 44,
-           -1, 44, 2, 2, short_step}};
+          {"long-steps", "a spike goes through a face, or past it",
+           "length of the motion, divided by the usual size", "", 0, 1, 40, 2, 1, long_step},
+          {"short-steps", "a spike moves into a face, or toward it", "length of the motion", "ulp",
+           44, -1, 44, 2, 2, short_step}};
 }
 
 // Hard numbers: tiny motion far from the origin; scales up to 2^500 and down to 2^-500, one for
@@ -214,7 +214,7 @@ Case denormals(Variation& vary, int exponent, int kind) {
 std::vector<HardFamily> number_families() {
   return {
       {"far-offset", "a motion of one to four ulp, far from the origin",
-       "distance from the origin over 64 times the size", "", 0, 1, 40, 4, 0, far_offset},
+       "distance from the origin, divided by 64 times the size", "", 0, 1, 40, 4, 0, far_offset},
       {"scales", "an easy case, made larger or smaller", "factor, or its inverse", "", 0, 10, 50, 8,
        0, scales},
       {"mixed-scales", "an easy case, one axis stretched and another shrunk",

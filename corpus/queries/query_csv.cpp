@@ -66,7 +66,7 @@ class CsvReader {
       rows[filled] = row;
       const bool is_labelled_alike = row.label == rows[0].label;
       if (!is_labelled_alike || row.separation != rows[0].separation) {
-        return wrong(fmt::format("its {} differs from the query's first row, {} rows before",
+        return wrong(fmt::format("its {} differs from that of the first row, {} rows before",
                                  is_labelled_alike ? "separation" : "label", filled));
       }
       ++filled;
@@ -127,7 +127,7 @@ class CsvReader {
     if (count == numbers + 2) {
       row.separation = parse_double(columns.back());
       if (!row.separation || !(*row.separation >= 0) || !std::isfinite(*row.separation)) {
-        return wrong("the separation is no length");
+        return wrong("the separation is no finite number >= 0");
       }
     }
     return row;
@@ -136,7 +136,7 @@ class CsvReader {
   Expected<double> decimal(std::string_view column, char axis) const {
     const auto value = parse_double(column);
     if (value && std::isfinite(*value)) return *value;
-    return wrong(fmt::format("{}: {} is no number that is finite", axis, excerpt(column)));
+    return wrong(fmt::format("{}: {} is no finite number", axis, excerpt(column)));
   }
 
   Expected<double> coordinate(std::string_view numerator, std::string_view denominator,
@@ -183,8 +183,8 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (!kind) {
     return problem_in(
         csv,
-        "vertex-face or edge-edge queries? Let a folder's name be one of these words, or the "
-        "file's name begin with one, or let it end in vf or ee, as in posted_vf.csv");
+        "vertex-face or edge-edge queries? Give a folder one of these two names, or let the file's "
+        "name begin with one of them or end in vf or ee, as in posted_vf.csv");
   }
   BOOST_OUTCOME_TRY(bytes, read_bytes(csv));
   BOOST_OUTCOME_TRY(queries, CsvReader(bytes, csv, *kind).read());

@@ -101,7 +101,7 @@ Sequence play(const SceneOptions& options) {
 }
 
 constexpr SceneInfo infos[] = {
-    {"breathing-sphere", "a sphere that swells and shrinks unevenly; positive from its centre",
+    {"breathing-sphere", "a sphere swells and shrinks unevenly, always positive from its centre",
      1280, 11, true, true, breathing_sphere},
     {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
      11, true, false, two_spheres},
@@ -168,7 +168,7 @@ Expected<Sequence> make(const SceneInfo& info, SceneOptions options) {
     return wrong_option(info.name,
                         fmt::format("1 to {} frames, not {}", most_frames, options.frames));
   }
-  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it takes no mesh");
+  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it deforms no other mesh");
   if (options.mesh && !is_valid(*options.mesh)) {
     return wrong_option(info.name,
                         "the mesh has no triangle, an index out of range or a "
@@ -194,7 +194,7 @@ Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options
     const double frames = options.frames > 0 ? options.frames : info.default_frames;
     constexpr double bytes_a_vertex = 24, most_bytes = 8e9;
     if (vertices * frames * bytes_a_vertex > most_bytes) {
-      return wrong_option(name, fmt::format("{:.0f} vertices in {:.0f} frames are more than 8 GB",
+      return wrong_option(name, fmt::format("{:.0f} vertices in {:.0f} frames need more than 8 GB",
                                             vertices, frames));
     }
     return make(info, options);

@@ -204,7 +204,7 @@ TEST(FramesInOrder, TheOrderOfAShellIsPutInOrder) {
 }
 
 TEST(FramesInOrder, AnyOtherOrderStaysAndIsTold) {
-  const std::string line = "as given, not in the order of their numbers: ";
+  const std::string line = "in your order, not in the order of their numbers: ";
   expect_as_given({"sim_10.obj", "sim_1.obj"}, line + "sim_10.obj before sim_1.obj");
   expect_as_given({"f1.obj", "f0.obj"}, line + "f1.obj before f0.obj");
   expect_as_given({"f0.obj", "f1.obj", "f0.obj"}, line + "f1.obj before f0.obj");
@@ -221,9 +221,9 @@ TEST(FramesInOrder, DecimalsAreNumbersToo) {
   expect_order({"t_0.5.obj", "t_0.obj", "t_1.25.obj", "t_1.5.obj", "t_1.obj", "t_10.obj"},
                {"t_0.obj", "t_0.5.obj", "t_1.obj", "t_1.25.obj", "t_1.5.obj", "t_10.obj"},
                "order of their numbers: t_0.obj before t_0.5.obj");
-  expect_as_given({"t_0.25.obj", "t_0.5.obj", "t_0.75.obj"}, "may be whole or decimal");
-  expect_as_given({"v1.1.obj", "v1.10.obj", "v1.2.obj"}, "may be whole or decimal");
-  expect_as_given({"v1.9.obj", "v1.10.obj"}, "v1.9.obj before v1.10.obj: their");
+  expect_as_given({"t_0.25.obj", "t_0.5.obj", "t_0.75.obj"}, "are their numbers whole or decimal?");
+  expect_as_given({"v1.1.obj", "v1.10.obj", "v1.2.obj"}, "are their numbers whole or decimal?");
+  expect_as_given({"v1.9.obj", "v1.10.obj"}, "v1.9.obj before v1.10.obj: are their");
   expect_as_given({"t_0.1.obj", "t_0.2.obj", "t_0.3.obj"}, "");
   expect_as_given({"sim.1.0008.obj", "sim.1.0009.obj", "sim.1.0010.obj"}, "");
 }

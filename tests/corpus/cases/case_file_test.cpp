@@ -46,10 +46,10 @@ TEST_F(CaseFile, AKeyThatStandsTwiceIsRefusedByItsPlace) {
     return read ? "none" : read.error().message;
   };
   EXPECT_TRUE(says(problem_with("first_time", "\"first_time\": [0.25, 0.5], "),
-                   "expected.steps[0].first_time stands twice"));
-  EXPECT_TRUE(says(problem_with("steps", "\"\\u0073teps\": [], "), "expected.steps stands twice"))
+                   "expected.steps[0].first_time occurs twice"));
+  EXPECT_TRUE(says(problem_with("steps", "\"\\u0073teps\": [], "), "expected.steps occurs twice"))
       << "spelt otherwise, and the same";
-  EXPECT_TRUE(says(problem_with("expected", "\"id\": \"other\", "), "id stands twice"));
+  EXPECT_TRUE(says(problem_with("expected", "\"id\": \"other\", "), "id occurs twice"));
   EXPECT_EQ(problem_with("expected", ""), "none");
 }
 
@@ -231,7 +231,7 @@ TEST_F(CaseFile, ProblemsNameTheField) {
   expect("is not in [0, 5)", "ghosts.triangles[0]", "[0, 1, 4]", "[0, 1, 5]");
   expect("3 items expected, not 2", "frames[0][2]", "[1, 0, 0]", "[1, 0]");
   expect("a number expected", "frames[0][2][0]", "[1, 0, 0]", "[\"1\", 0, 0]");
-  expect("a number beyond the doubles", "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
+  expect("a number that is too large for a double", "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
   expect("not JSON", "not JSON", "[1, 0, 0]", "[nan, 0, 0]");
   expect("vertices, but frame 0 has", "frames[1]", ",\n      [1, 0, 0]", "");
   expect("3 items expected, not 2", "view.q1", ",\n      [0, 0, 3]", "");
@@ -255,7 +255,7 @@ TEST_F(CaseFile, NotJson) {
   // Deep nesting would exhaust the stack of whoever prints it.
   EXPECT_TRUE(says(parse_case(std::string(1 << 20, '['), "a"), "byte 1048577: not JSON"));
   EXPECT_TRUE(says(parse_case(std::string(1 << 20, '[') + std::string(1 << 20, ']'), "a"),
-                   "JSON nested too deeply"));
+                   "the JSON is nested too deeply"));
 }
 
 TEST_F(CaseFile, FoldersOfCases) {

@@ -164,7 +164,7 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
   expect("a.abc", "Ogawa", "an Alembic file");
   expect("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}", "a glTF file");
   expect("a.glb", "glTF", "a glTF file");
-  expect("a.npz", "PK", "a NumPy file; OBJ, PLY and OFF are read: ask from Python");
+  expect("a.npz", "PK", "a NumPy file; OBJ, PLY and OFF are read: use assay.check in Python");
   expect("a.fbx", "Kaydara FBX Binary  ", "an FBX file");
   expect("a.xyz", "0 0 0\n", "this is neither PLY nor OFF");
   expect("a.us", "0 0 0\n", "this is neither PLY nor OFF");
@@ -183,7 +183,7 @@ TEST_F(Exported, RefusalsSayWhatWasFoundAndTheWayOn) {
                                 "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n"
                                 "0 1 0\n3 0 1 2\n"),
                    "no triangle; not looked at: 1 row of element tristrips"));
-  EXPECT_TRUE(says(mesh_problem("binary.off", "OFF BINARY\n"), "write it as text"));
+  EXPECT_TRUE(says(mesh_problem("binary.off", "OFF BINARY\n"), "write the file as text"));
   const auto folder_with = [&](const std::string& name) {
     write(name, "x");
     return read_mesh(folder() / "frames").error();

@@ -36,9 +36,9 @@ TEST_F(MeshSequence, ProblemsNameBothFiles) {
       EXPECT_TRUE(says(sequence, said));
   };
   expect("vertices, but", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
-  expect("triangle 0 is (1, 2, 0), but in", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
+  expect("triangle 0 is (1, 2, 0), but", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
   expect("2 triangles, but", {triangle + "f 1 2 3\n", triangle + "f 1 2 3\nf 1 3 2\n"});
-  expect("for two: --body", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
+  expect("for two meshes: --body", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
 }
 
 TEST_F(MeshSequence, FramesAreTakenInTheOrderOfTheirNumbers) {
@@ -235,7 +235,7 @@ TEST_F(BodiesOfFiles, AreToldInWords) {
   EXPECT_EQ(two_bodies.title, "2 bodies");
   EXPECT_EQ(two_bodies.files.size(), 6u);
   ASSERT_EQ(two_bodies.remarks.size(), 3u);
-  EXPECT_TRUE(says(two_bodies.remarks[2], "as given"));
+  EXPECT_TRUE(says(two_bodies.remarks[2], "in your order"));
   // The words outlive the reader of the files.
   auto steps = steps_of_files({one, ten, two});
   const auto whole = steps.value()->read_whole();
@@ -261,12 +261,12 @@ class DoubledCornersOfFiles : public BodiesOfFiles {
 
 TEST_F(DoubledCornersOfFiles, AreToldAndWelded) {
   const auto a = seam("a.obj", "0"), b = seam("b.obj", "0"), apart = seam("c.obj", "1e-300");
-  EXPECT_TRUE(
-      says(last_remark({{{a, b}}}), "4 vertices stand at 2 places: neighbours do not share"));
-  EXPECT_TRUE(says(last_remark({{{a, apart}}}), "2 vertices stand at 1 place: "));
+  EXPECT_TRUE(says(last_remark({{{a, b}}}), "4 vertices are at 2 places: neighbours do not share"));
+  EXPECT_TRUE(says(last_remark({{{a, apart}}}), "2 vertices are at 1 place: "));
   BodyFiles welded{{{a, b}}};
   welded.weld = true;
-  EXPECT_TRUE(says(last_remark(welded), "welded: 4 vertices stand at 2 places and count as 2"));
+  EXPECT_TRUE(
+      says(last_remark(welded), "welded: 4 vertices are at 2 places and count as 2 vertices"));
   const auto shared = tests::triangles_of("0 1 2, 1 5 2"),
              one_apart = tests::triangles_of("0 1 2, 3 5 2");
   EXPECT_EQ(steps_of_bodies(welded).value()->triangles(), shared);
@@ -304,7 +304,7 @@ TEST_F(BodiesOfFiles, ThatDoNotFitAreRefused) {
   const auto three = std::vector{triangle("0.obj", 0), triangle("1.obj", 1), triangle("2.obj", 2)};
   const auto two = std::vector{triangle("3.obj", 0), triangle("4.obj", 1)};
   EXPECT_TRUE(says(steps_of_bodies({{three, two}, {}}),
-                   "3.obj: 2 frames of body 1, but another body has 3"));
+                   "3.obj: 2 frames of body 1, but another body has 3 frames"));
   EXPECT_TRUE(says(steps_of_bodies({{two, two}, {{0, 2}}}), "a pair of bodies names 2 of 2"));
 }
 

@@ -100,7 +100,7 @@ TEST(Scenes, AUsersMeshIsDeformed) {
     const auto scene = make_scene(info.name, {0, 3, sheet});
     ASSERT_EQ(scene.has_value(), info.takes_mesh);
     if (!scene) {
-      EXPECT_TRUE(says(scene, "it takes no mesh"));
+      EXPECT_TRUE(says(scene, "it deforms no other mesh"));
       continue;
     }
     EXPECT_EQ(scene.value().triangles, sheet.triangles);
@@ -128,9 +128,9 @@ TEST(Scenes, Problems) {
     EXPECT_TRUE(says(make_scene("bend", options), words)) << words;
   };
   expect("triangles, not -1", {-1, 0, {}});
-  expect("are more than 8 GB", {2'000'000'000, 0, {}});
+  expect("need more than 8 GB", {2'000'000'000, 0, {}});
   expect("frames, not -1", {0, -1, {}});
-  expect("are more than 8 GB", {0, 1'000'000'000, {}});
+  expect("need more than 8 GB", {0, 1'000'000'000, {}});
   expect("the mesh has no triangle", {0, 0, Mesh{}});
   Mesh mesh = sheet_shape(2);
   mesh.triangles(0, 0) = 99;

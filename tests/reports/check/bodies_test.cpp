@@ -91,8 +91,8 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
     EXPECT_TRUE(contains(outcome.out + outcome.err, words)) << options << outcome.out;
   };
   expect("", 5,
-         "12 vertices stand at 4 places: neighbours do not share their corners, so they touch");
-  expect(" --weld", 0, "welded: 12 vertices stand at 4 places and count as 4");
+         "12 vertices are at 4 places: neighbours do not share their corners, so they touch");
+  expect(" --weld", 0, "welded: 12 vertices are at 4 places and count as 4 vertices");
   expect(" --weld --detector " + plugin("wrapped_builtin"), 0, "welded: 12 vertices");
   expect(" --weld --separation 0", 0, "welded: 12 vertices");
   expect(" --rest-distance 0.001", 0, "no collision");

@@ -122,7 +122,7 @@ def test_doubled_corners_are_welded_and_near_pairs_left_out(pair):
     soup = pair.triangles[:4].ravel()
     triangles, x = np.arange(12, dtype=np.int32).reshape(4, 3), pair.x_t0[soup]
     report = assay.check((triangles, [x, x]))
-    assert "12 vertices stand at 4 places" in report.text and report.json["steps"][0]["pairs"]
+    assert "12 vertices are at 4 places" in report.text and report.json["steps"][0]["pairs"]
     for options in ({"weld": True}, {"rest_distance": 0.001}, {"weld": True, "rings": 1}):
         report = assay.check((triangles, [x, x]), **options)
         assert report.json["steps"][0]["answer"] == "free", options
@@ -279,7 +279,7 @@ def test_frames_in_the_order_of_a_shell_are_put_in_order_as_check_does(pair, tmp
         frames = assay.read_frames(files)
     assert frames.files == [files[0], files[2], files[1]]
     assert np.array_equal(frames.positions[2], pair.x_t1)
-    with pytest.warns(UserWarning, match="taken as given"):
+    with pytest.warns(UserWarning, match="stay in your order"):
         assert assay.read_frames([files[1], files[0]]).files == [files[1], files[0]]
 
 
