@@ -4,13 +4,13 @@
   make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
                 [--flags FLAG...] [--breaks PRODUCT...]
 
-The group goes to DIR/GROUP.json, and DIR/set.json names it beside the groups that it names already;
-a folder without a set gets one. A case is two features (its option `query`) or a mesh:
-corpus/README.md has the form. First times, pairs and least distances are those of the Python
-module `assay`; whether features pass or only touch, and by which polynomial, is found in whole
+The group goes to DIR/GROUP.json, and DIR/set.json lists the group, too; in a folder without a set,
+set.json is made. A case is two features (its option `query`) or a mesh; corpus/README.md describes
+case files. First times, pairs and least distances come from the Python module `assay`. Whether
+features pass through each other or only touch, and by which polynomial, is computed in whole
 numbers (exact.py).
 
-It sets the flags that follow from numbers, times and pairs; --flags adds others to every case.
+The flags that follow from numbers, times and pairs are set; --flags adds other flags to every case.
 """
 import argparse
 import json
@@ -163,7 +163,7 @@ def read_case(file):
         raise vectors.Wrong(str(problem)) from None
     case = vectors.read_json(file)
     query = case["options"].get("query")
-    want(query in (None, "vertex-face", "edge-edge"), file, f"{query} is no query")
+    want(query in (None, "vertex-face", "edge-edge"), file, f"the query {query} is unknown")
     want(not query or (len(case["frames"]) == 2 and all(len(x) == 4 for x in case["frames"])), file,
          "a query has two frames of four points")
     return case
@@ -172,7 +172,7 @@ def read_case(file):
 def case_of(file, given, features, known):
     case = read_case(file)
     want(case["options"].get("query", "mesh") == features, file,
-         f"is no case of {features}, but the first one is")
+         f"is no case of {features}, but the first case is")
     if features == "mesh":
         stated, flags = mesh_facts(case, given.float)
     else:
@@ -195,11 +195,11 @@ def main(words):
     parser.add_argument("--out", required=True, metavar="DIR", help="the folder of the set")
     parser.add_argument("--distance", type=float, default=0, metavar="D",
                         help="ask whether features come within D")
-    parser.add_argument("--limit", action="store_true", help="ask how far a step may be taken")
+    parser.add_argument("--limit", action="store_true", help="ask how far a step can be taken")
     parser.add_argument("--float", action="store_true", help="the coordinates are floats")
     parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
     parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",
-                        help="products that fail on them")
+                        help="products that fail on these cases")
     given = parser.parse_args(words)
     demand_module()
     out = Path(given.out)
@@ -211,7 +211,7 @@ def main(words):
         info.update(version="0", profile="own", groups=[], licence="that of its cases", cite="")
     for flag in given.flags:
         want(flag in info["flags"], "--flags", f"there is no flag {flag}")
-    want(0 <= given.distance < math.inf, "--distance", "a length is wanted")
+    want(0 <= given.distance < math.inf, "--distance", "a finite number >= 0 is wanted")
     features = read_case(given.files[0])["options"].get("query", "mesh")
     group = {"schema": vectors.SET_SCHEMA, "version": info["version"], "group": given.name,
              "features": features,

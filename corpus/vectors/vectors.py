@@ -11,8 +11,8 @@ collision detection whose answers are known exactly. README.md says what everyth
   vectors.py from-csv FILE.csv... --out DIR [--features vertex-face|edge-edge] [--truth FILE.json]
   vectors.py flags [--set DIR]
 
-Exit codes of run and score: 0 all is right; 1 a miss, a late time or an alarm; 3 none of these, but
-not every case has an answer. Of every verb: 2 wrong input, with one line that says what.
+Exit codes of run and score: 0 all answers are right; 1 a miss, a late time or an alarm; 3 none of
+these, but some case has no answer. Exit code 2 of every verb: the input is wrong; a line says why.
 
 In Python: vectors.run(answer, set=DIR) asks a function or an object and returns the results.
 """
@@ -210,7 +210,7 @@ def check_group(group, file, info, entry):
                         **{key: one_of(entry[key]) for key in KIND}}, file)
     want((group["question"] != "distance" or group["features"] != "mesh") and
          (group["question"] != "limit" or group["features"] == "mesh"), file,
-         "limits are asked of meshes, distances of two features")
+         "the question limit is for meshes, distance for two features")
     for case in group["cases"]:
         want_fields(case, {"id": (lambda x: is_text(x) and re.fullmatch(r"[\w.:-]+", x),
                                   "a name")}, f"{file}: a case")
@@ -253,7 +253,7 @@ def check_mesh(case, group, place):
         "a triangle is not three different indices of points")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
-         and steps, place, "steps are not a list of steps, or not of one step where a limit is asked")
+         and steps, place, "steps is not a list of steps (for the question limit, of one step)")
     number = (lambda x: is_count(x, len(frames))), "the number of a frame"
     for i, step in enumerate(steps):
         here = f"{place}: step {i + 1}"
@@ -261,7 +261,7 @@ def check_mesh(case, group, place):
         want(isinstance(step.get("commit", True), bool), here, "commit is not true or false")
         check_truth(step, here)
         want(group["question"] != "limit" or step.get("first_time") != [0, 0], here,
-             "a limit is asked of a step that begins in contact")
+             "the question is limit, but the step begins in contact")
         triangle = (lambda x: is_count(x, len(case["triangles"])))
         pairs = step.get("pairs", [])
         want(isinstance(pairs, list), here, "pairs are no list")
@@ -272,7 +272,7 @@ def check_mesh(case, group, place):
     results = [step["result"] for step in steps]
     want((case["result"] == "free") == all(r == "free" for r in results) and
          (case["result"] != "acceptable" or "acceptable" in results), place,
-         "its result does not fit those of its steps")
+         "its result does not fit the results of its steps")
 
 
 def check_truth(truth, place):
@@ -389,7 +389,7 @@ def check_halves(cases):
              both[0]["t1"] == both[1]["t0"] and both[1]["t1"] == whole["t1"], f"case {name}",
              "its halves do not make up its step")
         want((whole["result"] == "free") == all(h["result"] == "free" for h in both),
-             f"case {name}", "its result differs from that of its halves")
+             f"case {name}", "its result differs from its halves' result")
 
 
 # --- asking -------------------------------------------------------------------------------------
@@ -854,8 +854,8 @@ def score_text(vectors, every, brief=False):
                 more = f" and {len(ids) - 8} more" if len(ids) > 8 else ""
                 lines.append(f"{letter} {words}: {' '.join(ids[:8])}{more}\n")
         if judged.closed or judged.open:
-            lines.append(f"{letter} where features only touch: {judged.closed} closed, "
-                         f"{judged.open} open\n")
+            lines.append(f"{letter} where features only touch: {judged.closed} answers collision, "
+                         f"{judged.open} free\n")
         if judged.early_by:
             lines.append(f"{letter} times too early: {len(judged.early_by)}\n")
         if judged.gave_pairs:
@@ -883,7 +883,7 @@ def features_of(path):
     for folder in path.absolute().parent.parts[::-1]:
         if folder in ("vertex-face", "edge-edge"):
             return folder
-    raise Wrong(f"{path}: vertex-face or edge-edge? --features says it")
+    raise Wrong(f"{path}: vertex-face or edge-edge? Say it by --features")
 
 
 def double_of(words, place):
@@ -918,7 +918,7 @@ def read_csv(file, truth):
         points, ends = [], set()
         for i in range(first, first + 8):
             place, columns = f"{file}: line {i + 1}", [c.strip() for c in lines[i].split(",")]
-            want(3 <= len(columns) <= 8, place, f"{len(columns)} columns, where 3 to 8 are expected")
+            want(3 <= len(columns) <= 8, place, f"{len(columns)} columns; a row has 3 to 8")
             each = 1 if len(columns) < 6 else 2  # a decimal, or numerator and denominator
             points.append([double_of(columns[k:k + each], place) for k in range(0, 3 * each, each)])
             ends.add(tuple(columns[3 * each:]))
@@ -930,14 +930,14 @@ def read_csv(file, truth):
         distance = None
         if len(end) == 2:
             want(bool(NUMBER.fullmatch(end[1])) and 0 <= float(end[1]) < math.inf, place,
-                 "the separation is no length")
+                 "the separation is no finite number >= 0")
             distance = float(end[1])
         queries.append((points[:4], points[4:], label, distance))
     return queries
 
 
 def from_csv(files, out, features, truth):
-    want(not truth or len(files) == 1, truth, "--truth goes with one file")
+    want(not truth or len(files) == 1, truth, "--truth needs exactly one query file")
     files = [Path(f) for f in files]
     common = Path(os.path.commonpath([f.absolute().parent for f in files]))
     groups = []
@@ -977,7 +977,7 @@ def write_set(out, info, groups):
         text = f'{json.dumps(group)[:-1]}, "cases": [\n{lines}\n]}}\n'
         name = f"{group['group']}.json"
         want(name not in texts and name != "set.json", out / name,
-             "two groups have this name, or it is set.json")
+             "two groups have this name, or the name is set.json")
         texts[name] = text
         entries[name] = {"file": name, "sha256": hashlib.sha256(text.encode()).hexdigest(),
                          "cases": len(cases), **{key: group[key] for key in KIND}}
@@ -1022,7 +1022,7 @@ def to_csv(group_file, out, truth):
 
 def flags_text(vectors):
     counts = collections.Counter(flag for case in vectors.cases for flag in case.flags)
-    text = "| flag | cases | why it is hard | what goes wrong | read |\n|---|---|---|---|---|\n"
+    text = "| flag | cases | why it is hard | what goes wrong | links |\n|---|---|---|---|---|\n"
     for name, flag in vectors.info["flags"].items():
         links = ", ".join(f"[{i + 1}]({link})" for i, link in enumerate(flag["links"]))
         text += f"| {name} | {counts[name]} | {flag['about']} | {flag['wrong']} | {links} |\n"
@@ -1040,33 +1040,33 @@ def parser_of_all():
     parser = Parser(prog="vectors.py", description=__doc__, add_help=True,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = parser.add_subparsers(dest="verb", required=True, parser_class=Parser)
-    one = verbs.add_parser("run", help="ask a program")
+    one = verbs.add_parser("run", help="ask a program or a detector")
     one.add_argument("--set", metavar="DIR", help="the set (default: the folder of this file)")
     one.add_argument("--out", metavar="FILE", default="results.json", help="default: results.json")
-    one.add_argument("--group", nargs="+", metavar="G", help="these groups, or flags, alone")
+    one.add_argument("--group", nargs="+", metavar="G", help="only these groups or flags")
     one.add_argument("--timeout", type=float, default=10, metavar="S",
                      help="seconds for an answer (default: 10)")
-    one.add_argument("--restart", action="store_true", help="start the program anew for each case")
+    one.add_argument("--restart", action="store_true", help="start the program again for each case")
     one.add_argument("--detector", metavar="NAME",
-                     help="ask a plug-in of Assay, or a class: python:MODULE:CLASS")
+                     help="ask a plug-in of Assay, or a Python class: python:MODULE:CLASS")
     one.add_argument("--arithmetic", metavar="WORD",
                      help="ask the built-in detector: exact, bounded, double or float")
     one = verbs.add_parser("score", help="compare results with the exact answers")
     one.add_argument("results", nargs="+")
     one.add_argument("--set", metavar="DIR")
     one.add_argument("--out", metavar="FILE.html", help="write the matrix of all products here")
-    one = verbs.add_parser("check", help="check a set")
+    one = verbs.add_parser("check", help="check that a set is whole and sound")
     one.add_argument("set", metavar="DIR")
-    one = verbs.add_parser("to-csv", help="a group as query file")
+    one = verbs.add_parser("to-csv", help="write a group as a query file")
     one.add_argument("group", metavar="GROUP.json")
     one.add_argument("out", metavar="OUT.csv")
     one.add_argument("--truth", metavar="FILE", help="write labels here, not into the rows")
-    one = verbs.add_parser("from-csv", help="query files as a set")
+    one = verbs.add_parser("from-csv", help="make a set from query files")
     one.add_argument("files", nargs="+", metavar="FILE.csv")
     one.add_argument("--out", required=True, metavar="DIR")
     one.add_argument("--features", choices=("vertex-face", "edge-edge"))
-    one.add_argument("--truth", metavar="FILE", help="labels: a list of booleans")
-    one = verbs.add_parser("flags", help="the flags as a table")
+    one.add_argument("--truth", metavar="FILE", help="a JSON file: one boolean for each query")
+    one = verbs.add_parser("flags", help="print the flags as a table")
     one.add_argument("--set", metavar="DIR")
     return parser
 
@@ -1074,8 +1074,8 @@ def parser_of_all():
 def asked_by(given, command):
     """Returns the object that answers: a Program, or a detector of Assay."""
     ways = [way for way in (command, given.detector, given.arithmetic) if way]
-    want(len(ways) == 1, "run", "who answers? -- COMMAND ARGS..., --detector or --arithmetic")
-    want(0 < given.timeout < math.inf, "--timeout", "it has to be a number above 0")
+    want(len(ways) == 1, "run", "who answers? One of -- COMMAND ARGS..., --detector, --arithmetic")
+    want(0 < given.timeout < math.inf, "--timeout", "the seconds must be a number above 0")
     write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
     if command:
         return Program(command, given.timeout, given.restart)
@@ -1112,7 +1112,7 @@ def main(words):
         return exit_code(judged)
     if given.verb == "check":
         vectors = check(given.set)
-        print(f"{given.set}: holds; {len(vectors.cases)} cases in {len(vectors.groups)} groups, "
+        print(f"{given.set}: is sound; {len(vectors.cases)} cases in {len(vectors.groups)} groups, "
               f"digest {vectors.info['digest']}")
     elif given.verb == "to-csv":
         to_csv(given.group, given.out, given.truth)

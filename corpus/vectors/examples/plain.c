@@ -1,4 +1,4 @@
-/* The textbook test: solve the cubic of coplanarity, and test at its roots for an overlap of features.
+/* The textbook test: solve the cubic of coplanarity, and test its roots for an overlap of features.
    It is a short detector, not a good one. Build: cc -std=c99 -O2 plain.c -o plain -lm */
 #include <math.h>
 #include <stdio.h>

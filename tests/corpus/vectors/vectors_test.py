@@ -422,7 +422,7 @@ class Committed(unittest.TestCase):
                 (lambda w, a, b: (a.pop("split_of"), b.pop("split_of")), "it does not have two halves"),
                 (lambda w, a, b: a.update(t0=b["t0"]), "its halves do not make up"),
                 (lambda w, a, b: a.update(split_of="nothing"), "half of a case that is missing"),
-                (lambda w, a, b: w.update(result=opposite), "its result differs from that of its halves")):
+                (lambda w, a, b: w.update(result=opposite), "its result differs from its halves' result")):
             cases = [copy.deepcopy(case) for case in (whole, *halves)]
             change(*(case.json for case in cases))
             by_id = {case.id: case for case in cases}
@@ -485,7 +485,7 @@ class Checking(InScratch):
     def test_the_committed_set_holds(self):
         code, text, errors = run("check", ROOM)
         self.assertEqual(code, 0, errors)
-        self.assertIn("holds", text)
+        self.assertIn("is sound", text)
 
     def test_flags_are_a_table(self):
         code, text, _ = run("flags", "--set", MINI)
@@ -602,7 +602,7 @@ class Csv(InScratch):
         for row, line in (("1,3,0,1,0,1,1", "1/3 is no double"), ("1,0,0,1,0,1,1", "1/0 is no"),
                           ("x,1,0,1,0,1,1", "x/1 is no"), ("1,1,0,1,0,1", "no label"),
                           ("1,1", "2 columns"), ("1,1e999,0", "1e999 is no double"),
-                          ("1,1,0,1,0,1,1,-1", "no length"),
+                          ("1,1,0,1,0,1,1,-1", "no finite number"),
                           (f"{2 ** 1025},1,0,1,0,1,1", "is no double")):
             file = self.scratch / "a-vf.csv"
             file.write_text((row + "\n") * 8)

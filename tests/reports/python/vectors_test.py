@@ -250,7 +250,7 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
         ([ROOM / "set.json"], "assay-case/1"),
         ([tmp_path / "none.json"], "No such file"),
         ([files[0], "--flags", "Odd"], "no flag Odd"),
-        ([files[0], "--limit"], "limits are asked of meshes"),
+        ([files[0], "--limit"], "the question limit is for meshes"),
         ([files[0], files[0]], "is there twice"),
     ):
         with pytest.raises(vectors.Wrong, match=line):
@@ -259,7 +259,7 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
     odd = json.loads(files[0].read_text())
     for name, change, line in (
         ("frames", {"frames": odd["frames"] * 2}, "two frames"),
-        ("query", {"options": {"query": "foo"}}, "foo is no query"),
+        ("query", {"options": {"query": "foo"}}, "the query foo is unknown"),
         ("index", {"triangles": [[0, 1, 9]]}, "triangles"),
         ("list", None, ""),
     ):
@@ -268,7 +268,7 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
         with pytest.raises(vectors.Wrong, match=line):
             make_group.main([str(file), "--name", "g", "--out", str(tmp_path / "set")])
     for distance in ("-1", "nan", "inf"):
-        with pytest.raises(vectors.Wrong, match="a length"):
+        with pytest.raises(vectors.Wrong, match="a finite number"):
             make_group.main([str(files[0]), "--name", "g", "--out", "set", "--distance", distance])
     words = [str(files[0]), "--out", str(tmp_path / "set"), "--name"]
     make_group.main([*words, "g"])
