@@ -1,5 +1,5 @@
-// The versions of the libraries that the oracle's verdicts rest on, and what ends the program when
-// an exact number of these libraries finds no memory.
+// Tells the versions of the libraries on which the oracle's verdicts rest, and registers a function
+// that ends the program when these libraries find no memory.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace assay::oracle {
 // from its headers, the other versions from the loaded libraries.
 std::string library_versions();
 
-// Registers the function that ends the program: GMP calls `end`, in place of abort, from now on
-// when it finds no memory. `end` must not return, and it must not throw because an exception cannot
+// Registers the function that ends the program: from now on, when GMP finds no memory, it calls
+// `end` in place of abort. `end` must not return, and it must not throw because an exception cannot
 // leave GMP's code. REQUIRES that no exact number has been made yet.
 void end_without_memory(void (*end)());
 

@@ -139,7 +139,7 @@ class DoubledCorners {
   void add(const detector::Positions& x);
 
   // Returns a remark on the frames that were added; empty if no two vertices are at the same place
-  // in all of them.
+  // in all of these frames.
   std::string remark(bool is_welded) const;
 
   // Returns the triangles with each vertex replaced by the first vertex at its place.

@@ -39,7 +39,7 @@ class StepSource {
   // Returns whether there is a step s. An input that still grows may wait for the step. REQUIRES an
   // s later than all steps that were read.
   virtual Expected<bool> has(std::size_t s) { return s < count(); }
-  // Returns the number of step s in the whole run, from 0: the input may be a part of a run.
+  // Returns the number of step s in the whole run, from 0; the input can be a part of the run.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
   // Return lines of text: notes() the notes before the last step that was read; and, after all

@@ -1,13 +1,13 @@
 // Reads query sets: vertex-face or edge-edge queries, eight rows a query, plain or gzip.
 //
-// A row is x, y and z. Each is either numerator,denominator, a fraction that must equal a double,
-// or one decimal, which becomes the double nearest to it. Columns are separated by commas, or by
-// blanks if the row has no comma. The next column, which may be missing, is the query's truth (1:
-// contact, 0: no contact). The column after the truth, which may be missing too, is the query's
-// separation, a decimal: then the truth says whether the features come within the separation, and
-// the column of the truth may be empty. Blank lines and comments (#) are ignored. Rows of an
-// edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0 f1 f2 at t0,
-// the same at t1.
+// A row is x, y and z. Each is either a fraction, written as numerator,denominator, which must
+// equal a double; or one decimal, which becomes the double nearest to it. Columns are separated by
+// commas, or by blanks if the row has no comma. The next column, which may be missing, is the
+// query's truth (1: contact, 0: no contact). The column after the truth, which may be missing too,
+// is the query's separation, a decimal: then the truth says whether the features come within the
+// separation, and the column of the truth may be empty. Blank lines and comments (#) are ignored.
+// Rows of an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1; of a vertex-face query: v f0
+// f1 f2 at t0, the same at t1.
 #pragma once
 
 #include <filesystem>

@@ -25,9 +25,9 @@ struct DistanceOptions : JudgeOptions {
   // the distance of those faces that have no common vertex.
   bool neighbours = false;
   WantedPair also_asked{};  // says of a pair whether it counts; empty: every pair does
-  // An offset for each vertex; empty: `d` is the distance of all pairs. If there are offsets, `d`
-  // is ignored, and the distance of a pair is the exact sum of the offsets of its two features.
-  // REQUIRES finite offsets of 0 or more, the same for all vertices of a triangle.
+  // An offset for each vertex; empty: all pairs are compared with `d`. If there are offsets, `d` is
+  // ignored, and two features are compared with the exact sum of their two offsets. REQUIRES finite
+  // offsets of 0 or more, the same for all vertices of a triangle.
   std::vector<double> offsets{};
 };
 

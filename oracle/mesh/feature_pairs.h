@@ -103,7 +103,7 @@ class StopGate {
  public:
   explicit StopGate(detector::StopFunction stop);
   // Returns whether the stop function has demanded a stop. Calls the stop function only every few
-  // milliseconds, so a query is cheap enough to call this each time.
+  // milliseconds, so stopped() is cheap enough to be called for every query.
   bool stopped();
   // Returns whether the stop function has demanded a stop so far. Does not call the stop function.
   bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
@@ -118,7 +118,7 @@ class StopGate {
 
 struct Workers {
   int jobs = 1;              // threads; below 1 counts as 1
-  StopGate* gate = nullptr;  // after it says stop, no pair is visited; null: never stops
+  StopGate* gate = nullptr;  // once the gate has stopped, no pair is visited; null: no stop
 };
 
 // `worker`, in [0, jobs), is the number of the calling thread. If a call throws, the function that
@@ -153,11 +153,11 @@ struct PairVisitor {
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };
 
-// Finds the pairs in contact of a triangle of a with a triangle of b. As detector/LAWS.md defines,
-// two triangles are in contact if a closed face of one (the triangle, an edge or a vertex) meets a
-// closed face of the other, and the two faces share no vertex. If a and b are the same object,
-// triangles with the same three vertices are in contact too. If `asks_piercing`, edges are also
-// tested for piercing a face.
+// Finds the pairs of a triangle of a and a triangle of b that are in contact. As detector/LAWS.md
+// defines, two triangles are in contact if a closed face of one (the triangle, an edge or a vertex)
+// meets a closed face of the other, and the two faces share no vertex. If a and b are the same
+// object, triangles with the same three vertices are in contact too. If `asks_piercing`, edges are
+// also tested for piercing a face.
 void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeaturesMeet& test,
                       const Workers& workers, const PairVisitor& visitor,
                       bool asks_piercing = true);

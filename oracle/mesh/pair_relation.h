@@ -1,5 +1,5 @@
-// Decides for the oracle which pairs count, as detector/mesh/counted_pairs.h defines it. The code
-// is independent of the detector's, and computes in rational numbers.
+// Decides for the oracle which pairs count, as detector/mesh/counted_pairs.h defines it. It shares
+// no code with the detector, and computes in rational numbers.
 #pragma once
 
 #include <optional>

@@ -18,8 +18,8 @@
 
 namespace assay::oracle {
 
-// The rung that decided whether there is a contact. Different rungs may decide the same query for
-// `Want::yes_no` and for `Want::first_time`, because a time is harder to decide.
+// The rung that decided whether there is a contact. For one query, `Want::yes_no` and
+// `Want::first_time` can be decided by different rungs, because a time is harder to decide.
 enum class Rung : std::uint8_t { axis, interval, quadratic };
 
 struct RungCounts {
@@ -41,8 +41,8 @@ ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::W
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
 // Returns the first contact time, or nothing if there is no contact. Uses CGAL's algebraic kernel
-// and none of the rungs, so it checks them independently. Takes 0.1 to 0.4 ms (7 ms when exponents
-// spread over all doubles).
+// and none of the rungs, so the rungs can be compared with it. Takes 0.1 to 0.4 ms (7 ms when
+// exponents spread over all doubles).
 std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::FourPoints& query);
 
 // Returns whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2:

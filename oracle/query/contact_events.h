@@ -11,7 +11,7 @@
 //   D_ij  = coordinate k of x_i - x_j, i in S, j in S'.
 // At a time at which F is zero, the hulls of S and S' meet exactly when some non-zero dependency is
 // >= 0 on S and <= 0 on S'. Any axis whose L are not all zero decides this: the hulls meet exactly
-// when no L of the axis is > 0 or none is < 0.
+// when all L of this axis are >= 0 or all are <= 0.
 #pragma once
 
 #include <array>
@@ -63,8 +63,8 @@ struct ExactAnswer {
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
 // - If all L of all axes are identically zero, t=0 and the zeros of the D of an axis whose D are
 //   not all identically zero. If there is no such axis, t=0 alone.
-// Between two neighbouring times of these, contact neither begins nor ends, and the set of contact
-// times is closed. So the first of these times with a contact is the first contact time.
+// Between two neighbouring zeros, contact neither begins nor ends, and the set of contact times is
+// closed. So the first of these times with a contact is the first contact time.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);
 
 // Returns whether there is a contact at the i-th time. REQUIRES that F is zero at that time.

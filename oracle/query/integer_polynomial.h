@@ -44,8 +44,8 @@ int sign_at(const IntegerPolynomial& p, double t);
 std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
 
 // Returns how often the sign changes in a sequence; elements that are 0 are skipped. If the
-// sequence is the Bernstein coefficients of p, then by Descartes' rule 0 says that p has no zero in
-// the open interval, and 1 says that p has exactly one zero there.
+// elements are the Bernstein coefficients of p, the result 0 says that p has no zero in the open
+// interval, and 1 says that p has exactly one zero there (Descartes' rule).
 int sign_changes(const std::vector<Integer>& sequence);
 
 // Returns true if Descartes' rule in Bernstein form shows that p has no zero in [0,1]. False says

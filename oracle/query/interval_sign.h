@@ -181,7 +181,7 @@ struct Enclosure {
 
   Enclosure() = default;
   explicit Enclosure(double x) : lo(x), hi(x) {}
-  // Holds all numbers between two rounded results, and is widened by the errors of both results.
+  // Holds two exact results, given rounded as `least` and `greatest`, and all numbers between them.
   Enclosure(double least, double greatest)
       : lo(least - slack(least)), hi(greatest + slack(greatest)) {}
 

@@ -57,8 +57,8 @@ DistanceVerdict distance_referee(const detector::FourPoints& query, const detect
 //        linear function with the same values at s and e. Written as a quadratic, that function
 //        has the coefficients d |n_s|, d (|n_s| + |n_e|)/2 and d |n_e|. So three comparisons a
 //        corner are a proof. Any directions n_s and n_e are allowed. With the directions to the
-//        nearest points at s and e, the distance that the proof cannot use falls with the square
-//        of the piece's length.
+//        nearest points at s and e, the proof loses only a distance that falls with the square of
+//        the piece's length.
 
 // The difference hull in doubles, with d in its unit: least <= d <= most.
 struct DoubleReach {

@@ -34,8 +34,8 @@ detector::Decision referee(const detector::FourPoints& query, const RefereeOptio
 
 // A proof of contact by rational arithmetic between two times.
 //
-// It serves contacts that lie between two adjacent doubles, or that begin and end at one irrational
-// time: a test at a rational time does not find them. It shares the order of the four points
+// It serves contacts that begin and end between two adjacent doubles, or at one irrational time: a
+// test at a rational time does not find them. It shares the order of the four points
 // (query/contact_events.h) with the rungs, and nothing with the rest of the referee.
 
 // Returns true if it found a time in (lo, hi) at which the two features meet, or two times with
@@ -44,7 +44,7 @@ detector::Decision referee(const detector::FourPoints& query, const RefereeOptio
 // axis are all >= 0 or all <= 0, and at least one of them is never zero. So F has a zero there, and
 // at that zero the hulls meet. False says nothing: there is no proof for features that are coplanar
 // throughout, or that meet in an end point of an edge at an irrational time. REQUIRES finite
-// coordinates and 0 <= lo < hi <= 1. Some ms.
+// coordinates and 0 <= lo < hi <= 1. Takes some ms.
 bool meet_between(const detector::FourPoints& query, double lo, double hi);
 
 }  // namespace assay::oracle

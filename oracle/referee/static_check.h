@@ -3,7 +3,7 @@
 //
 // CGAL's do_intersect answers on exact rational positions. It knows nothing of motion, features or
 // polynomials, so it can check pair sets: a pair that meets at a time of [0,1] must be in the pair
-// set, and its first time must not be later.
+// set, and its first time must not be later than that time.
 #pragma once
 
 #include <variant>

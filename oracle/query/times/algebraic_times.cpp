@@ -1,7 +1,7 @@
 // The kernel's own isolation of zeros (Descartes' rule) calls itself for each halving: 1,190 calls
 // deep, on half a megabyte of stack, if two zeros agree in that many bits. So this file isolates
 // zeros itself, and keeps the remaining pieces on the heap. The kernel still computes square-free
-// parts, and compares and refines numbers; it does all of these in loops.
+// parts, and compares and refines numbers, all in loops.
 #include "oracle/query/times/times.h"
 
 // When two handles of CGAL that share a number are swapped, g++ 12 wrongly sees a use after free.
