@@ -46,8 +46,8 @@ struct Mesh {
 // the extension tells it (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
-// Refuses a file for a fault that shows without reading all of the file: the file is missing, may
-// not be read, is empty or has no known format. Returns the same problem as read_mesh.
+// Refuses a file for a fault that shows without reading all of the file: the file is missing,
+// cannot be read, is empty or has no known format. Returns the same problem as read_mesh.
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
 // Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if no
@@ -76,7 +76,7 @@ bool looks_like_ply(std::string_view bytes);
 // properties are ignored; all other elements are ignored with a remark.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
-// Collects the vertices and polygons of one mesh file and refuses content that no mesh may hold.
+// Collects the vertices and polygons of one mesh file and refuses content that no mesh can hold.
 
 std::string shown(const Place& place);
 

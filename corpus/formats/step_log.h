@@ -25,7 +25,7 @@ namespace assay::corpus {
 // A log, and each of its records, begins with these bytes.
 inline constexpr std::string_view mark_of_log("\x83\x44\x41\x53\x52\x31", 6);
 
-// The part of a log that holds for all steps.
+// The part of a log that is common to all steps.
 struct LogHead {
   std::string name, version;      // of the detector
   assay_description description;  // `description.name` and `.version` are NULL

@@ -19,7 +19,7 @@
 
 namespace assay::corpus {
 
-// Hard cases are made on a grid of integers and then bent out of the axes, without any rounding.
+// Hard cases are made on a grid of integers, and then turned away from the axes without rounding.
 //
 // Each family is first built in a place where its answer is easy to see: for example a face in the
 // plane z = 0, and a vertex that comes down on the face. In such a place plain double arithmetic
@@ -123,7 +123,7 @@ Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3
 // These exponents scale coordinates of usual_size to about 1.
 inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
 
-// Returns grid_case under some GridMap::any, with coordinates of about 1.
+// Returns grid_case with a map of GridMap::any, and with coordinates of about 1.
 Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 
 // The two solids of most hard cases: a block with a face in the plane z = 0, and a spike above it.

@@ -5,8 +5,8 @@
 // Settings: none; -O2, as in its makefile. Contract: no contact at the start; coordinates of usual
 // sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number of ray
 // intersections (corresponding to an odd number of roots of F in the domain)", and an odd number is
-// at least one. This also says that the answer for an even number is "no", so free-sound is not
-// claimed. Contacts that it misses are shown in brackets, and are looked into if the number of
+// at least one. The header also says that the answer for an even number is "no", so free-sound is
+// not claimed. Contacts that it misses are shown in brackets, and are looked into if the number of
 // roots is odd. Deterministic is not claimed either, because the function draws the rays for
 // culling by rand().
 //

@@ -17,17 +17,17 @@
 // With ms 1e-3 the same is claimed for features that come within ms ("We guarantee a collision will
 // be reported if the distance between the two primitives is less than ms"). No-spurious is claimed,
 // too: a false alarm happens "only if the minimal distance ... is no larger than tolerance + ms +
-// err". The README does not say how this distance is measured. The code compares each coordinate
-// (interval_root_finder, evaluate_bbox_one_dimension_vector), so the distance is the greatest
-// difference along an axis, and the slack of this peer is sqrt(3) (ms + tolerance + err) - ms. The
-// README excludes queries that end by max_itr ("the solving precision may not reach the target
-// precision"); this peer does not recognise them.
+// err". Its documentation does not say how this distance is measured. The code compares each
+// coordinate (interval_root_finder, evaluate_bbox_one_dimension_vector), so the distance is the
+// greatest difference along an axis, and the slack of this peer is sqrt(3) (ms + tolerance + err) -
+// ms. The documentation excludes queries that end by max_itr ("the solving precision may not reach
+// the target precision"); this peer does not recognise them.
 //
 // As a limiter it gives toi as its share. Claim: path-free, because toi is the time of a
 // conservative test (README.md: "it will return the earliest collision time"). It does not claim
-// commit-free: the README calls a step "intersection-free" only for simulators that keep a distance
-// ms above 0, and it says nothing about the rounding of positions. It claims neither progress nor
-// whole-when-safe, because features that come within tolerance, ms and err can stop it.
+// commit-free: its documentation calls a step "intersection-free" only for simulators that keep a
+// distance ms above 0, and says nothing about the rounding of positions. It claims neither progress
+// nor whole-when-safe, because features that come within tolerance, ms and err can stop it.
 #include <cmath>
 #include <tight_inclusion/ccd.hpp>
 

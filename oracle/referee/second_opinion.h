@@ -19,7 +19,7 @@ namespace assay::oracle {
 struct SecondOpinionOptions {
   double share = 1;             // of queries and of triangle pairs, in (0,1]
   int jobs = 1;                 // threads; the result does not depend on it
-  detector::StopFunction stop;  // asked from one thread at a time
+  detector::StopFunction stop;  // called by one thread at a time
 };
 
 enum class ContradictionKind : std::uint8_t {
