@@ -162,7 +162,7 @@ def mesh_contacts(triangles, x0, x1):
 
 
 def begin(times, lo, hi):
-    """Returns whether the first of `times` is in [lo, hi]; if lo is None, whether `times` is empty."""
+    """Returns whether the first time is in [lo, hi]; if lo is None, whether `times` is empty."""
     if lo is None:
         return not times
     return all(t.compared(lo) >= 0 for t in times) and any(t.compared(hi) <= 0 for t in times)
