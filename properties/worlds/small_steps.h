@@ -13,7 +13,7 @@ struct SmallStep {
   std::string family;  // family of the mesh
   Triangles triangles;
   Positions x_t0, x_t1;
-  ViewPrimitive point, line;  // small integers too; the line's ends may move apart
+  ViewPrimitive point, line;  // small integers too; the line may move and change its length
 };
 
 // Makes case `index` of `seed`. A hash of both is the only source of randomness, so that any case
