@@ -79,8 +79,8 @@ struct LimitDiff {
   bool too_far = false;     // the stated share is not below the first contact time
   bool too_short = false;   // `way` is shorter than claimed, and rounding is not the reason
   bool is_excused = false;  // `way` is shorter than claimed, and rounding may be the reason
-  std::string stall;        // the cause of the contact ahead, if the limiter allows no motion at
-                            // all although some motion is possible
+  // The cause of the contact ahead, if the limiter allows no motion although the caller could move.
+  std::string stall;
 };
 
 struct StepDiff {

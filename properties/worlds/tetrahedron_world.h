@@ -4,7 +4,7 @@
 // The checks of one motion and one view-point, in both orientations of the faces, are:
 // - The detector with Culling::view_point, Start::verified and Pairs::all has the oracle's pairs
 //   and times. If the start is clean, so has the detector with Start::clean and Pairs::first.
-// - L3: if the start is clean, the set of candidates K (LAWS.md) holds the first contact.
+// - L3: if the start is clean, the set of candidates K (detector/LAWS.md) holds the first contact.
 // - L4: if the start is clean, and all triangles are positive or all are negative, there is no
 //   contact.
 // - L5: if all triangles are positive over the step, and the winding number at t=0 is 1, there is
@@ -128,7 +128,6 @@ struct TetrahedronWorldResult {
 
 // Proves a world. Takes 0.1 to 0.5 ms for each class.
 TetrahedronWorldResult prove(const TetrahedronWorld& world, const TetrahedronWorldOptions& options);
-
 
 struct TetrahedronFailure {
   Case c;

@@ -27,8 +27,8 @@ class PluginHost {
   // Sets whether run() evaluates each step twice and uses the second result.
   void ask_twice(bool asks_twice) { asks_twice_ = asks_twice; }
 
-  // Runs a case as run_case does. If a result breaks the rules of assay_detector.h (an index out of
-  // range, an invalid interval), the step is an error, which CaseRun::explanation states.
+  // Runs a case as run_case does. If a result breaks the rules of the plug-in interface (an index
+  // out of range, an invalid interval), the step is an error, which CaseRun::explanation states.
   // Coordinates are rounded as the contract says. The caller must leave out the steps that the
   // contract leaves out. If the case is a query (query_case.h), the plug-in's function for queries
   // is called, with unrounded coordinates.
@@ -71,9 +71,9 @@ Expected<PluginDescription> read_description(const assay_detector_api& table);
 Expected<PluginDescription> described(const assay_description& raw, const PluginParts& parts);
 
 // Returns the result of a step. Its pairs have a < b, ascend, and occur once, with their least time
-// ([0, 1] if no time is stated). Fails if the result breaks the rules of assay_detector.h. Fails
-// also if the result says that the step has no answer; the problem then has the plug-in's own text.
-// If `reports_pairs` is false (PairReporting::no_pairs), a result with pairs breaks the rules.
+// ([0, 1] if no time is stated). Fails if the result breaks the rules of the interface. Fails also
+// if the result says that the step has no answer; the problem then has the plug-in's own text. If
+// `reports_pairs` is false (PairReporting::no_pairs), a result with pairs breaks the rules.
 Expected<StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                  bool reports_pairs = true);
 
