@@ -209,9 +209,9 @@ enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;
   return std::to_array<Named<Deed>>({{loses, "lose a contact"},
-                                     {reports, "report what is not there, or too early"},
-                                     {stops, "stop before they have to"},
-                                     {differs, "answer otherwise when asked again"},
+                                     {reports, "report a false or too early contact"},
+                                     {stops, "stop the caller too early"},
+                                     {differs, "give another answer in a second run"},
                                      {ends, "end without an answer"}});
 }
 
@@ -272,7 +272,7 @@ constexpr auto names_of(Claim) {
        },
        [](C c, bool of_queries) {
          return c.judges_alarms(of_queries) ? ""
-                                            : "the contract has a margin, and tests neighbours";
+                                            : "the detector has a margin, and tests neighbours";
        }},
       {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, 1, runs, by_second_run, differs},
       {total, "total", ASSAY_CLAIM_TOTAL, 1, runs, by_step, ends,

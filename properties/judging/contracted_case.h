@@ -22,8 +22,7 @@ std::optional<Case> contract_case(const Case& c, const Contract& contract);
 
 // Returns why contract_case() gives nothing for the case, in one line: the member of the contract,
 // the place and the value ("frame 1 of 2: edge 3-4 is 2e-13 long, below least_nonzero, 1e-06";
-// "start free: triangles 3 and 8 are in contact where step 1 starts, and every other step starts
-// so").
+// "start free: triangles 3 and 8 are in contact where step 1 starts; no other step is taken").
 std::string why_left_out(const Case& c, const Contract& contract);
 
 // Returns the edges whose lengths must be in a contract's range: the edges of all triangles, or of

@@ -150,7 +150,7 @@ std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for
 // shows as many kinds, because a signature names the contact that happened to be lost.
 
 struct FailureGroup {
-  std::string does;                // "lose a contact", "report what is not there"
+  std::string does;                // "lose a contact", "end without an answer"
   std::vector<std::string> kinds;  // signatures, in the order of RunFindings::kinds()
   // The traits that all contacts lost by the group have in common; empty if there are none.
   std::vector<std::string> shared;

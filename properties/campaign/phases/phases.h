@@ -276,8 +276,8 @@ Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
 struct TrialsAgain {
   std::uint64_t trials = 0;  // trials that were run once more
   std::uint64_t all = 0;     // trials that are stored
-  // The first trial, by family and index, whose result differs: "trial ID: bvh is D now, H is
-  // stored".
+  // The first trial, by family and index, whose result differs: "trial ID: bvh has outcome D now,
+  // but H is stored".
   std::optional<std::string> difference;
 };
 
