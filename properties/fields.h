@@ -58,7 +58,7 @@ struct EachField : NamedFields<EachField<Visit>> {
 
 template <class T>
 T& add_fields(T& sum, const T& addend) {
-  std::vector<const void*> addends;  // the n-th has the type of the sum's n-th field
+  std::vector<const void*> addends;  // item n points to an object of the type of the sum's field n
   EachField collect([&](auto& item) { addends.push_back(&item); });
   fields(collect, const_cast<T&>(addend));  // `collect` does not change the addend
   auto next = addends.begin();

@@ -23,7 +23,7 @@ Matrix as_rows(const Triples& triples) {
   return Eigen::Map<const Matrix>(first, static_cast<Eigen::Index>(std::size(triples)), 3);
 }
 
-// Returns 0 .. count - 1.
+// Returns the list 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);

@@ -17,8 +17,9 @@ class Random {
     next();
     next();
   }
-  // Takes its seed from a name, such as a case's id, hashed by FNV-1a, 64 bits.
+  // Uses the hash of a name, such as a case's id, as the seed.
   explicit Random(std::string_view id) : Random(hash(id), 0) {}
+  // FNV-1a with 64 bits.
   static constexpr std::uint64_t hash(std::string_view text) {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

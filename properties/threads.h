@@ -11,8 +11,9 @@
 namespace assay::properties {
 
 // Calls `work` in this thread and in up to jobs - 1 other threads at the same time, and returns
-// when all of these calls have returned. A call of `work` must not return before all work is taken,
-// because the system may give fewer threads. If calls throw, rethrows the first exception.
+// when all of these calls have returned. Each call must begin one piece of work after another until
+// none is left, because the system may give fewer threads. If calls throw, rethrows the first
+// exception.
 inline void in_threads(int jobs, const std::function<void()>& work) {
   std::mutex mutex;
   std::exception_ptr first;

@@ -70,8 +70,8 @@ corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file);
 
 // Reads a plan from a file (reports/schemas/campaign.schema.json). A plan with the name of a
 // built-in campaign may differ from the built-in plan only in its time, in the limits of a case,
-// and in the strata that depend on the parts of a plug-in. The reason: a run stores the plan that
-// its options and its detector have changed.
+// and in the strata that depend on the parts of a plug-in. The reason is that the options and the
+// detector of a run change the plan before the run stores it.
 corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file);
 
 // Reads a plan from the text of a file; problems call the file `name`.

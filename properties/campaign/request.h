@@ -22,7 +22,7 @@ constexpr std::uint64_t share_of(std::uint64_t n, std::uint64_t shares) {
 
 struct OwnCases {
   std::vector<Case> cases;
-  std::string digest;  // SHA-256 over names and bytes of their files
+  std::string digest;  // SHA-256 over names and bytes of the case files
 };
 
 // The seed of a campaign if the user gives no seed. Everybody knows the cases of this seed.
@@ -38,7 +38,7 @@ struct CampaignRequest : Subject {
   // The proof, by another run of this build, that planted faults are found. If it is there, this
   // run plants no fault.
   std::optional<PowerProof> power;
-  // Cases of the detector's owner, which are judged beside the shipped ones.
+  // Cases of the detector's owner, which are judged beside the shipped cases.
   std::optional<OwnCases> own_cases;
   // Sequences that a plug-in runs several times, besides the scenes (phases/phases.h).
   std::vector<Case> repeated;
@@ -57,7 +57,7 @@ struct CampaignRequest : Subject {
 
   // Returns the limits of the worker that runs a case a second time, to judge the claim
   // `deterministic`. That worker has other hash seeds and addresses, and evaluates each step twice.
-  // A plug-in with a limit on its threads gets another limit there.
+  // If the plug-in has a function that limits its threads, the limit there is another number.
   WorkerLimits second_worker_limits() const {
     constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (phases.h)
     auto second = worker_limits(1);

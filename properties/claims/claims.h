@@ -55,14 +55,14 @@ struct TimeOff {
   double ulps = 0;
 };
 
-// The first time of the detector, the first time of the oracle, and the error of the former.
+// The first times of the detector and of the oracle, and the detector's error.
 struct FirstTimes {
   TimeEnclosure detector, oracle;
   TimeOff off;
 };
 
-// The number of candidate pairs that the detector gave, and the least possible number: that of the
-// pairs in contact that count.
+// given_pairs: the number of candidate pairs that the detector gave. least: the least possible
+// number, which is the number of pairs in contact that count.
 struct CandidateCount {
   std::uint64_t given_pairs = 0, least = 0;
 };
@@ -71,7 +71,9 @@ struct CandidateCount {
 // (judge_limit).
 struct LimitDiff {
   double share = -1;  // the share of the step that the limiter states; -1: not stated
-  double way = 0;     // `share`; if it is not stated, the part of the way to the allowed positions
+  // `share`; if it is not stated, the length of the way to the allowed positions, divided by the
+  // length of the way of the whole step.
+  double way = 0;
   std::optional<TimeEnclosure> ahead;  // the first contact time of the step, if any
   // The first contact on the straight way to the place where the caller stops.
   std::optional<PairContact> hit;
@@ -185,8 +187,8 @@ enum class Claim : std::uint8_t {
   times_unique,
 };
 
-// The subject of a claim. It decides which part of a library can make the claim; any part can make
-// a claim about `runs`. The explanation of a failure of a claim about `times` says how late or
+// The subject of a claim. The subject decides which part of a library can make the claim; any part
+// can make a claim about `runs`. If a claim about `times` fails, the explanation says how late or
 // early the time is (verdict.cpp). If a detector makes a claim about `pairs`, a missing pair makes
 // a step unsafe (StepDiff::claims_pairs).
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
@@ -224,9 +226,9 @@ struct ClaimRow {
   About about;
   Probe probe;
   Deed deed;
-  // Returns how a step breaks the claim. No step breaks `deterministic`, because two runs are
-  // compared for it (exam.h), and no step breaks times_unique, because it only makes other claims
-  // stricter.
+  // Returns how a step breaks the claim. The default is for two claims that no step breaks:
+  // `deterministic`, for which two runs are compared (exam.h), and times_unique, which only makes
+  // other claims stricter.
   Symptom (*symptom_of)(const StepDiff&) = [](const StepDiff&) { return Symptom(); };
   // Returns why the claim is not judged under this contract; empty if the claim is judged.
   const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
@@ -250,7 +252,7 @@ constexpr auto names_of(Claim) {
       {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, 1, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
       {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, 1, times, by_stated_time, loses,
-       [](D d) {  // if the oracle was stopped, it knows no exact first time
+       [](D d) {  // if the oracle was stopped, the exact first time is unknown
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },
@@ -369,8 +371,9 @@ Claims claims_named(const std::vector<std::string>& words);
 // The progress that the built-in detector promises when it limits a step.
 inline constexpr double built_in_progress = 0.9;
 
-// Returns the contract of the built-in detector with these options. The contract asks for contacts,
-// or, if the options have a separation, for pairs without a shared vertex that come within it.
+// Returns the contract of the built-in detector with these options. If the options have a
+// separation, the contract asks for pairs without a shared vertex that come within the separation;
+// otherwise it asks for contacts.
 Contract contract_of(const Options& options);
 
 // Returns the claims that are judged under this contract (ClaimRow::why_void). If the contract has

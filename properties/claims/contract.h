@@ -99,10 +99,10 @@ struct Contract {
   double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
-  // The range of meshes that the detector accepts; if both numbers are 0, it accepts any mesh. No
-  // coordinate has a magnitude above `largest`, because rounding depends on coordinates. Every edge
-  // has the length 0 or a length of at least least_nonzero, because thresholds depend on lengths.
-  // The length of an edge is its greatest extent along an axis.
+  // The range of meshes that the detector accepts. No coordinate has a magnitude above `largest`,
+  // because rounding depends on coordinates. Every edge has the length 0 or a length of at least
+  // least_nonzero, because thresholds depend on lengths. The length of an edge is its greatest
+  // extent along an axis. If least_nonzero and `largest` are 0, the detector accepts any mesh.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong if its error is more than this
@@ -151,14 +151,14 @@ template <class Description, class Visit>
 void visit_members(Description& raw, Contract& contract, const Visit& visit) {
 #define ASSAY_NAME(kind, name, since) name,
 #define ASSAY_VISIT(kind, name, since) visit(#name, raw.name, contract.name);
-  // This compiles only if ASSAY_CONTRACT_MEMBERS lists all members but takes_relations.
+  // This compiles only if ASSAY_CONTRACT_MEMBERS lists all members except takes_relations.
   [[maybe_unused]] const auto& [ASSAY_CONTRACT_MEMBERS(ASSAY_NAME) takes_relations] = contract;
   ASSAY_CONTRACT_MEMBERS(ASSAY_VISIT)
 #undef ASSAY_NAME
 #undef ASSAY_VISIT
 }
 
-// Visits each member by its name, for reports, certificates and messages. They have a bool
+// Visits each member by its name, for reports, certificates and messages. The archive gets a bool
 // `reports_pairs` in place of the member `reports`.
 template <class Archive>
 void fields(Archive& archive, Contract& x) {
@@ -192,8 +192,8 @@ struct StepLoad {
 // Returns whether a detector with this contract may refuse a step with this load.
 bool beyond_capacity(const Contract& contract, const StepLoad& load);
 
-// Returns the relation of the pairs that the contract tests, on a mesh whose vertices are at rest
-// at `rest`.
+// Returns the relation of the pairs that the detector tests under the contract, on a mesh whose
+// vertices are at rest at `rest`.
 CountedPairs tested_pairs(const Contract& contract, const Positions& rest);
 
 int shared_vertices(const TrianglesView& triangles, TrianglePair pair);

@@ -1,6 +1,6 @@
-// Compares the answer of a detector to one step with the oracle. The diff says how the two answers
-// differ, which pairs the candidates of a broad phase lack, and whether a limiter allows too much
-// or too little.
+// Compares a detector's answer to one step with the oracle's answer. The diff says how the two
+// answers differ, which pairs the candidates of a broad phase lack, and whether a limiter allows
+// too much or too little.
 #pragma once
 
 #include <initializer_list>
@@ -28,7 +28,7 @@ struct StepTruth {
   // in the step, is in both lists, here with the time of its first touch. Pairs that the relation
   // of the case leaves out are in neither list.
   std::vector<PairContact> left_out;
-  // The earliest of `pairs`; an upper bound if the judgement is not complete.
+  // The earliest of `pairs`. If the judgement is not complete, its time is an upper bound.
   std::optional<PairContact> first;
   // The contract has a separation, and a pair that counts is within the separation at t = 0. Such a
   // step does not show how well the detector finds a time.
@@ -100,9 +100,9 @@ oracle::WantedPair counted_under(const Contract& contract, const TrianglesView& 
 
 // Returns the stage at which the detector with these options lost a pair. Runs the step with less
 // culling to find out: the stage is "view sets" if Culling::bvh finds the pair, "pair search" if
-// only Culling::none finds the pair, and "elementary test" if none of them does. On meshes of more
-// than 2,000 triangles Culling::none is not tried; the stage is then "pair search or elementary
-// test".
+// only Culling::none finds the pair, and "elementary test" if neither finds the pair. On meshes of
+// more than 2,000 triangles Culling::none is not tried; the stage is then "pair search or
+// elementary test".
 std::string stage_that_lost(const TrianglesView& triangles, const PositionsView& x_t0,
                             const PositionsView& x_t1, TrianglePair pair, Options options = {});
 
@@ -145,8 +145,8 @@ StepDiff judge_step(const CaseRun& run, std::size_t place, const JudgedStep& ste
 //   the share p of the step moves some coordinate by 2^10 units in its last place or more,
 //   the gaps at t=0 exceed the separation by 2^6 units in the last place of the largest coordinate
 //   or more, and
-//   the oracle finds no contact on the way to each of eight places, which are equally spaced from
-//   p on towards t* and rounded as by the caller.
+//   the oracle finds no contact on the way to any of eight places, which are equally spaced from p
+//   on towards t*, and rounded as the caller rounds.
 // Otherwise the share is only counted (LimitDiff::is_excused).
 void judge_limit(const std::optional<LimitAnswer>& answer, const JudgedStep& step, StepDiff& diff);
 

@@ -35,9 +35,9 @@ namespace assay::properties {
 
 // In the functions below `of_distance` says that a contact is a pair that comes within a distance.
 
-// Returns the cause for a contact of the oracle in the step. `of_query` says that the contact is
-// one of the two features of a query (query_case.h). The triangles of a query's mesh hold more than
-// these features, so of the areas only the area of the query's face counts.
+// Returns the cause for a contact of the oracle in the step. `of_query` says that the two features
+// of a query (query_case.h) are in contact. The triangles of a query's mesh have further features,
+// so "without area" is about the query's face alone.
 std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                      const PairContact& contact, bool of_distance = false, bool of_query = false);
 // Returns the cause for a pair of triangles that is not in contact, or for two features of a query

@@ -15,9 +15,9 @@ namespace assay::properties {
 // because they start in contact, or nearer than start_distance. The frame at which the first
 // remaining step starts becomes the first frame, because the detector is made from that frame.
 // Returns nothing if the contract does not take the case: a coordinate is out of the contract's
-// range, no step remains, or the options call the case a query and it is no query (query_case.h). A
-// query has one step, so it is taken as a whole or not at all. Expected facts that may no longer
-// hold are removed.
+// range, no step remains, or the options call the case a query although it is no query
+// (query_case.h). A query has one step, so it is taken as a whole or not at all. Expected facts
+// that may no longer hold are removed.
 std::optional<Case> contract_case(const Case& c, const Contract& contract);
 
 // Returns why contract_case() gives nothing for the case, in one line: the member of the contract,
@@ -43,7 +43,7 @@ Case with_steps(const Case& c, const std::vector<std::size_t>& places,
 // and 1. Cost: oracle/query/contact.h, oracle/distance/feature_distance.h.
 StepJudgement judge_query(const FourPoints& query, const Contract& contract = {});
 
-// Returns whether at t = 0 the two features have no contact and at least this distance.
+// Returns whether at t = 0 the two features are not in contact and not nearer than `distance`.
 bool start_apart(const FourPoints& query, double distance);
 
 // Returns whether a contract takes the query. This depends on the kind of the query's features, and

@@ -17,14 +17,14 @@
 namespace assay::properties {
 
 // The results of the oracle and the detector on one case. Lists have one item for each
-// configuration, except `truth`, which has one for each step.
+// configuration, except `truth`, which has one item for each step.
 struct CaseResults {
   Case c;  // as fitted to the contract
   std::vector<StepJudgement> truth = {};
   std::vector<CaseRun> runs = {};
   std::vector<CaseRun> again = {};  // second runs; empty if there are none
   std::vector<Verdict> verdicts = {};
-  // Time by the clock: of the oracle and of the first runs.
+  // Wall clock of the oracle, and of the first runs together.
   std::uint64_t oracle_us = 0, detector_us = 0;
 
   // Returns the second run in this configuration; null if there is none.
@@ -41,7 +41,7 @@ struct CaseResults {
 struct Exam {
   const DetectorUnderTest& detector;
   std::span<const Configuration> configurations;
-  // Runs the detector. Null: the built-in one runs in this process, where a crash ends the process.
+  // Runs the detector. Null: the built-in detector runs in this process, which a crash then ends.
   WorkerProcess* worker = nullptr;
   // Runs each case again, in another process. Null: there is no second run.
   WorkerProcess* second = nullptr;
@@ -66,7 +66,8 @@ std::vector<CaseResults> examine(const Exam& exam, std::vector<Case> cases);
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
 CaseRun run_alone(WorkerProcess& worker, const Case& c, const Configuration& configuration);
 
-// Returns the oracle's judgement of every step of a case, for the pairs that count by its relation.
+// Returns the oracle's judgement of every step of a case. The relation of the case decides which
+// pairs count.
 std::vector<StepJudgement> judge_case(const Case& c);
 // Returns the oracle's judgement of every step under the contract; for a query (query_case.h) only
 // its two features are judged. REQUIRES a contracted case.
@@ -100,8 +101,8 @@ struct CaseCheck : CaseResults {
 };
 
 // Examines a case of the corpus in this process, with the options that the case states
-// (case_options.h); `culling` and `arithmetic`, if given, replace the stated ones. If the culling
-// uses views, the detector gets the view primitive of the case.
+// (case_options.h); `culling` and `arithmetic`, if given, replace the stated options. If the
+// culling uses views, the detector gets the view primitive of the case.
 //
 // Compares with the expected facts: the refusal or the answer, the first time, the pair set (of
 // detector and oracle), and the view signs (of the oracle, and of the detector if it tested the

@@ -118,8 +118,8 @@ struct ShareInterval {
   double lo = 0, hi = 1;
 };
 // Returns the two-sided interval of Clopper and Pearson for the share of `of` out of `in` trials,
-// with confidence 95 %. Trials depend on each other, so the evidence is only that of `independent`
-// trials. The numbers may be fractions. Returns [0, 1] if there are no trials.
+// with confidence 95 %. Trials depend on each other, so only `independent` trials count as
+// evidence. The numbers can be fractions. Returns [0, 1] if there are no trials.
 ShareInterval share_interval(double of, double in, double independent);
 
 // Returns the risk of each bound if `bounds` bounds hold together with confidence 95 %
@@ -172,15 +172,15 @@ struct Rate {
 };
 
 // Returns the share of the free steps that were answered `collision`. Steps of one trial depend on
-// each other. So the interval is that of (sum of n)^2 / (sum of n^2) independent steps, where n is
-// the number of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same for all
-// trials, this is the number of trials.
+// each other. So the interval is computed for (sum of n)^2 / (sum of n^2) independent steps, where
+// n is the number of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same
+// for all trials, this is the number of trials.
 Rate false_alarm_rate(const StepMeasures& measures);
-// Returns the share of the steps with a contact that counts that were answered `free`, with an
-// interval as for false_alarm_rate.
+// Returns which share of the steps with a contact that counts was answered `free`. The interval is
+// computed as for false_alarm_rate.
 Rate miss_rate(const StepMeasures& measures);
-// Returns the number of spurious pairs divided by the number of answered steps; 0 if there are
-// none.
+// Returns the number of spurious pairs divided by the number of answered steps; 0 if no step was
+// answered.
 double spurious_pairs_a_step(const StepMeasures& measures);
 // Returns the number of candidates over the least possible number; 0 if no pair was in contact.
 double candidates_over_least(const StepMeasures& measures);

@@ -38,7 +38,7 @@ struct DetectorUnderTest {
   // Returns the detector in this configuration alone. The contract of the built-in detector depends
   // on the configuration, because the configuration's options state the question.
   DetectorUnderTest in(const Configuration& configuration) const;
-  // Returns the detector as it is asked in a stratum of this family.
+  // Returns the detector with the configurations that run in a stratum of this family.
   DetectorUnderTest in_stratum(std::string_view family) const;
 };
 

@@ -71,7 +71,7 @@ struct Verdict {
   std::uint64_t disturbances = 0;   // how often the run was killed from outside and repeated
   std::vector<StepDiff> steps;      // only of a completed run
   std::size_t left_out_misses = 0;  // steps that would be a miss without the contract
-  std::optional<Failure> failure;   // for a defect: the first step that shows one
+  std::optional<Failure> failure;   // only for a defect: the first failure
 };
 
 // Returns the first failure that a verdict shows. REQUIRES a verdict with Outcome::defect.

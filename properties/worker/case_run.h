@@ -24,9 +24,9 @@ struct Configuration {
   bool asks_limits = false;
 };
 
-// Processor seconds and memory of the process that ran a case, with all of its threads, as that
-// process states them. They are for benches alone: a plug-in runs in that process and could forge
-// them, so nothing is judged by them.
+// Processor seconds and memory of the process that ran a case, with all of its threads. The process
+// itself states these numbers, so a plug-in, which runs in that process, could forge them. They are
+// for benches alone, and no verdict depends on them.
 struct RunTimes {
   double create = 0;
   std::vector<double> steps;  // for each step the time until its answer, commit included
@@ -75,14 +75,14 @@ struct CaseRun {
   std::vector<CandidatePairs> candidates = {};
   // Only from a limiter, if limits are asked for: its answer to each step; nothing if it failed.
   std::vector<std::optional<LimitAnswer>> limits = {};
-  // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
-  // is empty if all steps have answers.
+  // For each step why it has no answer ("step 2: ..."), or an empty text if it has an answer. The
+  // list is empty if all steps have answers.
   std::vector<std::string> errors = {};
-  // For each step whether a plug-in refused it as beyond its capacity; its answer is then an error.
-  // Empty if it refused no step.
+  // For each step whether a plug-in refused the step as beyond its capacity; the answer of such a
+  // step is an error. The list is empty if the plug-in refused no step.
   std::vector<std::uint8_t> over_capacity = {};
-  // Whether the detector answers steps at all. A library that only lists candidates does not: each
-  // of its steps is stored as undecided or, if it failed, as an error.
+  // Whether the detector answers steps at all. A library that only lists candidates answers none:
+  // each of its steps is stored as undecided, or, if the library failed, as an error.
   bool has_answers = true;
   // Only if the run completed and its configuration asks for times.
   std::optional<RunTimes> times = {};
@@ -97,7 +97,8 @@ struct CaseRun {
   // that it started if the run was long enough to measure them (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
-  // Cases that were sent together may show the lines of a later case. Empty with Isolation::none.
+  // If cases were sent together, the lines may be those of a later case. Empty for the built-in
+  // detector.
   std::string output = {};
 };
 
@@ -111,8 +112,8 @@ CaseRun run_case(const Case& c, const Configuration& configuration);
 // stopped evaluation the step is evaluated completely. Then the step is played while a second
 // detector of the same stages works on the same step in between. A right detector gives the same
 // results as without disturbances, because undecided evaluations change nothing and two detectors
-// share nothing. Returns one result for each step. If any evaluation of the step had a result other
-// than `undisturbed`, this is such a result. REQUIRES a mesh that is not refused.
+// share nothing. Returns one result for each step. If some evaluation of a step had a result other
+// than `undisturbed`, returns such a result for this step. REQUIRES a mesh that is not refused.
 std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed);
 // Returns the results as a run, to be compared with other runs. The counts of marking are removed,
@@ -160,8 +161,8 @@ class RunClock {
 // Plays a case through the built-in detector, which carries its state from step to step.
 
 // Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
-// the detector; none if the case states none, or if the culling uses no views. It is inline because
-// tests/mutation links the detector alone.
+// the detector. Returns no primitive if the case states none, or if the culling uses no views. The
+// function is inline because tests/mutation links the detector alone.
 inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
   // If the case states a segment, view-point takes its first end.
@@ -173,7 +174,7 @@ class CasePlayer {
  public:
   // Makes a new detector from the first frame, with these stages or the standard stages. The
   // relation of the case replaces the relation of the options. The case must outlive the player.
-  // Errors and cost are those of Detector::create.
+  // Errors and cost are as for Detector::create.
   static detector::Expected<CasePlayer> make(const Case& c, const Options& options,
                                              std::optional<detector::Stages> stages = {},
                                              const StopFunction& stop = {});

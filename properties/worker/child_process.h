@@ -60,10 +60,10 @@ ChildEnd end_by_signal(int signal);
 // Waits for the end of a child of this process. REQUIRES that the child was not waited for before.
 ChildEnd end_of_child(pid_t id);
 
-// Returns whether a signal that no error in a process causes killed the child, and the host did not
-// send it. Such signals are SIGKILL and SIGTERM, which an administrator, a job queue or a machine
-// short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that is closed
-// or interrupted. A child can also send such a signal to itself on purpose.
+// Returns whether the child was killed by one of the signals that no error in a process causes, and
+// the host did not send this signal. The signals are SIGKILL and SIGTERM, which an administrator, a
+// job queue or a machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a
+// terminal that is closed or interrupted. A child can also send such a signal to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
 // A child process. It leads a session and a process group of its own, so that it has no terminal,
@@ -126,10 +126,9 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work);
 
 // A process (the root) and the processes that it started, as /proc shows them.
 struct ProcessTree {
-  // Processor time in seconds of all descendants of the root: living descendants, and ended ones
-  // for which their parents have waited. If the parent of an ended process does not wait, the time
-  // of this process is lost. The threads of the root itself and of `apart` do not count. The value
-  // is up to 0.01 s too small for each process, because /proc counts in ticks.
+  // Processor time in seconds of all descendants of the root. The time of a process that has ended
+  // counts only if its parent has waited for it. The threads of the root itself and of `apart` do
+  // not count. The value is up to 0.01 s too small for each process, because /proc counts in ticks.
   double descendant_seconds = 0;
   // Every thread of every process waits for something other than a processor, or was stopped by a
   // signal; a process can stop itself. A process that a debugger has stopped is not asleep.
@@ -151,8 +150,9 @@ ProcessTree look_at(pid_t root, pid_t apart = 0);
 // result is never too large.
 class ProcessorTime {
  public:
-  // Begins to measure. `worker` is the process that does the work: a descendant of `process`, such
-  // as a worker behind bwrap, whose own time is then not counted; or 0 for `process` itself.
+  // Begins to measure. `worker` is the process that does the work; 0: `process` itself. If `worker`
+  // is a descendant of `process`, such as a worker behind bwrap, the threads of `process` are not
+  // counted.
   // REQUIRES that `process` is a child of this process that leads its process group and was not
   // waited for; the child can have ended.
   explicit ProcessorTime(pid_t process, pid_t worker = 0);
@@ -171,7 +171,7 @@ class ProcessorTime {
   std::optional<clockid_t> clock_;
   double begin_ = 0;                        // own_seconds() at the beginning
   std::optional<double> of_others_before_;  // seconds of started processes at the first look
-  double of_others_ = 0;                    // their seconds between the first and the last look
+  double of_others_ = 0;                    // their seconds from the first to the last look
 };
 
 // The limits of wall clock, as multiples of the limit of processor time.

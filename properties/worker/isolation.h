@@ -38,7 +38,7 @@ constexpr const char* text_of(Isolation isolation) {
 // files. The folder is the only place where a plug-in may write; TMPDIR has its path.
 //
 // The process that made the folder holds a lock on it, which the system releases when that process
-// ends in any way. make() also removes all scratch folders of this user without a lock.
+// ends in any way. make() also removes those scratch folders of this user that have no lock.
 class ScratchFolder {
  public:
   // Makes a folder. Fails if the system gives none.

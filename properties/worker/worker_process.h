@@ -3,7 +3,7 @@
 // process.
 //
 // The detector is not blamed for events outside of it. If a worker is killed from outside, a new
-// worker repeats the run. No run counts as hanging because the machine is busy.
+// worker repeats the run. A run does not count as hanging merely because the machine is busy.
 #pragma once
 
 #include <cstdint>

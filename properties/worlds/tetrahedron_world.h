@@ -1,9 +1,11 @@
 // Proves small worlds. A world has every motion of a tetrahedron on a tiny grid, seen from every
-// view-point of that grid. The oracle checks the detector and the laws of closed meshes on all.
+// view-point of that grid. For each motion and view-point the oracle checks the detector and the
+// laws of closed meshes.
 //
 // The checks of one motion and one view-point, in both orientations of the faces, are:
 // - The detector with Culling::view_point, Start::verified and Pairs::all has the oracle's pairs
-//   and times. If the start is clean, so has the detector with Start::clean and Pairs::first.
+//   and times. If the start is clean, the detector with Start::clean and Pairs::first has the
+//   oracle's first time and first pairs.
 // - L3: if the start is clean, the set of candidates K (detector/LAWS.md) holds the first contact.
 // - L4: if the start is clean, and all triangles are positive or all are negative, there is no
 //   contact.
@@ -23,8 +25,8 @@
 
 namespace assay::properties {
 
-// TetrahedronMotions lists the motions of a tetrahedron's four vertices on a tiny grid. Of all
-// motions that differ only by a symmetry it lists one.
+// TetrahedronMotions lists the motions of a tetrahedron's four vertices on a tiny grid. It lists
+// only one of several motions that differ only by a symmetry.
 //
 // The vertices are at 0, 2, .., 2 (side - 1) on each axis, at t=0 and at t=1. Vertices may
 // coincide. The coordinates of view-points are all integers from 0 to 2 (side - 1), so that some
@@ -33,8 +35,8 @@ namespace assay::properties {
 // Two motions are of one class if a permutation of the vertices together with a symmetry of the
 // grid turns one into the other. The same features then touch at the same times. An odd permutation
 // of the vertices, like a mirror, reverses the faces, so each class is checked with both
-// orientations. A motion reversed in time is of another class, because its first contact is a
-// different one.
+// orientations. A motion reversed in time is of another class, because its first contact is another
+// contact.
 
 struct TetrahedronGrid {
   int side = 2;        // vertex places on an axis
@@ -42,15 +44,16 @@ struct TetrahedronGrid {
   int movers = 4;      // the greatest number of vertices that move
 };
 
-// One motion of a class. Symmetries that map the motion onto itself map its view-points onto each
-// other; `views` has one view-point of each set of these.
+// One motion of a class. Two view-points are equivalent if a symmetry maps the motion onto itself
+// and one view-point onto the other. `views` has one of each set of equivalent view-points.
 struct TetrahedronMotion {
   std::array<MovingPoint, 4> vertices;
-  // The number of motions in this class. Motions that differ in the order of vertices count apart.
+  // The number of motions in this class, where motions that differ in the order of vertices count
+  // separately.
   std::uint64_t stands_for = 0;
   struct View {
     Point q;
-    std::uint64_t stands_for = 0;  // the number of view-points in the set of q
+    std::uint64_t stands_for = 0;  // the number of view-points equivalent to q, with q
   };
   std::vector<View> views;
 };
@@ -68,13 +71,13 @@ class TetrahedronMotions {
                 const std::function<bool(const TetrahedronMotion&)>& visit) const;
 
   // Returns the number of motions, multiplied by the number of view-points. Motions that differ in
-  // the order of vertices count apart.
+  // the order of vertices count separately.
   std::uint64_t all() const;
 
  private:
   using Paths = std::array<int, 4>;  // path: start * places + end; ascending
   struct Block {
-    // The places of the vertices at rest, ascending. Only the first 4 - moving entries count.
+    // The places of the vertices at rest, ascending. Only the first 4 - moving entries are used.
     std::array<int, 4> resting = {};
     int moving = 0;
     int first_path = 0;  // the first path of the moving vertices: an index into moving_paths_
@@ -106,7 +109,7 @@ std::span<const TetrahedronWorld> tetrahedron_worlds();
 struct TetrahedronWorldOptions {
   int jobs = 1;        // threads; the counts of a completed world do not depend on their number
   double seconds = 0;  // time limit; 0: no limit
-  // Returns whether to stop. It is called between motions, from any thread, and can be empty.
+  // Returns whether to stop. Is called between motions, from any thread. If empty, nothing stops.
   std::function<bool()> stop;
 };
 
@@ -121,7 +124,7 @@ struct TetrahedronWorldResult {
   std::uint64_t one_sign = 0;      // for L4: clean start, all positive or all negative
   std::uint64_t all_positive = 0;  // for L5: all positive and winding number 1
   double seconds = 0;
-  // The first case, in the order of the enumeration, that does not hold, and why it does not.
+  // The first case that does not hold, in the order of the enumeration, and the check that fails.
   std::optional<Case> counterexample;
   std::string explanation;
 };

@@ -47,7 +47,7 @@ struct RunFindings {
   // Returns whether the runs together are a whole campaign: one run does the whole plan, or N runs
   // of shares 1/N have seeds with all N remainders modulo N. With other seeds two runs would judge
   // the same indices (trial_index), and a check of every 16th index, for example, might never be
-  // made. Some gates ask more of a whole campaign than of a part; only a whole one needs bounds.
+  // made. A part of a campaign has to pass fewer checks; for example, it needs no bounds.
   bool is_whole() const;
   // Returns how many of n items all runs together have to do.
   std::uint64_t shares_of(std::uint64_t n) const;
@@ -58,7 +58,7 @@ struct RunFindings {
   // Returns whether all trials of a stratum took place, and in each of them the contract left the
   // case out, or the detector refused the case as beyond its capacity.
   bool is_left_out(const StratumPlan& stratum) const;
-  // Returns the tally of a family; an empty one if no trial of the family was judged.
+  // Returns the tally of a family; an empty tally if no trial of the family was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
   // Returns one failure of each signature (example_of), the least odd cause first (cause.h).
   std::vector<const FailureRecord*> kinds() const;
@@ -68,14 +68,14 @@ struct RunFindings {
   const FailureRecord* example_of(const std::string& signature) const;
   // Returns the outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
-  // Returns whether the harness gate judges how often the premises of laws held: the detector is
-  // the built-in one, the plan has laws, and all trials of a whole campaign took place.
+  // Returns whether the gate `harness` judges how often the premises of laws held: the detector is
+  // built in, the plan has laws, and all trials of a whole campaign took place.
   bool laws_are_judged() const;
   // Returns whether the same command, given again, would do further work, because the run was
   // killed or its time ended.
   bool has_more_to_do() const;
-  // Return the number of planted faults that were tried, that were found, and that were found by
-  // random cases. A fault that was found otherwise was found by its curated case alone.
+  // Return the numbers of planted faults that were tried, that were found, and that were found by
+  // random cases. finds() - found_at_random() faults were found only by their curated cases.
   std::uint64_t faults() const, finds() const, found_at_random() const;
 };
 
@@ -89,9 +89,9 @@ Expected<RunFindings> read_findings(const std::filesystem::path& folder);
 
 // The functions below compute the bounds that the trials of a campaign support.
 
-// Returns the configurations in which the detector is asked in a stratum, in the order of its
-// trials' outcomes. A configuration with the name of a family of questions (question_families) is
-// asked only in the stratum of that name, and no other configuration is asked there.
+// Returns the configurations that run in a stratum, in the order of TrialRecord::outcomes. A
+// configuration with the name of a family of questions (question_families) runs only in the stratum
+// of that name, and no other configuration runs there.
 std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector& detector,
                                                             std::string_view family);
 

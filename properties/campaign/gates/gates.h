@@ -1,5 +1,5 @@
-// Decides whether a run holds. The function judge() takes the findings of a run and a request, and
-// returns the result of each gate: one demand on the run. Only this header states the order of the
+// Decides whether a run holds. A gate is one demand on a run. judge() takes the findings of a run
+// and a request, and returns the result of each gate. Only this header states the order of the
 // gates, and the exit codes follow this order: a doubt about the harness goes before a defect, and
 // a defect goes before work that is incomplete. Further functions list the claims that were not
 // judged, and group failures.
@@ -31,9 +31,9 @@ struct GateRule {
 //
 // - harness: the run found every canary, and at least the share of the planted faults that the
 //   plan's policy asks for. It found no equivalent fault, and the self-test found no contradiction.
-//   If all trials of a whole campaign took place, the premise of every law held as often as the
-//   plan wants, and was close in a quarter of these steps. Every defect of a trial was stored as a
-//   failure. If no canary was tried, the gate is not judged.
+//   If all trials of a whole campaign took place, the premise of every law held in as many steps as
+//   the plan wants, and was close in a quarter of the steps in which it held. Every defect of a
+//   trial was stored as a failure. If no canary was tried, the gate is not judged.
 // - corpus: the shipped cases, scenes and the owner's cases hold.
 // - claims: no claim and no law is broken in any trial or in any case of the search, and no world
 //   has a counterexample.
@@ -143,7 +143,7 @@ Extremes largest_tried(const RunFindings& findings);
 // certificate is asked for and the campaign has fewer families, each of them must. Contacts that
 // the contract leaves out do not count. Nothing is demanded if no claim speaks of contacts, or if
 // the contract makes all such claims void. The result also names each claim that was not judged
-// for want of a contact with an answer.
+// because no step had a contact, or no step with a contact had an answer to judge.
 std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate);
 
 // A group of kinds of failure that one change of the detector would probably repair. One mistake
@@ -166,7 +166,7 @@ struct FailureGroup {
 // Failures of different deeds (claims.h) are in different groups. Failures that lose a contact are
 // grouped by the traits of the contact: its features and cause (cause.h), whether both triangles
 // move, how small the smaller triangle is, whether the contact lies within one component or between
-// two, whether the mesh is closed, and how many triangles the mesh has at least. The traits of a
+// two, whether the mesh is closed, and a lower bound of its number of triangles. The traits of a
 // group distinguish its contacts from the contacts of a hundred cases that hold, drawn from the
 // whole run. If p is the share of these cases that have the traits, and the group has n failing
 // cases, the traits are named only if p^n, the probability of a coincidence, is at most 1e-4.

@@ -32,7 +32,7 @@ struct BoundDetector {
   std::string name;
   bool built_in = true;
   Contract contract;
-  std::uint64_t threads = 1;                  // for a plug-in with a limit on its threads
+  std::uint64_t threads = 1;                  // WorkerLimits::threads
   std::vector<Configuration> configurations;  // DetectorUnderTest::of_questions come last
   // As in DetectorUnderTest.
   std::vector<std::string> query_claims{}, unjudged_parts{};

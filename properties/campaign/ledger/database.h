@@ -55,8 +55,8 @@ Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
 }
 
 // The functions of Database and Statement throw StoreProblem if the disk is full, or if the file is
-// damaged, is no file of SQLite, or cannot be read or written any more. The message is that of
-// SQLite, and names the file.
+// damaged, is no file of SQLite, or cannot be read or written any more. The message is SQLite's own
+// message with the name of the file.
 class Database {
  public:
   enum class Mode : std::uint8_t { read, write };

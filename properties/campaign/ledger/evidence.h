@@ -71,7 +71,8 @@ struct FaultProof {
 };
 ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices)
 
-// Another run of the same build. This run took over its proofs that planted faults are found.
+// The other run of the same build from which this run took over the proofs that planted faults are
+// found.
 struct PowerSource {
   static constexpr const char* kind = "power";
   std::string campaign, detector;
@@ -162,7 +163,7 @@ struct JudgedSource {
   std::uint64_t runs = 0;                // runs that ended by themselves
   std::vector<std::uint64_t> threads{};  // for each run the greatest number of its threads
   std::string what{};                    // how two runs differ, or why a run ended early
-  bool broken = false;                   // `what` breaks a claim
+  bool broken = false;                   // `what` describes a broken claim
   std::vector<Step> judged{};
   std::set<std::string> causes{};  // the causes (cause.h) in the hardest cases of a lane's archive
 

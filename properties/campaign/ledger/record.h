@@ -22,7 +22,7 @@ struct LawCount {
   // The part of `premise` under each culling, by the word for the culling. Empty for a law whose
   // premise may hold under any culling.
   Counts by_culling;
-  // Only for a plug-in: steps whose answers differ in two forms of a case, as its claims allow.
+  // Only for a plug-in: steps whose answers differ between two forms of a case.
   std::uint64_t differs = 0;
   static constexpr bool adds_up = true;
   friend bool operator==(const LawCount&, const LawCount&) = default;
@@ -39,7 +39,7 @@ ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 
 // The extremes of one case or of many: the largest value of each member.
 struct Extremes {
-  std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next one
+  std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next new start
   std::uint64_t valence = 0;         // triangles at a vertex
   std::uint64_t bodies = 0;          // in a relation that names bodies
   std::uint64_t components = 0;      // sets of triangles connected through shared vertices
@@ -59,7 +59,7 @@ struct TrialCounts {
   std::map<std::string, SetPairCount, std::less<>> set_pairs;
   std::map<std::string, LawCount, std::less<>> laws;  // by the name of the law
   StepMeasures measures;                              // most of them only for a plug-in
-  Extremes extremes{};  // of the judged mesh; over many trials, the largest of each
+  Extremes extremes{};  // of the judged mesh; over many trials, the largest value of each member
   static constexpr bool adds_up = true;
   friend bool operator==(const TrialCounts&, const TrialCounts&) = default;
 };
@@ -69,7 +69,7 @@ struct TrialRecord {
   std::string id;  // campaign:seed:family:index
   std::string family;
   std::uint64_t index = 0;
-  // One letter a configuration: H(olds) D(efect) U(ndecided) E(rror) R(efused: capacity), or
+  // One letter for each configuration: H(olds) D(efect) U(ndecided) E(rror) R(efused: capacity), or
   // not_run.
   std::string outcomes;
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
@@ -99,7 +99,7 @@ struct SourceRow {
   bool is_drawn;       // its cases depend on the seed, so results under different seeds add up
   const char* prefix;  // the ids of its failures begin with this text; no id of a trial does
   // contact_text (on the terminal) and met_in_summary (in a summary) say where a kind of failure
-  // was found that no trial shows. `defects` names the number of defects that stands beside a
+  // was found that no trial shows. `defects` is the label of the number of defects in the line of a
   // verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
   // section: the section of a certificate that lists the source's inputs, if any. shown_text: the
@@ -166,8 +166,8 @@ inline constexpr const char* needs_what_came_before =
 std::string about_text(const std::string& signature, const std::string& explanation);
 
 // Turn records into rows and back. trial_of and failure_of throw StoreProblem if no run stores such
-// a row. met_row returns the row that counts a failure; a trial stores one for each of its
-// failures, but the meshes of only a few failures.
+// a row. met_row returns the row that counts a failure. A trial stores such a row for each of its
+// failures, but it stores the meshes of only a few.
 Row to_row(const TrialRecord& record);
 Row to_row(const FailureRecord& failure);
 Row met_row(const FailureRecord& failure);

@@ -24,8 +24,8 @@ struct FailureList {
   Counts times_met;                 // by signature; failures without a stored mesh count, too
 };
 
-// Functions that return Expected are for all rooms. The others throw StoreProblem and are for
-// campaign/ alone (campaign/ledger/database.h).
+// Functions that return Expected are for all rooms. All other functions throw StoreProblem and are
+// for campaign/ alone (campaign/ledger/database.h).
 class Store {
  public:
   // Opens the file for writing; makes the file if it does not exist. `binding` says to which run
@@ -44,8 +44,8 @@ class Store {
   Expected<void> keep(const Row& row) {
     return catch_store_problem([&] { set(row); });
   }
-  // Makes the store a single file: moves the rows from SQLite's files beside the store into it. To
-  // read the store does not change its bytes any more.
+  // Makes the store a single file: moves the rows from SQLite's files beside the store into the
+  // store. Afterwards reading does not change the bytes of the store.
   Expected<void> seal();
 
   std::string binding() const;
@@ -57,8 +57,8 @@ class Store {
   void set(const Row& row);
   // Removes all rows of a kind.
   void drop(std::string_view kind);
-  // Adds a trial with its failures, all of it or nothing. Every failure is counted (times_met), and
-  // a failure with a mesh is also stored.
+  // Adds a trial with its failures, either completely or not at all. Every failure is counted
+  // (times_met), and a failure with a mesh is also stored.
   void add(const TrialRecord& record, const std::vector<FailureRecord>& failures = {});
   void add(const FailureRecord& failure) { set(to_row(failure)); }
   // Removes the stored failures of the corpus whose signature is not in the set.

@@ -24,8 +24,8 @@
 
 namespace assay::properties {
 
-// A hunt plants every registered fault in the detector, and counts the cases that the harness needs
-// to find the fault.
+// A hunt plants every registered fault in the detector, and counts for each fault the cases until
+// the harness finds it.
 
 struct FaultHunt {
   std::string campaign;  // for ids: campaign:seed.fSEED:family:index
@@ -79,8 +79,8 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
 // any buffer and give little work to threads. The oracle judges some steps of these meshes. A
 // plug-in that claims to be deterministic runs each mesh several times.
 
-// For each run of a mesh the number of threads, if the plug-in has a limit on its threads
-// (PluginParts::takes_threads).
+// The greatest number of threads in each run of a mesh, for a plug-in that claims to be
+// deterministic and has a function that limits its threads (PluginParts::takes_threads).
 inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 
 // Returns for each run of a mesh the greatest number of the plug-in's threads.
@@ -144,7 +144,7 @@ enum class WalkKind : std::uint8_t {
   sliding,      // one body is pushed down and along
   pile,         // three bodies lie on one another
   closing_gap,  // two bodies are driven through each other, to the same goal again and again
-  far_goal,     // in each step the goal of one body is 1000 of its sizes below it
+  far_goal,     // in each step the goal of one body is 1000 times its size below it
   squeezed,     // two plates close on one body
   far_away,     // a pile that lies 2^20 times the size of a body from the origin
 };
@@ -201,11 +201,11 @@ Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
 
 // Shrinks one stored failure of each signature (failures of one signature break the same claim in
-// the same way). Does nothing for a signature of which a failure was shrunk to the end before, nor
-// for a flaky failure. If the case of a failure does not fail in a new process, the failure becomes
-// flaky, and up to two further failures of the signature are tried. If the shrinking of a failure
-// was interrupted, it continues from the smallest mesh so far. Each smaller mesh is stored as soon
-// as it is found. `limits` hold for each failure, the deadline for all failures together. Throws
+// the same way). Skips a signature if one of its failures was shrunk to the end before. Skips flaky
+// failures. If the case of a failure does not fail in a new process, the failure becomes flaky, and
+// up to two further failures of the signature are tried. If the shrinking of a failure was
+// interrupted, it continues from the smallest mesh so far. Each smaller mesh is stored as soon as
+// it is found. `limits` hold for each failure, the deadline for all failures together. Throws
 // StoreProblem, so this function is for campaign/ alone.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const OnText& progress);
@@ -233,16 +233,15 @@ class CampaignObserver {
   virtual void on_failures_shrunk(const FailureList&) {}
 };
 
-// Runs all phases of a campaign, from the canary to the worlds of tetrahedra, as far as their
-// results are not in the store yet. Each phase stores its results and informs the observer;
-// findings.h reads the results back, and gates.h judges them. If the request has a proof that
-// planted faults are found, stores this proof and plants no faults. `corpus` is the folder of the
-// curated cases.
+// Runs all phases of a campaign, from the canary to the worlds of tetrahedra. Skips work whose
+// results the store already has. Each phase stores its results and informs the observer; findings.h
+// reads the results back, and gates.h judges them. If the request has a proof that planted faults
+// are found, stores this proof and plants no faults. `corpus` is the folder of the curated cases.
 //
-// Trials have nine tenths of the plan's time. If trials are missing then, failures are shrunk in
-// the last tenth, and no other phase begins. The canary and the worlds are always done again; the
-// store keeps the result for a world that covers more. The worlds and the large meshes are not
-// divided into shares, because they take little time.
+// Trials have nine tenths of the plan's time. If trials are missing when this time is over,
+// failures are shrunk in the last tenth, and no other phase begins. The canary and the worlds are
+// always done again. Of two results for the same world, the store keeps the result that covers
+// more. The worlds and the large meshes are not divided into shares, because they take little time.
 //
 // Fails if the store cannot be read or written any more. Rows that were stored before stay.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
@@ -254,19 +253,19 @@ double shrinking_seconds(const CampaignPlan& plan);
 
 // The functions below store the failures of curated cases and scenes, as for failing trials.
 
-// Returns the stored failures of the corpus. Before that, of each signature that is not in the
-// store yet, stores the failure with the smallest mesh; then shrinks the stored failures. The
-// shrinking of one failure takes at most a minute, that of all together at most
-// shrinking_seconds(). REQUIRES failures in the order of the corpus. The rows of an earlier call
-// stay. `progress` is called with the signature of the failure that is being shrunk.
+// Stores failures of the corpus, shrinks them, and returns all stored failures of the corpus. For
+// each signature that is not in the store yet, stores the failure with the smallest mesh. Shrinking
+// takes at most a minute for one failure, and at most shrinking_seconds() for all failures
+// together. REQUIRES failures in the order of the corpus. The rows of an earlier call stay.
+// `progress` is called with the signature of the failure that is being shrunk.
 Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
                                              const std::vector<FailureRecord>& failures,
                                              Store& store, const OnText& progress);
 
 // Stores the rows of the corpus, and removes stored failures of the corpus whose signature is not
-// in `failures`. With KeepMeshes::now, for a run, also stores the failure with the smallest mesh of
-// each signature, which is shrunk with the failures of the trials. With KeepMeshes::later, for a
-// certificate, shrink_corpus_failures stores and shrinks it.
+// in `failures`. With KeepMeshes::now, for a run, also stores for each signature the failure with
+// the smallest mesh, so that it is shrunk together with the failures of the trials. With
+// KeepMeshes::later, for a certificate, stores no failures: shrink_corpus_failures does this.
 enum class KeepMeshes : std::uint8_t { now, later };
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
                            const std::vector<FailureRecord>& failures, KeepMeshes when);

@@ -45,8 +45,9 @@ struct TrialCase {
 // every contract. A case is rejected
 //   if the contract takes none of its steps;
 //   if all of its steps start within the contract's separation;
-//   if it has no contact that counts. This last rule holds for every fourth case, for queries and
-//   under a contract that leaves contacts out, and rejects at most most_without_contact cases.
+//   if it has no contact that counts. This last rule is only for every fourth case of a family, and
+//   only if the family has queries or the contract leaves contacts out. It rejects at most
+//   most_without_contact cases.
 // Under a contract with a separation about every second case is aimed at the separation (parts.h).
 // Under the default contract the result for a mesh is the case of the id, unchanged.
 inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
@@ -113,8 +114,8 @@ Judge judge_of_law(const Law& law, const Configuration& configuration);
 // the law is broken, and all other checks go on.
 
 // Runs check(0) to check(count - 1), in this order, in a copy of this process. If a check ends the
-// copy, its law is broken: its tally says how the copy ended, and the next check runs in a new
-// copy. So `check` must not rely on data that an earlier call has left in memory. case_of(i)
+// copy, its law is broken: the law's tally says how the copy ended, and the next check runs in a
+// new copy. So `check` must not rely on data that an earlier call has left in memory. case_of(i)
 // returns the id of the case of check i, for the text of a tally. Throws the exceptions of `check`,
 // and std::runtime_error if copies are killed from outside again and again. A copy costs some ten
 // milliseconds, mostly for pages that both processes write, so check many cases together.
@@ -128,7 +129,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
 // The law is broken if a claim holds in the case and fails in the form; the oracle judges the form
 // like any case. A detector that claims to be deterministic also breaks the law by different
 // answers to the same calls. Other different answers are only counted, because claims allow, for
-// example, a wider interval of time or a false alarm in one of the two.
+// example, a wider interval of time or a false alarm in one of the two forms.
 
 struct FormCheck {
   // `premise` and `differs` count steps, and `broken` is 0 or 1; all are 0 if nothing was judged.

@@ -19,7 +19,7 @@ Case case_of_query(const FourPoints& query, std::string id);
 
 // Returns whether the case has the option `query`, even if its mesh is not that of a query.
 bool says_query(const Case& c);
-// Returns the query that the case was made from; nothing if the case is no query.
+// Returns the query from which the case was made; nothing if the case is no query.
 std::optional<FourPoints> query_of(const Case& c);
 
 // Returns the two features of the query, by the vertices of its case.
