@@ -3,11 +3,12 @@
 //   ASSAY_FIELDS(Canary, fault, found_after)
 //
 // names all members. A missing member does not compile, and neither does a name that is no member.
-// A type with fewer fields than members, or more, has a function `fields(archive, x)` that calls
+// A type whose fields are not exactly its members has a function `fields(archive, x)` that calls
 // archive("name", x.name, "other", x.other).
 //
-// Archives turn fields into messages (worker/messages.h) and into JSON objects, and back. A file
-// that needs JSON includes <nlohmann/json.hpp>, without which the worker is built.
+// Archives turn fields into messages (worker/messages.h) and into JSON objects, and back. This
+// header includes no JSON library, because the worker is built without one. A file that needs JSON
+// includes <nlohmann/json.hpp>.
 #pragma once
 
 #include <boost/preprocessor/seq/for_each.hpp>
@@ -25,7 +26,7 @@
 
 namespace assay::properties {
 
-// The common base of archives: takes the fields one by one.
+// The common base of archives: passes the fields to Archive::field, one after another.
 template <class Archive>
 class NamedFields {
  public:
@@ -36,7 +37,7 @@ class NamedFields {
   }
 };
 
-// Add up fields: numbers, types with +=, and maps key by key.
+// The functions below add up fields: numbers, types with +=, and maps key by key.
 
 template <class T>
 void add_to(T& sum, const T& addend) {
@@ -57,9 +58,9 @@ struct EachField : NamedFields<EachField<Visit>> {
 
 template <class T>
 T& add_fields(T& sum, const T& addend) {
-  std::vector<const void*> addends;  // the n-th has the type of the sum's n-th field
+  std::vector<const void*> addends;  // item n points to an object of the type of the sum's field n
   EachField collect([&](auto& item) { addends.push_back(&item); });
-  fields(collect, const_cast<T&>(addend));  // is only read
+  fields(collect, const_cast<T&>(addend));  // `collect` does not change the addend
   auto next = addends.begin();
   EachField add([&]<class F>(F& item) { add_to(item, *static_cast<const F*>(*next++)); });
   fields(add, sum);
@@ -70,11 +71,11 @@ T& add_fields(T& sum, const T& addend) {
 template <class T>
 requires(T::adds_up) T& operator+=(T& sum, const T& addend) { return add_fields(sum, addend); }
 
-// Turns such types into JSON objects, and back. An enum is written as its word, and read by its
-// list of words; an empty optional is null.
+// JsonFields turns a type with fields into a JSON object, and back. An enum value becomes its word,
+// and an empty optional becomes null.
 
-// Whether fields that are 0 or empty are left out of an object and of all objects in it; such
-// fields may then be missing when it is read.
+// Zeros::left_out: a writer leaves out fields that are 0 or empty, in an object and in all objects
+// inside of it; a reader accepts an object without these fields.
 enum class Zeros : std::uint8_t { stay, left_out };
 
 // A reader throws the exceptions of nlohmann::json if a field is missing or has another type.
@@ -90,7 +91,7 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
   template <class T>
   void field(const std::string& name, T& item) {
     if constexpr (reads) {
-      // at() throws if this is no object; contains() would take it for an empty object.
+      // at() throws if object_ is no JSON object; contains() would treat it as an empty object.
       if (zeros == Zeros::stay || !object_.is_object() || object_.contains(name))
         pass(object_.at(name), item);
     } else {
@@ -100,7 +101,8 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
       pass(object_[name], item);
     }
   }
-  // Takes an object that is written as a whole, or left out if it equals its default.
+  // Passes an object. A writer leaves out an object that equals its default, and else writes all of
+  // its fields. A reader sets a missing object to its default.
   template <class T>
   void may(const char* name, T& item) {
     if constexpr (reads) item = {};
@@ -168,7 +170,8 @@ template <class Json, Zeros zeros = Zeros::stay, class T>
 Json json_of_fields(const T& x) {
   Json json;
   JsonFields<Json, zeros, false> writer(json);
-  // A writer changes nothing. `fields` takes an object that is not const, because readers use it.
+  // A writer changes nothing. `fields` takes an object that is not const, because readers call
+  // `fields` too.
   fields(writer, const_cast<T&>(x));
   return json;
 }

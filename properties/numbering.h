@@ -1,5 +1,5 @@
-// Lists numbers of vertices or triangles, and of the points of a grid that is mapped onto itself;
-// lays lists of triples out as rows.
+// Makes lists of vertex or triangle numbers, turns lists of triples into matrices, and maps a grid
+// of numbered points onto itself.
 #pragma once
 
 #include <algorithm>
@@ -23,15 +23,15 @@ Matrix as_rows(const Triples& triples) {
   return Eigen::Map<const Matrix>(first, static_cast<Eigen::Index>(std::size(triples)), 3);
 }
 
-// Returns 0 .. count - 1.
+// Returns the list 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }
 
-// Grids of side^dimensions points, numbered along the first axis first, and the maps of a grid
-// onto itself: axes exchanged and mirrored.
+// A grid has side^dimensions points. Their numbers grow along the first axis first. A symmetry
+// maps a grid onto itself: it exchanges and mirrors axes.
 
 // Returns base^exponent in whole numbers. REQUIRES exponent >= 0.
 inline int power(int base, int exponent) {
@@ -40,11 +40,11 @@ inline int power(int base, int exponent) {
   return result;
 }
 
-// A map of the grid onto itself, for a grid of any side. Element i of its result is the number of
-// the point onto which point i is mapped.
+// A symmetry of grids of any side. Element i of its result is the number of the point onto which
+// the symmetry maps point i.
 using ImageOfGrid = std::function<std::vector<int>(int side)>;
 // Calls `visit` for each permutation of the axes with each choice of mirrored axes, the identity
-// first. `visit` may keep the map.
+// first. A symmetry is valid only until `visit` returns.
 inline void for_each_symmetry(int dimensions,
                               const std::function<void(const ImageOfGrid&)>& visit) {
   std::array<int, 3> axes = {0, 1, 2};

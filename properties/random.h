@@ -1,4 +1,5 @@
-// Draws random numbers by integers only, because standard distributions differ between libraries.
+// Draws random numbers by arithmetic on integers alone, because the distributions of the standard
+// library differ between implementations.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,9 @@ class Random {
     next();
     next();
   }
-  // Takes its seed from a name, such as a case's id, hashed by FNV-1a, 64 bits.
+  // Uses the hash of a name, such as a case's id, as the seed.
   explicit Random(std::string_view id) : Random(hash(id), 0) {}
+  // FNV-1a with 64 bits.
   static constexpr std::uint64_t hash(std::string_view text) {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -30,11 +32,12 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  // Returns 0 .. n-1; n is small, so the bias of the remainder is below 2^-50.
+  // Returns one of 0 .. n-1. The bias of the remainder is below 2^-50, because n is small.
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
   int between(int lo, int hi) { return lo + below(hi - lo + 1); }
   bool one_in(int n) { return below(n) == 0; }
-  // Return multiples of 2^-30 in [0, 1), and of 2^-29 in [-1, 1): sums of a few of them are exact.
+  // unit() returns a multiple of 2^-30 in [0, 1), signed_unit() a multiple of 2^-29 in [-1, 1).
+  // The sum of a few such numbers is exact.
   double unit() { return static_cast<double>(next() >> 34) * 0x1p-30; }
   double signed_unit() { return 2 * unit() - 1; }
   // Returns a multiple of 2^-52 in [-1, 1).
@@ -50,7 +53,7 @@ auto& one_of(Random& random, List& list) {
   return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
 }
 
-// Shuffles by Fisher and Yates.
+// Returns the list in a random order (the shuffle of Fisher and Yates).
 template <class List>
 List shuffled(Random& random, List list) {
   for (std::size_t i = list.size(); i > 1; --i) {
@@ -60,7 +63,7 @@ List shuffled(Random& random, List list) {
   return list;
 }
 
-// Begins each triangle at a random one of its corners.
+// Rotates the corners of each triangle, so that a random corner comes first.
 template <class Triangles>
 void begin_anywhere(Random& random, Triangles&& triangles) {
   for (auto&& corners : triangles)

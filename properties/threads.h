@@ -10,9 +10,10 @@
 
 namespace assay::properties {
 
-// Calls `work` in this thread and in up to jobs - 1 others at the same time, and returns when all
-// of these calls have returned. Each call must take work until none is left: if the system gives
-// fewer threads, the existing ones do all of it. If calls throw, rethrows the first exception.
+// Calls `work` in this thread and in up to jobs - 1 other threads at the same time, and returns
+// when all of these calls have returned. Each call must begin one piece of work after another until
+// none is left, because the system may give fewer threads. If calls throw, rethrows the first
+// exception.
 inline void in_threads(int jobs, const std::function<void()>& work) {
   std::mutex mutex;
   std::exception_ptr first;
@@ -29,7 +30,7 @@ inline void in_threads(int jobs, const std::function<void()>& work) {
     try {
       for (int j = 1; j < jobs; ++j) others.emplace_back(guarded);
     } catch (const std::system_error&) {
-      // The system gives no more threads than these, so the work is done by them.
+      // The system gives no further thread. This thread and `others` then do all of the work.
     }
     guarded();
   }

@@ -1,6 +1,6 @@
-// Turns values into words and back: the values of an enum, by a table in their order from 0;
-// counts; and whole numbers. Makes outside text, such as a plug-in's name, safe to print. Gives the
-// types of meshes, cases, steps, results and problems by the names that they have below this room.
+// Gives the rows of an enum's table of names, and turns counts and whole numbers into words or
+// back. Makes text from outside, such as a plug-in's name, safe to print. Imports the names of the
+// types of meshes, cases, steps, results and problems from the rooms detector/ and corpus/.
 #pragma once
 
 #include <charconv>
@@ -20,7 +20,8 @@ namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 using corpus::Case, corpus::CaseStep, corpus::CaseView;
-// What failed is a value; the only exception that leaves this room is std::bad_alloc.
+// A function of this room returns its failure as a value; the only exception that leaves the room
+// is std::bad_alloc.
 using corpus::Expected, corpus::Problem, corpus::ProblemKind;
 using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::Culling,
     detector::Feature, detector::FeatureKind, detector::FourPoints, detector::MovingPoint,
@@ -29,7 +30,8 @@ using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::
     detector::TimeEnclosure, detector::TrianglePair, detector::Triangles, detector::TrianglesView,
     detector::ViewPrimitive, detector::ViewSign, detector::Want;
 
-// The rows of an enum whose list has more than names, in the order of its values.
+// The rows of the table names_of(Enum), in the order of the enum's values, which begin at 0. A row
+// may have further columns besides the name.
 template <Listed Enum>
 inline constexpr auto all_rows = names_of(Enum{});
 template <Listed Enum>
@@ -37,8 +39,8 @@ constexpr const auto& row_of(Enum value) {
   return all_rows<Enum>[static_cast<std::size_t>(value)];
 }
 
-// Returns the whole number that the word spells in digits alone, if it fits into T; nothing for
-// other words.
+// Returns the whole number that a word of digits alone spells. Returns nothing for any other word,
+// or if the number does not fit into T.
 template <class T = std::uint64_t>
 std::optional<T> whole_number_of(std::string_view word) {
   T number = 0;
@@ -52,9 +54,9 @@ inline std::string times_text(std::uint64_t count) {
   return count == 1 ? "once" : std::to_string(count) + " times";
 }
 
-// Returns the text as UTF-8 without control characters: each of these becomes '?', and each byte
-// that is no part of a character becomes U+FFFD. A terminal can then show the text, and writers of
-// JSON and XML, which escape quotes and brackets themselves, accept it.
+// Returns the text as UTF-8 without control characters: each control character becomes '?', and
+// each byte that is no part of a character becomes U+FFFD. A terminal can then show the text, and
+// writers of JSON and XML, which escape quotes and brackets themselves, accept the text.
 std::string printable(std::string_view text);
 
 }  // namespace assay::properties

@@ -261,7 +261,7 @@ class PlanReader : public corpus::JsonReader<PlanReader>, public NamedFields<Pla
       const auto family = field.item(i).at("family").value();
       if (!find_family(stratum.family)) throw Refused{family.problem("no family of this name")};
       if (std::ranges::count(strata, stratum.family, &StratumPlan::family) > 0)
-        throw Refused{family.problem("this family is there already")};
+        throw Refused{family.problem("this family occurs twice")};
       strata.push_back(std::move(stratum));
     }
   }
@@ -288,11 +288,11 @@ std::optional<corpus::Problem> fault_of(const JsonField& top, const CampaignPlan
   if (plan.case_seconds <= 0) return top.problem("case_seconds above 0 expected");
   if (plan.shrink_share > 1) return top.problem("shrink_share of at most 1 expected");
   if ((plan.fault_cases > 0) != (plan.fault_seeds > 0))
-    return top.problem("fault_cases and fault_seeds belong together");
+    return top.problem("fault_cases and fault_seeds must both be 0, or both above 0");
   const bool has_cases =
       std::ranges::any_of(plan.strata, [](const StratumPlan& s) { return s.cases > 0; });
   if (!has_cases && plan.fault_cases == 0 && plan.tetrahedron_seconds == 0 && plan.search == 0)
-    return top.problem("there is nothing to do");
+    return top.problem("the campaign has nothing to do");
   return std::nullopt;
 }
 
@@ -349,7 +349,7 @@ corpus::Expected<CampaignPlan> read_plan(const std::filesystem::path& file) {
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, file));
   for (const auto& other : named_plans()) {
     if (plan.name == other.name && !is_made_of(plan, other))
-      return corpus::problem_in(file, "differs from the built-in campaign of its name");
+      return corpus::problem_in(file, "differs from the built-in campaign of the same name");
   }
   return plan;
 }

@@ -48,7 +48,7 @@ Contract contract_of(const Options& options) {
 std::string fault_of_name(std::string_view name) {
   constexpr std::size_t longest = 100;
   if (name.size() > longest)
-    return "a name or version of " + std::to_string(name.size()) + " bytes, and 100 are the most";
+    return "a name or version of " + std::to_string(name.size()) + " bytes, but 100 are allowed";
   if (name.starts_with(' ') || name.ends_with(' '))
     return "a name or version that begins or ends with a space";
   // However it is written: "Built in", "built-in 1".
@@ -62,10 +62,10 @@ std::string fault_of_name(std::string_view name) {
 
 std::string fault_of_limits(const Claims& claims, const Contract& contract, bool has_limit) {
   if (claims.has_any(claims_on_limits) != has_limit)
-    return has_limit ? "a function limit, and no claim on what it allows"
-                     : "claims on limits, and no such function";
+    return has_limit ? "a function limit, but no claim about limits"
+                     : "claims about limits, but no function limit";
   if (claims.has(Claim::progress) != (contract.progress > 0))
-    return "a claim on progress without a number, or a number without the claim";
+    return "only one of the claim progress and the number progress";
   return "";
 }
 

@@ -18,14 +18,15 @@
 
 namespace assay::properties {
 
-// Claims are judged by a StepDiff: how the detector and the oracle differ in a step, which pairs
-// the candidates of a broad phase lack, and whether a limiter allows too much or too little. It
-// shows an answer as the host has read it: pairs ascend and each stands once (plugin_reading.cpp).
-// So no claim can be about their order.
+// Claims are judged by a StepDiff. It says how the detector and the oracle differ in a step, which
+// pairs the candidates of a broad phase lack, and whether a limiter (a detector that says how far
+// a step may go) allows too much or too little. When the host reads an answer, it sorts the pairs
+// and removes duplicates (plugin_reading.cpp). So no claim can be about the order of pairs.
 
 enum class Claim : std::uint8_t;  // below
 
-// refused: beyond the capacity of the contract, where the detector need not answer.
+// Outcome::refused: the input is beyond the capacity of the contract, so the detector need not
+// answer.
 enum class Outcome : std::uint8_t { holds, defect, undecided, error, refused };
 constexpr auto names_of(Outcome) {
   using enum Outcome;
@@ -42,40 +43,46 @@ struct WrongTime {
   TimeEnclosure detector, oracle;
 };
 
-// How far a stated first time is off, as a share of the step. The lower end of its interval is
-// compared, because the caller goes that far: the time is late if this end is after t*, and early
-// if it is before t*, by more than the tolerance. If t* is 0.75, [0.25, 1] is early by 0.5,
-// although it holds t*. At most one of `late` and `early` is not 0. All counts of late and early
-// first times use this struct (step_measures.h).
+// The error of a stated first time, as a share of the step. The lower end of the stated interval is
+// compared with the exact time t*, because the caller advances to that end. The time is late if the
+// end is after t* by more than the tolerance, and early if the end is before t* by more than the
+// tolerance. If t* is 0.75, [0.25, 1] is early by 0.5, although the interval contains t*. `late` or
+// `early` is 0. All counts of late and early first times use this struct (step_measures.h).
 struct TimeOff {
   double late = 0, early = 0;
-  double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
+  // The difference between the two lower ends, in steps from one double to the next; 0 if the time
+  // is neither late nor early.
+  double ulps = 0;
 };
 
-// The first time of the detector and of the oracle, and how far they are apart.
+// The first times of the detector and of the oracle, and the detector's error.
 struct FirstTimes {
   TimeEnclosure detector, oracle;
   TimeOff off;
 };
 
-// The number of candidate pairs that the detector gave, and the least possible number: the pairs in
-// contact that count.
+// given_pairs: the number of candidate pairs that the detector gave. least: the least possible
+// number, which is the number of pairs in contact that count.
 struct CandidateCount {
   std::uint64_t given_pairs = 0, least = 0;
 };
 
-// The way that a limiter allowed in a step that starts without a contact (judge_limit).
+// The part of the motion that a limiter allowed in a step that starts without a contact
+// (judge_limit).
 struct LimitDiff {
-  double share = -1;  // of the step; -1: not stated
-  double way = 0;     // the share, or, if none, the part of the way that the positions go
+  double share = -1;  // the share of the step that the limiter states; -1: not stated
+  // `share`; if it is not stated, the length of the way to the allowed positions, divided by the
+  // length of the way of the whole step.
+  double way = 0;
   std::optional<TimeEnclosure> ahead;  // the first contact time of the step, if any
   // The first contact on the straight way to the place where the caller stops.
   std::optional<PairContact> hit;
   bool is_cut = false;      // the step has no contact, and the limiter stops it early
   bool too_far = false;     // the stated share is not below the first contact time
-  bool too_short = false;   // the way is shorter than claimed, not excused
-  bool is_excused = false;  // the way is shorter than claimed, perhaps by rounding
-  std::string stall;        // the cause of the contact ahead, if the caller stays but could move
+  bool too_short = false;   // `way` is shorter than claimed, and rounding is not the reason
+  bool is_excused = false;  // `way` is shorter than claimed, and rounding may be the reason
+  // The cause of the contact ahead, if the limiter allows no motion although the caller could move.
+  std::string stall;
 };
 
 struct StepDiff {
@@ -83,35 +90,36 @@ struct StepDiff {
   std::vector<Claim> breaches;        // claims of the detector that this step refutes
   Answer answer = Answer::undecided;  // the answer of the detector
   bool oracle_complete = false;       // false: the oracle was stopped
-  bool nothing_in_contact = false;    // not even a left-out contact; the oracle is complete
+  bool nothing_in_contact = false;    // no contact, not even a left-out one; the oracle is complete
   bool starts_near = false;           // StepTruth::starts_near
   bool claims_pairs = false;          // a claim about pairs is made (About::pairs)
-  bool unanswered_contact = false;    // a contact that counts, and no answer that can be judged
-  bool owes_answer = false;           // a valid step within the capacity has none
+  bool unanswered_contact = false;    // a contact counts, and there is no answer to judge
+  bool owes_answer = false;           // the step is valid, within the capacity and not answered
   // The detector or the oracle was stopped: only the part that both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
   bool answered_collision = false;  // `collision`, and there is no contact at all
-  // Both answer collision, and the detector's interval misses t* by more than the tolerance: it
-  // begins after t* (late), or ends before it (early).
+  // Detector and oracle answer collision, and the detector's interval misses t* by more than the
+  // tolerance: the interval begins after t* (late), or ends before t* (early).
   bool late_first = false, early_first = false;
-  // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
-  // pairs.
+  // Pairs of the oracle that the detector does not report. Empty if the detector reports none and
+  // claims no pairs.
   std::vector<PairContact> missing;
   bool is_without_excuse = false;     // the claim first-pairs asks for one of `missing`
   std::vector<PairContact> excuses;   // missing pairs that no claim asks for
   std::vector<PairContact> spurious;  // reported, but not in contact
-  // Pairs whose interval begins after their time (late, which is unsafe) or ends before it (early).
+  // Pairs whose stated interval begins after the oracle's time of the pair (late, which is unsafe),
+  // or ends before that time (early).
   std::vector<WrongTime> late, early;
 
-  // Under a contract with a slack: the first pair that comes within the slack, if the interval of
-  // the detector's first time ends before the time of that pair.
+  // Under a contract with a margin: the first pair that comes within separation + margin, if the
+  // interval of the detector's first time ends before the time of that pair.
   std::optional<PairContact> first_in_slack;
 
   // The earliest contact that counts, if any.
   std::optional<PairContact> first_contact;
-  // The detector's first time, and the exact first time of the contacts that count, if both answer
-  // collision.
+  // The detector's first time, and the exact first time of the contacts that count, if detector and
+  // oracle answer collision.
   std::optional<FirstTimes> first;
 
   // Returns whether the answer is wrong, whatever the detector claims.
@@ -123,18 +131,17 @@ struct StepDiff {
   std::vector<PairContact> left_out;
   bool left_out_missed = false;
 
-  // Only for a detector that claims candidates (judge_candidates); nothing if it failed to give
-  // them.
+  // Only for a detector that claims candidates; nothing if the detector failed to give candidates.
   std::optional<CandidateCount> candidates;
   std::vector<PairContact> missing_candidates;
-  std::optional<LimitDiff> limit;    // only of a limiter
+  std::optional<LimitDiff> limit;    // only for a limiter
   bool has_answer = true;            // false: the library gives candidates or limits, no answers
   std::optional<StepLoad> overload;  // only if the step was refused as beyond the capacity
 };
 
 // The way in which a step breaks a claim. `kind` is the kind of the failure ("late pair"; null: the
-// claim is not broken). `by` is the evidence: a contact of the oracle, a contact within the slack
-// only, a pair with a wrong time, a pair that is not in contact, or nothing that could be named.
+// claim is not broken). `by` is the evidence: a contact of the oracle, a pair that only comes
+// within the margin, a pair with a wrong time, a pair that is not in contact, or no evidence.
 struct WithinSlack {
   PairContact contact;
 };
@@ -142,7 +149,7 @@ struct Symptom {
   const char* kind = nullptr;
   std::variant<std::monostate, PairContact, WithinSlack, WrongTime, TrianglePair> by = {};
 };
-// Returns the first of the two that breaks the claim.
+// Returns `a` if it breaks the claim, else `b`.
 inline Symptom operator|(const Symptom& a, const Symptom& b) { return a.kind ? a : b; }
 
 inline Symptom if_so(bool is_so, const char* kind, const std::optional<PairContact>& contact = {}) {
@@ -164,25 +171,26 @@ enum class Claim : std::uint8_t {
   not_late,       // lower end of its first time <= t*
   first_time,     // the interval of its first time holds t*
   first_pairs,    // every connected part of the contact graph at t* holds a reported pair
-  all_pairs,      // every pair of the oracle is reported, none with a time after its own
-  no_spurious,    // reports no contact that does not exist, and none too early
+  all_pairs,      // every pair of the oracle is reported, and no time is after the oracle's time
+  no_spurious,    // every reported contact exists, and none is reported too early
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
   // Claims of a limiter (L17), in steps that start without a contact.
-  commit_free,  // the step to the positions that it allows has no contact
-  path_free,    // the share that it allows is below t*
-  progress,     // the share is at least Contract::progress of the possible one (judge_limit)
-  whole,        // it allows a step without a contact to its very end
-  // Every time is the enclosure of exact arithmetic, so every bit must be that of the oracle. If a
-  // detector claims this, its other claims on times are read as strictly. Only the built-in
-  // detector claims it; plug-ins cannot, and no list names it.
+  commit_free,  // the step to the allowed positions has no contact
+  path_free,    // the allowed share is below t*
+  progress,     // the allowed share is at least Contract::progress * t* (judge_limit)
+  whole,        // a step without a contact is allowed to its very end
+  // Every time has the same bits as the oracle's time. If a detector claims this, its other claims
+  // about times are judged as strictly. Only the built-in detector claims times_unique. Plug-ins
+  // cannot claim it, and no list names it.
   times_unique,
 };
 
-// The subject of a claim, which tells which part of a library can make it. `runs`: any part can.
-// The explanation of a failure depends on it: of `times` it says how late or early (verdict.cpp).
-// If a claim about `pairs` is made, a missing pair makes a step unsafe (StepDiff::claims_pairs).
+// The subject of a claim. The subject decides which part of a library can make the claim; any part
+// can make a claim about `runs`. If a claim about `times` fails, the explanation says how late or
+// early the time is (verdict.cpp). If a detector makes a claim about `pairs`, a missing pair makes
+// a step unsafe (StepDiff::claims_pairs).
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
 
 // The kind of step or run that puts a claim to the test.
@@ -191,20 +199,21 @@ enum class Probe : std::uint8_t {
   by_contact,        // a step with a contact that counts
   by_stated_time,    // a step with a contact that counts and a stated first time
   by_candidates,     // a step with pairs that must be among the candidates
-  by_contact_ahead,  // of a limiter
-  by_free_way,       // of a limiter
-  by_second_run,     // of the same case
+  by_contact_ahead,  // a step of a limiter that starts without a contact and has one later
+  by_free_way,       // a step of a limiter without any contact
+  by_second_run,     // a second run of the same case
 };
 
-// What a detector does wrong when it breaks a claim. One mistake may cause all failures of one
-// deed. A failure whose kind begins with "early" counts as `reports`, whatever its claim.
+// What a detector does wrong when it breaks a claim. One mistake in a detector can cause all of its
+// failures of one deed. A failure whose kind begins with "early" has the deed `reports`, whatever
+// its claim.
 enum class Deed : std::uint8_t { loses, reports, stops, differs, ends };
 constexpr auto names_of(Deed) {
   using enum Deed;
   return std::to_array<Named<Deed>>({{loses, "lose a contact"},
-                                     {reports, "report what is not there, or too early"},
-                                     {stops, "stop before they have to"},
-                                     {differs, "answer otherwise when asked again"},
+                                     {reports, "report a false or too early contact"},
+                                     {stops, "stop the caller too early"},
+                                     {differs, "give another answer in a second run"},
                                      {ends, "end without an answer"}});
 }
 
@@ -212,15 +221,16 @@ constexpr auto names_of(Deed) {
 struct ClaimRow {
   Claim value;
   const char* name;     // its word; with _ in place of -, its name in reports/steps/exported_case.h
-  std::uint32_t bit;    // of assay_description::claims; 0: nobody claims it from outside
-  std::uint32_t since;  // the version of the interface in which that bit came
+  std::uint32_t bit;    // its bit in assay_description::claims; 0: no plug-in can claim it
+  std::uint32_t since;  // the first version of the plug-in interface that has the bit
   About about;
   Probe probe;
   Deed deed;
-  // Returns how a step breaks the claim. Only two runs break `deterministic` (exam.h), and nothing
-  // breaks times_unique.
+  // Returns how a step breaks the claim. The default is for two claims that no step breaks:
+  // `deterministic`, for which two runs are compared (exam.h), and times_unique, which only makes
+  // other claims stricter.
   Symptom (*symptom_of)(const StepDiff&) = [](const StepDiff&) { return Symptom(); };
-  // Returns why the claim is not judged under this contract; empty if it is.
+  // Returns why the claim is not judged under this contract; empty if the claim is judged.
   const char* (*why_void)(const Contract&, bool of_queries) = [](const Contract&, bool) {
     return "";
   };
@@ -242,7 +252,7 @@ constexpr auto names_of(Claim) {
       {not_late, "not-late", ASSAY_CLAIM_NOT_LATE, 1, times, by_contact, loses,
        [](D d) { return if_so(d.late_first, "late", d.first_contact); }},
       {first_time, "first-time", ASSAY_CLAIM_FIRST_TIME, 1, times, by_stated_time, loses,
-       [](D d) {  // if the oracle was stopped, it knows no exact first time
+       [](D d) {  // if the oracle was stopped, the exact first time is unknown
          return if_so(d.first && d.late_first, "late", d.first_contact) |
                 if_so(d.first && d.early_first, "early", d.first_contact);
        },
@@ -264,7 +274,7 @@ constexpr auto names_of(Claim) {
        },
        [](C c, bool of_queries) {
          return c.judges_alarms(of_queries) ? ""
-                                            : "the contract has a margin, and tests neighbours";
+                                            : "the detector has a margin, and tests neighbours";
        }},
       {deterministic, "deterministic", ASSAY_CLAIM_DETERMINISTIC, 1, runs, by_second_run, differs},
       {total, "total", ASSAY_CLAIM_TOTAL, 1, runs, by_step, ends,
@@ -308,7 +318,8 @@ class Claims {
     bits_ = is_claimed ? bits_ | bit_of(claim) : bits_ & ~bit_of(claim);
     return *this;
   }
-  // Return the claims that are also among the others; those that are not; and all claims of both.
+  // Return the claims that both sets have, the claims that only this set has, and the claims that
+  // at least one set has.
   constexpr Claims only(const Claims& others) const { return of_bits(bits_ & others.bits_); }
   constexpr Claims without(const Claims& others) const { return of_bits(bits_ & ~others.bits_); }
   constexpr Claims with(const Claims& others) const { return of_bits(bits_ | others.bits_); }
@@ -320,7 +331,7 @@ class Claims {
   std::uint32_t bits_ = 0;
 };
 
-// Returns the claims about these subjects that a plug-in may make.
+// Returns the claims about these subjects that a plug-in can make.
 constexpr Claims claims_about(std::initializer_list<About> abouts) {
   Claims claims;
   for (const About about : abouts) {
@@ -337,9 +348,10 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
 
-// Returns the claims of the built-in detector, by its arithmetic. exact: all claims. bounded: all
-// but no-spurious (its intervals hold the times by construction, see StepResult::first). double and
-// float: deterministic and total. With Pairs::first, no arithmetic claims all-pairs.
+// Returns the claims of the built-in detector. With Arithmetic::exact these are all claims about
+// answers, times, pairs and runs; with Arithmetic::bounded the same without no-spurious and
+// times-unique (an interval contains the exact time by construction, see StepResult::first); with
+// other arithmetic only deterministic and total. With Pairs::first, all-pairs is never claimed.
 inline Claims claims_of(const Options& options) {
   const bool exact = options.arithmetic == Arithmetic::exact;
   const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;
@@ -352,23 +364,26 @@ inline Claims claims_of(const Options& options) {
 
 // Returns the claims that are also in claims_from_outside, in the order of Claim.
 std::vector<Claim> list_of(const Claims& claims);
-// Return the words of claims, and the claims of words. A word that is no claim is passed over.
+// Return the words of claims, and the claims of words. A word that names no claim is ignored.
 std::vector<std::string> words_of(const Claims& claims);
 Claims claims_named(const std::vector<std::string>& words);
 
 // The progress that the built-in detector promises when it limits a step.
 inline constexpr double built_in_progress = 0.9;
 
-// Returns the contract of the built-in detector with these options: it asks for contacts, or for
-// pairs without a shared vertex that come within a separation.
+// Returns the contract of the built-in detector with these options. If the options have a
+// separation, the contract asks for pairs without a shared vertex that come within the separation;
+// otherwise it asks for contacts.
 Contract contract_of(const Options& options);
 
-// Returns the claims that are judged under this contract (ClaimRow::why_void). If it has a margin,
-// the detector may report a collision before there is one. Its false alarms are then judged with
-// that margin: in queries always, in steps only if the detector leaves neighbours out.
+// Returns the claims that are judged under this contract (ClaimRow::why_void). If the contract has
+// a margin, the detector may report pairs that come within separation + margin. False alarms are
+// then judged by that distance: always in queries, but in steps only if the detector leaves
+// neighbours out.
 Claims judged_claims(const Claims& claims, const Contract& contract, bool of_queries = false);
 
-// Adds to `breaches` each claim that the step breaks; the outcome becomes a defect if there is one.
+// Adds to diff.breaches each of the claims that the step breaks. If the step breaks a claim, the
+// outcome becomes Outcome::defect.
 void weigh(const Claims& claims, StepDiff& diff);
 
 // The description that a plug-in gives of itself.
@@ -377,7 +392,7 @@ void weigh(const Claims& claims, StepDiff& diff);
 struct PluginParts {
   bool steps = true, query = false, candidates = false;
   bool limit = false;
-  bool takes_threads = false;  // has a function that tells it how many threads it may use
+  bool takes_threads = false;  // the library has a function that limits its number of threads
   friend bool operator==(const PluginParts&, const PluginParts&) = default;
 };
 
@@ -389,15 +404,16 @@ struct PluginDescription {
 };
 
 // Returns why a text cannot be the name or version of a detector: it is longer than 100 bytes,
-// begins or ends with a space, or is the name of the built-in detector. Empty if it can be.
+// begins or ends with a space, or is the name of the built-in detector. Empty for a valid text.
 std::string fault_of_name(std::string_view name);
 
-// Returns the contradiction in a description of a limiter: claims without a limiter, a limiter
-// without claims, or a claim on progress without Contract::progress. Empty if there is none.
+// Returns the contradiction in a description: claims on limits without a function `limit`, a
+// function `limit` without claims on limits, or only one of the claim `progress` and the number
+// Contract::progress. Empty if there is no contradiction.
 std::string fault_of_limits(const Claims& claims, const Contract& contract, bool has_limit);
 
-// Returns the claims of a plug-in that can be judged by playing steps: all of them, or, for a
-// library that answers no steps, those about candidates, limits, deterministic and total.
+// Returns the claims of a plug-in that can be judged by playing steps. For a library that answers
+// no steps, these are the claims about candidates, limits and runs; otherwise they are all claims.
 Claims claims_on_steps(const PluginDescription& description);
 // Returns the claims of a plug-in that can be judged by asking its query: all except those about
 // pairs, candidates and limits.

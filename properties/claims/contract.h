@@ -1,5 +1,5 @@
-// The contract of a detector: the steps, coordinates and features that it takes, and the way in
-// which its times are read.
+// The contract of a detector: the steps, coordinates and features that it accepts, and the
+// tolerances with which its answers are judged.
 #pragma once
 
 #include <array>
@@ -47,8 +47,8 @@ constexpr auto names_of(StartRule) {
   return std::to_array<Named<StartRule>>({{any, "any"}, {free, "free"}, {apart, "apart"}});
 }
 
-// Which features the detector tests against each other. Contacts of other features are not held
-// against it.
+// Which features the detector tests against each other. It is no defect if the detector misses a
+// contact of other features.
 enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
 constexpr auto names_of(TestedFeatures) {
   using enum TestedFeatures;
@@ -58,8 +58,8 @@ constexpr auto names_of(TestedFeatures) {
 
 // How the motion of a step is given to a detector.
 enum class MotionGiven : std::uint8_t {
-  ends,          // by the positions at its end
-  displacement,  // by a displacement from the start; the exact sum is the end
+  ends,          // by the positions at t = 1
+  displacement,  // by the displacement; the positions at t = 1 are its exact sum with x_t0
 };
 constexpr auto names_of(MotionGiven) {
   return std::to_array<Named<MotionGiven>>(
@@ -68,7 +68,7 @@ constexpr auto names_of(MotionGiven) {
 
 // Where a limiter that states a share of a step lets the caller stop (L17).
 enum class LimitGives : std::uint8_t {
-  positions,   // at the positions that it gives
+  positions,   // at the positions that the limiter gives
   start_plus,  // x_t0 + share (x_t1 - x_t0), in the contract's coordinates
   blend,       // (1 - share) x_t0 + share x_t1
 };
@@ -85,7 +85,7 @@ constexpr auto names_of(PairReporting) {
       {{PairReporting::pairs, "pairs"}, {PairReporting::no_pairs, "no-pairs"}});
 }
 
-// The greatest time tolerance of a contract. A contract with a greater one is refused.
+// The greatest time tolerance of a contract. A contract with a greater tolerance is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
 
 // Lengths are in the user's units; times are shares of the step. The default contract leaves
@@ -93,22 +93,22 @@ inline constexpr double widest_time_tolerance = 1e-3;
 struct Contract {
   Adjacency adjacency = Adjacency::all;
   Coordinates coordinates = Coordinates::float64;
-  // The slack m: the detector may also report pairs that come within separation + m. If m > 0,
+  // The detector may also report pairs that come within separation + margin. If margin > 0,
   // first-time is not judged, and no-spurious is judged only if the detector leaves neighbours out,
-  // because neighbours are within m of each other throughout.
+  // because neighbours are always within the margin of each other.
   double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
-  // No coordinate has a magnitude above `largest`, because rounding depends on coordinates. Every
-  // edge has length 0 or at least least_nonzero, because thresholds depend on lengths; the length
-  // of an edge is its greatest difference along an axis. A mesh is at least as long as an edge.
-  // Both 0: any mesh.
+  // The range of meshes that the detector accepts. No coordinate has a magnitude above `largest`,
+  // because rounding depends on coordinates. Every edge has the length 0 or a length of at least
+  // least_nonzero, because thresholds depend on lengths. The length of an edge is its greatest
+  // extent along an axis. If least_nonzero and `largest` are 0, the detector accepts any mesh.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
-  double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
+  double time_tolerance = 0;  // a time is late, early or wrong if its error is more than this
   PairReporting reports = PairReporting::pairs;
-  // Above 0: the question is not which triangles touch, but which come within this distance. Then
-  // only pairs that share no vertex are asked for.
+  // If above 0, the question is which triangles come within this distance, instead of which touch,
+  // and only pairs that share no vertex are asked for.
   double separation = 0;
   // The pairs that the detector leaves out by itself, in the terms of
   // detector/mesh/counted_pairs.h, at the level `counts`. The mesh is at rest in the frame from
@@ -116,48 +116,50 @@ struct Contract {
   detector::CountedLevel counts = detector::CountedLevel::triangles;
   std::int32_t rings = 0;
   double rest_distance = 0;
-  // Whether the detector can be told which pairs count. If not, it is asked about all pairs.
+  // Whether the host can tell the detector which pairs count. If not, the detector is asked about
+  // all pairs.
   bool takes_relations = true;
-  // For a limiter: where a caller who gets only a share stops, and which share of the first contact
-  // time the limiter promises (Claim::progress); 0: none.
+  // For a limiter: where a caller stops who gets only a share; and the share of the first contact
+  // time that the limiter promises to allow (Claim::progress), or 0 if it promises none.
   LimitGives limit_gives = LimitGives::positions;
   double progress = 0;
-  // REQUIRES float32 coordinates for a displacement: then the end of a step, which is the exact
-  // sum, is a double, as the oracle needs it.
+  // MotionGiven::displacement REQUIRES float32 coordinates, so that the exact sum of x_t0 and the
+  // displacement consists of doubles, which the oracle needs.
   MotionGiven motion = MotionGiven::ends;
-  // The capacity of the detector; 0: unlimited. A step beyond one of these numbers may be refused
-  // (beyond_capacity).
+  // The capacity of the detector; 0: unlimited. The detector may refuse a step that exceeds one of
+  // these numbers (beyond_capacity).
   std::uint64_t capacity_triangles = 0, capacity_contacts = 0, capacity_candidates = 0;
   friend bool operator==(const Contract&, const Contract&) = default;
 
   bool has_range() const { return largest > 0; }
   bool reports_pairs() const { return reports == PairReporting::pairs; }
-  // Returns whether false alarms are judged. The features of a query share no vertex.
+  // Returns whether false alarms are judged. They are judged in every query, because the features
+  // of a query share no vertex.
   bool judges_alarms(bool of_queries = false) const {
     return margin == 0 || of_queries || adjacency == Adjacency::no_shared_vertex;
   }
-  // Returns whether the oracle must tell the contacts that the detector tests from the others
-  // (StepJudgement::asked_pairs).
+  // Returns whether the detector tests only a part of the contacts, so that the oracle must list
+  // that part separately (StepJudgement::asked_pairs).
   bool tests_part() const {
     return features != TestedFeatures::both || rings > 0 || rest_distance > 0;
   }
 };
 
-// Calls visit(name, member of the interface, member of the contract) for each member that a
-// description of the interface (assay_description) states: an enum there is a number.
+// Calls visit(name, member of the description, member of the contract) for each member of the
+// contract that an assay_description states. The description has a number in place of an enum.
 template <class Description, class Visit>
 void visit_members(Description& raw, Contract& contract, const Visit& visit) {
 #define ASSAY_NAME(kind, name, since) name,
 #define ASSAY_VISIT(kind, name, since) visit(#name, raw.name, contract.name);
-  // This compiles only if no member of the contract is missing.
+  // This compiles only if ASSAY_CONTRACT_MEMBERS lists all members except takes_relations.
   [[maybe_unused]] const auto& [ASSAY_CONTRACT_MEMBERS(ASSAY_NAME) takes_relations] = contract;
   ASSAY_CONTRACT_MEMBERS(ASSAY_VISIT)
 #undef ASSAY_NAME
 #undef ASSAY_VISIT
 }
 
-// Visits each member by its name, for reports, certificates and messages, where `reports` becomes
-// the bool `reports_pairs`.
+// Visits each member by its name, for reports, certificates and messages. The archive gets a bool
+// `reports_pairs` in place of the member `reports`.
 template <class Archive>
 void fields(Archive& archive, Contract& x) {
   assay_description unused = {};
@@ -170,8 +172,8 @@ void fields(Archive& archive, Contract& x) {
   x.reports = reports_pairs ? PairReporting::pairs : PairReporting::no_pairs;
 }
 
-// Returns the shortest decimal that reads back to the same double. It is made without libfmt,
-// because the worker does not use that.
+// Returns the shortest decimal that reads back to the same double. This function does not use
+// libfmt, because the worker does not link that library.
 std::string number_text(double x);
 
 // Returns the fault of the contract in words ("its margin is no length"); empty if it has none.
@@ -187,11 +189,11 @@ std::vector<std::string> phrases_of(const Contract& contract);
 struct StepLoad {
   std::uint64_t triangles = 0, contacts = 0, candidates = 0;
 };
-// Returns whether a detector with this contract may refuse such a step.
+// Returns whether a detector with this contract may refuse a step with this load.
 bool beyond_capacity(const Contract& contract, const StepLoad& load);
 
-// Returns the relation of the pairs that the contract tests, on a mesh whose vertices are at rest
-// at `rest`.
+// Returns the relation of the pairs that the detector tests under the contract, on a mesh whose
+// vertices are at rest at `rest`.
 CountedPairs tested_pairs(const Contract& contract, const Positions& rest);
 
 int shared_vertices(const TrianglesView& triangles, TrianglePair pair);
@@ -199,11 +201,12 @@ int shared_vertices(const TrianglesView& triangles, TrianglePair pair);
 // Returns whether the contract's adjacency alone lets the detector leave this pair out.
 bool leaves_out(const Contract& contract, const TrianglesView& triangles, TrianglePair pair);
 
-// Returns the positions that both the detector and the oracle get. A coordinate beyond float32
-// becomes infinite.
+// Returns the positions rounded to these coordinates, as both the detector and the oracle get them.
+// A coordinate beyond the range of float32 becomes infinite.
 Positions round_to(const PositionsView& x, Coordinates coordinates);
 
-// Returns the displacement that a float32 detector gets for a step: the nearest to the exact way.
+// Returns the displacement that a float32 detector gets for a step: the difference x_t1 - x_t0 in
+// doubles, rounded to float32.
 Positions displacement(const PositionsView& x_t0, const PositionsView& x_t1);
 
 using Edge = std::array<std::int32_t, 2>;

@@ -50,7 +50,7 @@ bool contract_relation(Case& c, const Contract& contract) {
 // if it does.
 std::string why_no_frame(const PositionsView& x, const std::vector<Edge>& edges,
                          const Contract& contract) {
-  if (!x.allFinite()) return "a coordinate has no float32";
+  if (!x.allFinite()) return "a coordinate is beyond float32";
   return beyond_range(x, edges, contract);
 }
 
@@ -199,7 +199,7 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   const std::string start = contract.start == StartRule::apart ? "apart" : "free";
   if (says_query(c)) {
     const auto query = query_of(c);
-    if (!query) return "its options call it a query, but it is not a query's mesh";
+    if (!query) return "its options call it a query, but its mesh is not that of a query";
     Contract of_any_start = contract;
     of_any_start.start = StartRule::any;
     if (!takes(of_any_start, *query))
@@ -213,15 +213,15 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
   if (Case displaced = contracted_case;
       contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
-    return "motion displacement: no step ends at doubles";
+    return "motion displacement: in every step an exact end is no double";
   if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
     return "stops at start-plus: a vertex moves farther than the largest number";
-  if (!contract_relation(contracted_case, contract)) return "a place at rest has no float32";
+  if (!contract_relation(contracted_case, contract)) return "a rest position is beyond float32";
   const auto pair = pair_too_near(x, contracted_case, contract);
   if (!pair) return "";
   return fmt::format(
       "start {}: triangles {} and {} are {} where {}", start, pair->a, pair->b, distance,
-      steps.size() > 1 ? "step 1 starts, and likewise for every other step" : "the step starts");
+      steps.size() > 1 ? "step 1 starts; no other step is taken" : "the step starts");
 }
 
 bool start_apart(const FourPoints& q, double distance) {

@@ -258,7 +258,7 @@ struct CaseChecker {
       if (expected != Answer::error) fail("refused: " + run.explanation);
       return std::move(check_);
     }
-    if (expected == Answer::error) fail("accepted, expected to be refused");
+    if (expected == Answer::error) fail("the mesh was accepted, but a refusal was expected");
     bool collision = false;
     for (std::size_t s = 0; s < run.steps.size(); ++s) {
       check_step(s);
@@ -292,7 +292,7 @@ struct CaseChecker {
                       ? judge_under(detector_.contract, motion(s), case_.triangles, {jobs_, {}})
                       : truth);
     if (case_.counted && s < case_.counted->steps.size())
-      check_facts(where + "of what counts: ", case_.counted->steps[s], truth);
+      check_facts(where + "pairs that count: ", case_.counted->steps[s], truth);
     if (uses_views(configuration_.options.culling) && claims_.has(Claim::free_sound))
       check_signs(where, s, check_.runs[0].steps[s]);
     if (const auto view = view_of_step(case_, s)) check_expected_signs(where, s, *view);
@@ -313,7 +313,7 @@ struct CaseChecker {
     std::vector<corpus::ExpectedPair> pairs;
     for (const auto& contact : judgement.pairs) pairs.push_back({contact.pair, contact.time});
     if (pairs == *expected.pairs) return;
-    fail(fmt::format("{}{} pairs, expected {}; or other pairs or times than expected", where,
+    fail(fmt::format("{}the {} pairs, or their times, differ from the {} expected pairs", where,
                      pairs.size(), expected.pairs->size()));
   }
 

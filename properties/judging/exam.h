@@ -1,5 +1,5 @@
-// The exam: puts a case to a detector, and judges its answers by the oracle. All verdicts on cases
-// come from here; their use is the caller's affair.
+// The exam: gives a case to a detector, and judges the detector's answers by the oracle. All
+// verdicts on cases are made here; the callers store and show them.
 #pragma once
 
 #include <cstdint>
@@ -17,93 +17,97 @@
 namespace assay::properties {
 
 // The results of the oracle and the detector on one case. Lists have one item for each
-// configuration, except `truth`, which has one for each step.
+// configuration, except `truth`, which has one item for each step.
 struct CaseResults {
   Case c;  // as fitted to the contract
   std::vector<StepJudgement> truth = {};
   std::vector<CaseRun> runs = {};
   std::vector<CaseRun> again = {};  // second runs; empty if there are none
   std::vector<Verdict> verdicts = {};
-  // Time by the clock: of the oracle and of the first runs.
+  // Wall clock of the oracle, and of the first runs together.
   std::uint64_t oracle_us = 0, detector_us = 0;
 
-  // Returns the second run in this configuration, or null.
+  // Returns the second run in this configuration; null if there is none.
   const CaseRun* second(std::size_t configuration) const {
     return again.empty() ? nullptr : &again[configuration];
   }
-  // Returns the output of the detector in the first run or, if that was silent, in the second.
+  // Returns the output of the detector in the first run, or, if that is empty, in the second run.
   const std::string& output(std::size_t configuration) const;
-  // Returns why a run did not take place: there is no worker. Empty if all runs took place.
+  // Returns why there was no worker for a run. Empty if all runs took place.
   std::string why_not_run() const;
 };
 
-// The detector to be examined, the configurations, and the way to run it.
+// The detector to be examined, its configurations, and the workers that run it.
 struct Exam {
   const DetectorUnderTest& detector;
   std::span<const Configuration> configurations;
-  // Runs the detector. Null: the built-in one runs in this process, where a crash ends the process.
+  // Runs the detector. Null: the built-in detector runs in this process, which a crash then ends.
   WorkerProcess* worker = nullptr;
   // Runs each case again, in another process. Null: there is no second run.
   WorkerProcess* second = nullptr;
   int oracle_jobs = 1;
-  // If set, the oracle, which takes most of the time, is not asked about a case without an answer.
+  // If set, a case to which the detector gave no answer is not judged by the oracle, which takes
+  // most of the time.
   bool needs_an_answer = false;
 };
 
-// Examine a case in three parts: run it, run it again, and judge both runs. All parts REQUIRE a
-// contracted case. The oracle is not asked again for judgements that are there.
+// The three parts of examine(): run the case, run it again, and judge both runs. All parts REQUIRE
+// a contracted case. If results.truth has judgements already, judge() uses these.
 void run_first(const Exam& exam, CaseResults& results);
 void run_again(const Exam& exam, CaseResults& results);
 void judge(const Exam& exam, CaseResults& results);
 
 CaseResults examine(const Exam& exam, Case c);
-// Examines cases, in order. The worker gets all of them at once; so does the second worker, from
-// the last to the first. The outputs and times of single cases are not told apart.
+// Examines several cases and returns their results in order. The worker gets all cases at once; the
+// second worker gets them at once in the opposite order. The output and the time of a single case
+// are not known. REQUIRES a worker.
 std::vector<CaseResults> examine(const Exam& exam, std::vector<Case> cases);
 
 // Runs the case in one configuration and judges nothing. REQUIRES a contracted case.
 CaseRun run_alone(WorkerProcess& worker, const Case& c, const Configuration& configuration);
 
-// Returns the oracle's judgement of every step of a case, for the pairs that count by its relation.
+// Returns the oracle's judgement of every step of a case. The relation of the case decides which
+// pairs count.
 std::vector<StepJudgement> judge_case(const Case& c);
-// Returns the judgements under the contract; for a query (query_case.h) only the query is judged.
-// REQUIRES a contracted case.
+// Returns the oracle's judgement of every step under the contract; for a query (query_case.h) only
+// its two features are judged. REQUIRES a contracted case.
 std::vector<StepJudgement> judge_case(const Case& c, const Contract& contract, int jobs = 1);
 
-// Returns the oracle's facts about a step of this case under the contract. For a query
-// (query_case.h), adjacency leaves nothing out.
+// Returns the oracle's facts about a step of this case under the contract; for a query
+// (query_case.h), under on_queries(contract).
 StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract& contract);
 
-// Judges a run. The way in which the run ended decides first:
-// - A crash breaks `total`, and so does a refusal, unless the case is expected to be refused. If
-//   `total` is not claimed, both are Outcome::error.
-// - A mesh that is refused as beyond the capacity is Outcome::refused if it has more triangles than
-//   the capacity; else that is a refusal like any other. A run is Outcome::refused if every step
-//   is.
+// Returns the verdict on a run, from its end, from the answers to its steps (judge_step), and from
+// a second run `again`, if there is one:
+// - A crash breaks `total`. A refusal breaks `total` too, except if the case is expected to be
+//   refused. If `total` is not claimed, a crash or such a refusal is Outcome::error.
+// - A mesh that the detector refused as beyond its capacity is Outcome::refused if it has more
+//   triangles than the capacity; otherwise this is a refusal as above. If some steps are
+//   Outcome::refused and the rest holds, the run is Outcome::refused.
 // - A hang, or a lack of memory, is undecided.
 // - A run that did not take place is Outcome::error.
-// - `again` is a second run. It breaks `total` if it crashes, and `deterministic` if it differs. If
-//   it did not take place, that is Outcome::error.
+// - A second run that crashes breaks `total`. A second run with other answers breaks
+//   `deterministic`. If the second run did not take place, the verdict is Outcome::error.
 //
-// Without judgements only the points above are judged. The verdict does not describe a failure.
-// REQUIRES judgements of the same contracted case.
+// If `judgements` is empty, the steps are not judged. Verdict::failure is not set. REQUIRES
+// judgements of the same contracted case.
 Verdict judge_run(const Case& c, const CaseRun& run, std::span<const StepJudgement> judgements,
                   const Claims& claims, const Contract& contract, const CaseRun* again = nullptr);
 
-// The results of a case of the corpus, and the comparison with its expected facts.
+// The results of a case of the corpus, and the expected facts of the case that do not hold.
 
 struct CaseCheck : CaseResults {
   std::vector<std::string> broken_facts = {};  // one line for each fact that does not hold
 };
 
-// Runs a case of the corpus through detector and oracle in this process, with its own options
-// (case_options.h); `culling` and `arithmetic` replace those of the case if they are given. The
-// case's view primitive is used if the culling uses views.
+// Examines a case of the corpus in this process, with the options that the case states
+// (case_options.h); `culling` and `arithmetic`, if given, replace the stated options. If the
+// culling uses views, the detector gets the view primitive of the case.
 //
-// The facts compared are: refusal or answer, first time, pair set (of detector and oracle), view
-// signs (of the detector if it tested the triangle, always of the oracle), and the agreement of
-// detector and oracle. The detector's answer, pairs and signs are judged by the claims of its
-// arithmetic.
+// Compares with the expected facts: the refusal or the answer, the first time, the pair set (of
+// detector and oracle), and the view signs (of the oracle, and of the detector if it tested the
+// triangle). Also checks that detector and oracle agree. The detector's answer, pairs and signs are
+// judged by the claims of its arithmetic.
 CaseCheck check_case(const Case& c, std::optional<Culling> culling = {}, int jobs = 1,
                      std::optional<Arithmetic> arithmetic = {});
 

@@ -1,6 +1,6 @@
-// Measures how wrong the answers of a detector were, in one step or summed over many. Campaigns,
-// `check` and all benches use these counts, so that each word has one meaning. Other counts of a
-// plug-in's steps are here too.
+// Measures how wrong the answers of a detector were, in one step or summed over many steps.
+// Campaigns, `check` and all benches use these counts, so that each word has one meaning. Also
+// counts other properties of a plug-in's steps, and computes bounds on shares.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,18 @@
 
 namespace assay::properties {
 
-// First times that are off on one side of the exact one (TimeOff, claims.h).
+// The errors of first times that are too late, or of first times that are too early (TimeOff,
+// claims.h).
 struct TimesOff {
   std::uint64_t steps = 0;
-  double worst_share = 0;  // the greatest share of a step by which a time is off
+  double worst_share = 0;  // the greatest error, as a share of a step
   double worst_ulps = 0;
-  // How often each share of a step was met, for quantiles. A share is rounded upward to two digits
-  // (0.00012), so that no time looks better than it is, and sums stay short.
+  // The number of steps with each error, for quantiles. An error is rounded upward to two digits
+  // (0.00012), so that no time looks better than it is, and the map stays small.
   std::map<double, std::uint64_t> shares;
 
-  // Returns the quantile of the rounded shares: `part` 0.5 gives the median, and 1 the worst share.
-  // Returns 0 if there are no shares.
+  // Returns the quantile of the rounded errors: `part` 0.5 gives the median, and 1 the greatest
+  // error. Returns 0 if there are no errors.
   double quantile(double part) const;
 
   TimesOff& operator+=(const TimesOff& other);
@@ -34,47 +35,50 @@ struct TimesOff {
 // How far a limiter lets steps go, over the steps that start without a contact.
 struct LimitUse {
   std::uint64_t free = 0;     // steps without any contact
-  std::uint64_t cut = 0;      // of `free`: stopped before their end
+  std::uint64_t cut = 0;      // how many of `free` the limiter stopped before their end
   std::uint64_t contact = 0;  // steps with a contact ahead
-  TimesOff unused;            // of `contact`: the unused share of the time until the contact
-  // Of `contact`: less was used than is claimed, perhaps because of rounding (judge_limit).
+  TimesOff unused;            // over `contact`: the part of the time until the contact not used
+  // How many of `contact` use less than the limiter claims, perhaps because of rounding
+  // (judge_limit).
   std::uint64_t excused = 0;
-  std::map<std::string, std::uint64_t> stalls;  // of `contact`, by their cause (LimitDiff::stall)
+  // How many of `contact` the limiter does not let move at all, by the cause (LimitDiff::stall).
+  std::map<std::string, std::uint64_t> stalls;
 
-  // Returns the quantile of the used shares of the time until the contact: `part` 0 gives the worst
-  // (least) share, 0.5 the median. REQUIRES contact > 0.
+  // Returns the quantile of the used part of the time until the contact: `part` 0 gives the worst
+  // (least) used part, 0.5 the median. REQUIRES contact > 0.
   double share(double part) const;
-  std::uint64_t stalled() const;
+  std::uint64_t stalled() const;  // the sum of `stalls`
 
   static constexpr bool adds_up = true;
   friend bool operator==(const LimitUse&, const LimitUse&) = default;
 };
 
-// Steps that the oracle did not finish are not counted at all. A step without an answer is counted
-// only in `steps` and `undecided`, so that all other numbers are of answered steps. Contacts are
-// those that count under the contract.
+// A step that the oracle did not finish is not counted. A step without an answer is counted only in
+// `steps`, `undecided` and `limits`, so that all other numbers are about answered steps. Contacts
+// are the contacts that count under the contract.
 struct StepErrors {
   std::uint64_t steps = 0;
   std::uint64_t undecided = 0;     // neither `free` nor `collision`: undecided, an error, no run
   std::uint64_t free = 0;          // no pair is in contact, not even a left-out one
   std::uint64_t contact = 0;       // a pair that counts is in contact
-  std::uint64_t missed = 0;        // of `contact`: answered `free`
-  std::uint64_t false_alarms = 0;  // of `free`: answered `collision`
-  // Of the steps with a contact that were answered `collision`: the first time is after (late) or
-  // before (early) the exact one, by more than the contract tolerates.
+  std::uint64_t missed = 0;        // how many of `contact` were answered `free`
+  std::uint64_t false_alarms = 0;  // how many of `free` were answered `collision`
+  // Steps with a contact that were answered `collision`, with a first time that is later (late) or
+  // earlier (early) than the exact time by more than the contract tolerates.
   TimesOff late, early;
   // Steps that would hurt a user who trusts the answer: missed, late, or without a pair that the
   // detector's claims promise.
   std::uint64_t unsafe = 0;
-  // Steps in which a user would look for a contact in vain: a false alarm, or a spurious pair.
+  // Steps in which a user would look for a contact in vain: false alarms, and steps with a spurious
+  // pair.
   std::uint64_t alarming = 0;
   // Numbers of pairs. Missing: in contact, asked for by the claims, and not reported. Spurious:
   // reported, and not in contact.
   std::uint64_t missing = 0, spurious = 0;
-  LimitUse limits;  // counted whatever is claimed, and for steps without an answer too
+  LimitUse limits;  // counted whatever the detector claims, and for steps without an answer too
 
   std::uint64_t answers() const { return steps - undecided; }
-  std::uint64_t collisions() const { return contact - missed; }  // of `contact`
+  std::uint64_t collisions() const { return contact - missed; }  // answered `collision`
 
   static constexpr bool adds_up = true;
   friend bool operator==(const StepErrors&, const StepErrors&) = default;
@@ -84,7 +88,7 @@ struct StepErrors {
 StepErrors errors_of(const StepDiff& diff);
 
 // Writes {"steps": 3, ..., "late": {"steps": 1, "worst_share": 0.00012, ...}, ...}: every member by
-// its name. Detectors that are no limiters have no object `limits`.
+// its name. A detector that is no limiter has no object `limits`.
 void to_json(nlohmann::ordered_json& json, const StepErrors& errors);
 
 ASSAY_FIELDS(TimesOff, steps, worst_share, worst_ulps, shares)
@@ -100,52 +104,50 @@ void fields(Archive& archive, StepErrors& errors) {
   archive.may("limits", limits);
 }
 
-// Counts a plug-in's steps, whatever it claims: how wrong its answers are, how many candidates it
-// gives, what its contract leaves out. A trial stores these sums, and tallies add them up.
-
-// Computes the bounds on the share of failures that trials support.
+// The functions below compute bounds on the share of failures, from numbers of trials.
 
 // The confidence with which all bounds of a certificate hold together.
 inline constexpr double family_confidence = 0.95;
 
 // Returns the exact one-sided upper bound of Clopper and Pearson (Biometrika 26, 1934): the largest
-// share p at which `failures` or fewer in `trials` still have a chance of `risk` or more. Returns 1
-// without trials.
+// share p for which at most `failures` failures in `trials` trials have a probability of at least
+// `risk`. Returns 1 if there are no trials.
 double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk);
 
-// The interval in which a share of `of` out of `in` trials lies with confidence 95 %. Only
-// `independent` of the `in` trials count as evidence, because the others depend on these. It is the
-// two-sided interval of Clopper and Pearson; the numbers may be fractions. [0, 1] if there are no
-// trials.
 struct ShareInterval {
   double lo = 0, hi = 1;
 };
+// Returns the two-sided interval of Clopper and Pearson for the share of `of` out of `in` trials,
+// with confidence 95 %. Trials depend on each other, so only `independent` trials count as
+// evidence. The numbers can be fractions. Returns [0, 1] if there are no trials.
 ShareInterval share_interval(double of, double in, double independent);
 
-// Returns the risk of each bound if `bounds` of them hold together with confidence 95 %
+// Returns the risk of each bound if `bounds` bounds hold together with confidence 95 %
 // (Bonferroni).
 double risk_of_each(std::uint64_t bounds);
 
-// An interval of the first time that is wider than this is too wide for the claim first-time.
+// A wider interval of the first time states no time: it is too wide for the claim first-time.
 inline constexpr double widest_stated_time = widest_time_tolerance;
 
+// Counts of the steps of a trial of a plug-in, whatever the plug-in claims. A trial stores its
+// counts, and tallies add up the counts of trials.
 struct StepMeasures {
   StepErrors errors;
-  // For each trial, the square of its number of free steps, and of steps with a contact; summed
-  // over trials. They show how much the steps of one trial depend on each other.
+  // The square of a trial's number of free steps, and of its number of steps with a contact, summed
+  // over trials. The sums show how much the steps of one trial depend on each other.
   std::uint64_t free_squared = 0, contact_squared = 0;
-  std::uint64_t without_time = 0;      // collisions answered with a wider interval
+  std::uint64_t without_time = 0;      // collisions with an interval above widest_stated_time
   std::uint64_t unanswered = 0;        // steps with a contact and without an answer to judge
-  std::uint64_t candidate_steps = 0;   // steps for which candidates were given
-  std::uint64_t candidates = 0;        // given in these steps
-  std::uint64_t least_candidates = 0;  // pairs in contact that count, in these steps
-  // Steps within the separation at t = 0. They are judged, and counted nowhere else here.
+  std::uint64_t candidate_steps = 0;   // steps for which the detector gave candidates
+  std::uint64_t candidates = 0;        // candidates in candidate_steps
+  std::uint64_t least_candidates = 0;  // pairs in contact that count, in candidate_steps
+  // Steps that start within the separation. They are judged, but only this member counts them.
   std::uint64_t starts_near = 0;
-  // Left out by the contract.
-  std::uint64_t redrawn = 0;          // cases that the contract rejects wholly
+  // Cases and steps that the contract leaves out.
+  std::uint64_t redrawn = 0;          // cases from which the contract takes no step
   std::uint64_t steps_left_out = 0;   // steps left out of the other cases
   std::uint64_t refused = 0;          // steps that were refused as beyond the capacity
-  std::uint64_t left_out_misses = 0;  // steps that only the contract saves from being a miss
+  std::uint64_t left_out_misses = 0;  // steps that would be a miss without the contract
   // For any detector: judged trials with a contact that the contract does not leave out, trials
   // that were run twice and compared, and trials judged by a relation.
   std::uint64_t contact_trials = 0, repeated_trials = 0, relation_trials = 0;
@@ -169,15 +171,16 @@ struct Rate {
   double share() const { return in ? static_cast<double>(of) / static_cast<double>(in) : 0; }
 };
 
-// Returns the share of the free steps that were answered collision. Steps of one trial depend on
-// each other. So the interval counts only (sum of n)^2 / (sum of n^2) steps, where n is the number
-// of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same for all trials,
-// this is the number of trials.
+// Returns the share of the free steps that were answered `collision`. Steps of one trial depend on
+// each other. So the interval is computed for (sum of n)^2 / (sum of n^2) independent steps, where
+// n is the number of free steps of a trial (Kish, Survey Sampling, 1965, 11.7). If n is the same
+// for all trials, this is the number of trials.
 Rate false_alarm_rate(const StepMeasures& measures);
-// Returns the share of steps answered free among the steps with a contact that counts. Its interval
-// is made in the same way.
+// Returns which share of the steps with a contact that counts was answered `free`. The interval is
+// computed as for false_alarm_rate.
 Rate miss_rate(const StepMeasures& measures);
-// Returns 0 without steps.
+// Returns the number of spurious pairs divided by the number of answered steps; 0 if no step was
+// answered.
 double spurious_pairs_a_step(const StepMeasures& measures);
 // Returns the number of candidates over the least possible number; 0 if no pair was in contact.
 double candidates_over_least(const StepMeasures& measures);

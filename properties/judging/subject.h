@@ -1,5 +1,5 @@
-// A detector that is judged: its claims, and the way to start the processes that run it. All verbs
-// that run cases in a worker have one.
+// A detector to be judged: its claims, and the way to start the processes that run it. All verbs
+// that run cases in a worker open a Subject.
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,22 @@ struct DetectorUnderTest {
   Claims claims;  // of a plug-in; for the built-in detector see claims_in
   Contract contract;
   std::vector<Configuration> configurations;
-  bool of_queries = false;  // only the elementary query of a plug-in is judged
-  // The claims of a plug-in on its elementary query; empty if the query is not judged.
+  bool of_queries = false;  // only the elementary query of the plug-in is judged
+  // The claims of a plug-in about its elementary query; empty if the query is not judged.
   Claims query_claims{};
   // The parts of the library that are not judged, in words: "elementary query".
   std::vector<std::string> unjudged_parts{};
-  // The questions that the built-in detector is asked besides contacts. Each of these
-  // configurations is certified only in the stratum of its name (question_families).
+  // Configurations in which the built-in detector is asked other questions than for contacts. Each
+  // of them is certified only in the stratum of its name (question_families).
   std::vector<Configuration> of_questions{};
 
   Claims claims_in(const Configuration& configuration) const;
   // Returns the claims on this case, which may be a query (query_case.h).
   Claims claims_on(const Case& c, const Configuration& configuration) const;
-  // Returns the detector in this configuration alone. The contract of the built-in one depends on
-  // the configuration, because its options state the question.
+  // Returns the detector in this configuration alone. The contract of the built-in detector depends
+  // on the configuration, because the configuration's options state the question.
   DetectorUnderTest in(const Configuration& configuration) const;
-  // Returns the detector as it is asked in a stratum of this family.
+  // Returns the detector with the configurations that run in a stratum of this family.
   DetectorUnderTest in_stratum(std::string_view family) const;
 };
 
@@ -47,26 +47,26 @@ struct DetectorUnderTest {
 // steps may go, and which pairs come within 2^-6.
 DetectorUnderTest built_in_detector();
 
-// The part of a plug-in that is judged. `by_library`: all parts that the library has: its steps (or
-// its candidates), and its query.
+// The part of a plug-in that is judged. by_library: both its steps (or candidates, or limits) and
+// its query, as far as the library has them.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
 struct Subject {
   DetectorUnderTest detector;
   std::filesystem::path worker;                  // the program assay-worker
   std::optional<std::filesystem::path> plugin;   // nothing: the built-in detector
-  std::shared_ptr<const JudgedLibrary> library;  // its files and their digests
-  PluginDescription description;                 // the plug-in's own
-  WorkerLimits limits;                           // of its processes
+  std::shared_ptr<const JudgedLibrary> library;  // the plug-in's files and their digests
+  PluginDescription description;                 // the plug-in's description of itself
+  WorkerLimits limits;                           // of the detector's processes
   Isolation isolation = Isolation::limits;       // of the plug-in's first process
 
-  // Opens the detector in this library; the built-in one if `library` is empty. Fails if the
-  // library cannot serve, lacks the requested part, or cannot be isolated as requested.
+  // Opens the detector in this library; the built-in detector if `library` is empty. Fails if the
+  // library cannot be loaded, lacks the requested part, or cannot be isolated as requested.
   static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
                                 DetectorPart part, const WorkerLimits& limits);
 
-  // Returns a process for the detector's cases, not yet started. `variation` and `asks_twice` are
-  // those of WorkerLimits.
+  // Returns a process for the detector's cases, which is not yet started. `variation` and
+  // `asks_twice` become those of its WorkerLimits.
   WorkerProcess process(std::uint32_t variation = 0, bool asks_twice = false) const;
 };
 

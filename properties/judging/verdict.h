@@ -1,5 +1,5 @@
-// The verdict on a detector's run of a case in one configuration: the diffs of its steps, the
-// claims that it breaks, and the first failure, in words.
+// The verdict on a detector's run of a case in one configuration: the diffs of the steps, the
+// claims that the run breaks, and the first failure, in words.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ namespace assay::properties {
 // Names triangles by their bodies, where a case has bodies.
 struct BodyTriangle {
   std::int32_t body = 0;
-  std::int32_t triangle = 0;  // its number among those of the body
+  std::int32_t triangle = 0;  // the number of the triangle among the triangles of the body
 };
 
 class BodyNames {
  public:
   BodyNames() = default;
-  // Has no names if there is no relation (null), or one without bodies. O(triangles).
+  // Has no names if `counted_pairs` is null or names no bodies. O(triangles).
   BodyNames(const CountedPairs* counted_pairs, const TrianglesView& triangles);
 
   bool empty() const { return by_triangle_.empty(); }
@@ -40,10 +40,10 @@ class BodyNames {
 // A defect of a trial, described by the facts that distinguish it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // How the claim is broken: by a step (ClaimRow::symptom_of), or else "two runs differ", "crashed"
-  // or "refused".
+  // How the claim is broken: Symptom::kind of a step (ClaimRow::symptom_of), or otherwise "two runs
+  // differ", "crashed" or "refused".
   std::string kind;
-  std::size_t step = 0;              // step of the script
+  std::size_t step = 0;              // the place of the step in the script
   std::optional<TrianglePair> pair;  // the first wrong pair
   std::string configuration;
   std::string stage;        // the stage of the built-in detector that lost the pair
@@ -55,12 +55,13 @@ struct Failure {
   std::string signature() const;
 };
 
-// Returns "triangles 3 and 8 at t = 0.5 (vertex-face)", with both ends if the time lies between two
-// doubles; `what` stands behind the triangles.
+// Returns "triangles 3 and 8 at t = 0.5 (vertex-face)". If the time lies between two doubles, the
+// text has both. `what` is inserted after the triangles.
 std::string contact_text(const PairContact& contact, const std::string& what = "");
 
-// Returns the failure of a step by the first claim that it breaks; configuration, stage and cause
-// are left empty. REQUIRES a diff of this result under this contract that breaks a claim.
+// Returns the failure of a step, described by the first claim that the step breaks. Configuration,
+// stage and cause stay empty. REQUIRES a diff of this result under this contract that breaks a
+// claim.
 Failure failure_of(const StepDiff& diff, const StepResult& result, const Contract& contract);
 
 struct Verdict {
@@ -69,12 +70,11 @@ struct Verdict {
   std::string explanation;          // how the run ended, if it did not complete
   std::uint64_t disturbances = 0;   // how often the run was killed from outside and repeated
   std::vector<StepDiff> steps;      // only of a completed run
-  std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
-  std::optional<Failure> failure;   // for a defect: the first step that shows one
+  std::size_t left_out_misses = 0;  // steps that would be a miss without the contract
+  std::optional<Failure> failure;   // only for a defect: the first failure
 };
 
-// Returns the failure that a verdict shows. In exact arithmetic every bit of the built-in
-// detector's times must be the oracle's; a plug-in is judged by its claims. REQUIRES a defect.
+// Returns the first failure that a verdict shows. REQUIRES a verdict with Outcome::defect.
 Failure failure_of(const Verdict& verdict, const Case& c, std::span<const StepJudgement> truth,
                    const CaseRun& run, const Configuration& configuration,
                    const DetectorUnderTest& detector);

@@ -18,15 +18,15 @@ struct Configuration {
   std::string name;
   Options options;
   std::string fault = {};  // the fault to plant in the detector (faults/fault.h), or empty
-  bool is_timed = false;   // whether CaseRun::times is asked for
+  bool is_timed = false;   // whether the run measures CaseRun::times
   // Whether the detector is also asked, before each step, how far the step may go
   // (CaseRun::limits).
   bool asks_limits = false;
 };
 
-// Processor seconds and memory of the process that ran a case, with all of its threads, as that
-// process states them. They are for benches alone: a plug-in runs in that process and could forge
-// them, so nothing is judged by them.
+// Processor seconds and memory of the process that ran a case, with all of its threads. The process
+// itself states these numbers, so a plug-in, which runs in that process, could forge them. They are
+// for benches alone, and no verdict depends on them.
 struct RunTimes {
   double create = 0;
   std::vector<double> steps;  // for each step the time until its answer, commit included
@@ -39,8 +39,8 @@ enum class RunEnd : std::uint8_t {
   crashed,          // the process ended while the detector ran
   hung,             // stopped at a time limit: undecided
   refused,          // the mesh was refused, with a named error, when the detector was made
-  out_of_memory,    // before the first step: undecided
-  not_run,          // there is no worker to run it: the harness failed, not the detector
+  out_of_memory,    // the memory was used up before the first step: undecided
+  not_run,          // there is no worker for the case: the harness failed, not the detector
   beyond_capacity,  // the mesh was refused for its size when the detector was made
 };
 constexpr auto names_of(RunEnd) {
@@ -65,29 +65,30 @@ struct LimitAnswer {
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first error of a step. Empty if there was none.
+  // One line: the signal, the refusal, or the first error of a step. Empty if every step has an
+  // answer.
   std::string explanation;
   // If the run completed, one result for each step of the case; otherwise empty. A first time that
   // a plug-in does not state, of the step or of a pair, is [0, 1].
   std::vector<StepResult> steps;
   // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
-  // Only from a limiter, if limits are asked for: its answer in each step, nothing if it failed.
+  // Only from a limiter, if limits are asked for: its answer to each step; nothing if it failed.
   std::vector<std::optional<LimitAnswer>> limits = {};
-  // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
-  // is empty if all steps have answers.
+  // For each step why it has no answer ("step 2: ..."), or an empty text if it has an answer. The
+  // list is empty if all steps have answers.
   std::vector<std::string> errors = {};
-  // For each step whether a plug-in refused it as beyond its capacity; its answer is then an error.
-  // Empty if it refused no step.
+  // For each step whether a plug-in refused the step as beyond its capacity; the answer of such a
+  // step is an error. The list is empty if the plug-in refused no step.
   std::vector<std::uint8_t> over_capacity = {};
-  // Whether the detector answers steps at all. A library that only lists candidates does not: each
-  // of its steps is stored as undecided or, if it failed, as an error.
+  // Whether the detector answers steps at all. A library that only lists candidates answers none:
+  // each of its steps is stored as undecided, or, if the library failed, as an error.
   bool has_answers = true;
   // Only if the run completed and its configuration asks for times.
   std::optional<RunTimes> times = {};
 
-  // The members below are the circumstances of the run. The host fills them in, and same_answers()
-  // compares neither them nor times.
+  // The members below are the circumstances of the run. The host sets these members. same_answers()
+  // ignores them, and ignores `times`.
   //
   // How often the worker was killed from outside during this run (which was then repeated), or
   // before it began.
@@ -96,7 +97,8 @@ struct CaseRun {
   // that it started if the run was long enough to measure them (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
-  // Cases that were sent together may show the lines of a later case. Empty with Isolation::none.
+  // If cases were sent together, the lines may be those of a later case. Empty for the built-in
+  // detector.
   std::string output = {};
 };
 
@@ -105,25 +107,28 @@ struct CaseRun {
 // view-point the primitive's q0 alone). A step that runs out of memory is undecided.
 CaseRun run_case(const Case& c, const Configuration& configuration);
 
-// Runs the case in the same way, but disturbed. Each step is first evaluated with a stop: at the
-// first time that the detector asks, then at the second and so on; after each stopped evaluation
-// it is evaluated whole. Then the step is played while a second detector of the same stages works
-// on the same step in between. A right detector gives the same results as undisturbed, because
-// undecided evaluations change nothing and two detectors share nothing. Returns one result for each
-// step: one that differs from `undisturbed`, if any does. REQUIRES a mesh that is not refused.
+// Runs the case like run_case, with disturbances. Each step is first evaluated several times with a
+// stop: at the first call of the stop function, then at the second call, and so on. After each
+// stopped evaluation the step is evaluated completely. Then the step is played while a second
+// detector of the same stages works on the same step in between. A right detector gives the same
+// results as without disturbances, because undecided evaluations change nothing and two detectors
+// share nothing. Returns one result for each step. If some evaluation of a step had a result other
+// than `undisturbed`, returns such a result for this step. REQUIRES a mesh that is not refused.
 std::vector<StepResult> run_disturbed(const Case& c, const Configuration& configuration,
                                       std::span<const StepResult> undisturbed);
-// Returns the results as a run, to be compared with other runs. It has no counts of marking,
-// because they depend on the marking of the evaluation before, even if that was not committed.
+// Returns the results as a run, to be compared with other runs. The counts of marking are removed,
+// because they depend on the marking of the evaluation before, even if that evaluation was not
+// committed.
 CaseRun without_marking_counts(std::vector<StepResult> results);
 
-// Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
+// Adds the text to the errors of step s. If `explanation` is empty, the text also becomes the
+// explanation.
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Returns why step s has no answer; empty if no reason is known.
 std::string error_of(const CaseRun& run, std::size_t s);
 
-// The first records that step s was refused as beyond the capacity; the second returns whether it
-// was.
+// note_capacity records that step s was refused as beyond the capacity. is_over_capacity returns
+// whether this was recorded.
 void note_capacity(CaseRun& run, std::size_t s);
 bool is_over_capacity(const CaseRun& run, std::size_t s);
 
@@ -156,8 +161,8 @@ class RunClock {
 // Plays a case through the built-in detector, which carries its state from step to step.
 
 // Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
-// the detector; none if the case states none, or if the culling uses no views. It is inline because
-// tests/mutation links the detector alone.
+// the detector. Returns no primitive if the case states none, or if the culling uses no views. The
+// function is inline because tests/mutation links the detector alone.
 inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
   // If the case states a segment, view-point takes its first end.
@@ -167,9 +172,9 @@ inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, 
 
 class CasePlayer {
  public:
-  // Makes a new detector from the first frame, with these stages or the standard ones. The relation
-  // is that of the case, not that of the options. The case must outlive the player. Errors and cost
-  // are those of Detector::create.
+  // Makes a new detector from the first frame, with these stages or the standard stages. The
+  // relation of the case replaces the relation of the options. The case must outlive the player.
+  // Errors and cost are as for Detector::create.
   static detector::Expected<CasePlayer> make(const Case& c, const Options& options,
                                              std::optional<detector::Stages> stages = {},
                                              const StopFunction& stop = {});
@@ -180,12 +185,12 @@ class CasePlayer {
   const Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
   const Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
 
-  // Plays step s as the script says: the state advances if the script commits the step and it has
-  // an answer. Steps may be played in any order; a step that does not continue the detector's
-  // state is a new start for it.
+  // Plays step s as the script says: the state advances if the script commits the step and the step
+  // has an answer. Steps may be played in any order; a step that does not continue the detector's
+  // state is a new start for the detector.
   StepResult play(std::size_t s, const StopFunction& stop = {});
-  // Returns the result that play() would, but the state stays as it is; detector().commit() can
-  // still advance it.
+  // Returns the result that play() would return, but does not advance the state. Afterwards
+  // detector().commit() can advance the state.
   StepResult look(std::size_t s, const StopFunction& stop = {});
 
   detector::Detector& detector() { return detector_; }
@@ -196,8 +201,8 @@ class CasePlayer {
 
   const Case* case_;
   std::vector<CaseStep> script_;
-  // The view primitives given, by step. They are computed beforehand, so that the time of a step is
-  // that of the detector alone.
+  // For each step the view primitives given to the detector. They are computed beforehand, so that
+  // only the detector's own work takes time in a step.
   std::vector<std::vector<ViewPrimitive>> views_;
   detector::Detector detector_;
 };

@@ -183,10 +183,10 @@ CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   };
   // The copy speaks into a file in memory: a pipe would wake this process for every line.
   const Descriptor file(::memfd_create("said", MFD_CLOEXEC));
-  if (file < 0) fail("no file in memory");
+  if (file < 0) fail("the system gives no file in memory");
   const pid_t copy = ::fork();
   if (copy == 0) run_in_the_copy(file, work);
-  if (copy < 0) fail("no process");
+  if (copy < 0) fail("the system gives no process");
   CopyRun run;
   run.end = end_of_child(copy);
   run.output = said_in(file);

@@ -1,5 +1,5 @@
-// Starts processes, which are always waited for; does work in a copy of this process, so that a
-// crash ends only the copy; and watches a worker, to decide when its time is over.
+// Starts processes and waits for their ends; does work in a copy of this process, so that a crash
+// ends only the copy; and watches a worker, to decide when the worker's time is over.
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,8 @@
 
 namespace assay::properties {
 
-// The number of an open file of this process, which is closed with this object. Negative: none.
+// Owns an open file of this process, and closes the file when the object is destroyed. A negative
+// number stands for no file.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -33,12 +34,12 @@ class Descriptor {
   int number_;
 };
 
-// The descriptor of the child's end of the channel.
+// The descriptor by which a child finds its end of the channel to the host.
 inline constexpr int child_descriptor = 3;
 
-// An open file of this process, and its number in the child. REQUIRES that no earlier file of a
-// list has the number `here` in the child; no file has it if `here` is least_passed_descriptor or
-// more.
+// The number of an open file in this process (`here`) and in the child (`there`). REQUIRES a `here`
+// that is not the `there` of an earlier file in the list. A `here` of least_passed_descriptor or
+// more always satisfies this.
 struct PassedDescriptor {
   int here, there;
 };
@@ -46,9 +47,9 @@ inline constexpr int least_passed_descriptor = 10;
 
 struct ChildEnd {
   int signal = 0;        // the signal that killed it; 0: it exited
-  int code = 0;          // the code that it exited with
-  bool by_host = false;  // the host killed it, because it did not end in time
-  // The end in words: "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when
+  int code = 0;          // the exit code of the child
+  bool by_host = false;  // the host killed the child, because it did not end in time
+  // The end in words: "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty if
   // by_host.
   std::string text;
 };
@@ -59,20 +60,20 @@ ChildEnd end_by_signal(int signal);
 // Waits for the end of a child of this process. REQUIRES that the child was not waited for before.
 ChildEnd end_of_child(pid_t id);
 
-// Returns whether the child was killed by a signal that no error in a process causes, and that the
-// host did not send. These are SIGKILL and SIGTERM, which an administrator, a job queue or a
-// machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that is
-// closed or interrupted. The child may also send them to itself on purpose.
+// Returns whether the child was killed by one of the signals that no error in a process causes, and
+// the host did not send this signal. The signals are SIGKILL and SIGTERM, which an administrator, a
+// job queue or a machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a
+// terminal that is closed or interrupted. A child can also send such a signal to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
 // A child process. It leads a session and a process group of its own, so that it has no terminal,
-// and ctrl-C reaches the host alone.
-// It starts with no signal blocked or ignored, even if the host, or the shell that started the
-// host, ignores some. Otherwise a detector could outlive a signal that would end it anywhere else.
+// and ctrl-C reaches only the host. It starts with no signal blocked or ignored, even if the host,
+// or the shell that started the host, ignores some signals. Otherwise a detector could survive a
+// signal that would end it anywhere else.
 class ChildProcess {
  public:
-  // Starts the program with an empty stdin. A program named without a folder is searched for as by
-  // a shell. The problem states the system's reason.
+  // Starts the program with an empty stdin. If the name of the program has no folder, searches for
+  // the program in PATH as a shell does. The problem states the system's reason.
   static Expected<ChildProcess> start(const std::filesystem::path& program,
                                       const std::vector<std::string>& arguments,
                                       const std::vector<PassedDescriptor>& descriptors);
@@ -85,82 +86,80 @@ class ChildProcess {
   // Returns whether the child has ended. Does not wait, and does not reap the child.
   bool has_ended() const;
 
-  // Waits for the child's end, and kills it if that takes longer than `patience` of wall clock.
-  // Then kills the rest of its process group, because processes that the child started would go on
-  // to no purpose. REQUIRES that finish() was not called before; a second call says that the child
-  // exited with code 0.
+  // Waits for the child's end, and kills the child if it does not end within `patience` of wall
+  // clock. Then kills the rest of its process group, because processes that the child started have
+  // no purpose any more. REQUIRES that finish() was not called before; a second call returns the
+  // end of a child that exited with code 0.
   ChildEnd finish(std::chrono::milliseconds patience);
 
  private:
   explicit ChildProcess(pid_t id) : id_(id) {}
-  pid_t id_;  // -1: none, or waited for
+  pid_t id_;  // -1: no child, or finish() has waited for it
 };
 
 struct CopyRun {
-  std::string output;  // all text told by the work, even if it crashed later
-  ChildEnd end;        // exited with code 0, if the work returned
+  std::string output;  // all text that the work passed to Say, even if it crashed later
+  ChildEnd end;        // exit with code 0 if the work returned
 };
 
-// Tells the text to the original process. The text is kept if the copy crashes; it is read when the
-// copy has ended.
+// Passes text from the copy to the original process, which reads the text when the copy has ended,
+// also if the copy crashed.
 using Say = std::function<void(std::string_view)>;
 
-// Makes a copy of this process, runs the work in it and waits for its end, however long that takes.
-// The copy has one thread, and none of the open files, so it holds no lock and no pipe longer than
-// this process does. The work must not wait for another thread of this process.
-// Throws the exception of the work, as std::bad_alloc or as std::runtime_error with its text, and
-// std::system_error if the system gives no process or no descriptor for the copy.
-// Cost: about a millisecond for a process of 100 MB.
+// Makes a copy of this process, runs the work in the copy, and waits without limit until the copy
+// has ended. The copy has one thread and none of the open files, so it does not prolong any lock or
+// pipe of this process. The work must not wait for another thread of this process.
+// If the work throws std::bad_alloc, throws the same; if the work throws another exception, throws
+// std::runtime_error with its text. Throws std::system_error if the system gives no process or no
+// descriptor for the copy. Cost: about a millisecond for a process of 100 MB.
 CopyRun in_a_copy(const std::function<void(const Say&)>& work);
 
-// Decides when the time of a worker is over. The limit is one of processor time, so that the
-// verdict does not depend on the load of the machine. A worker that uses no processor time is
-// caught by wider limits of wall clock.
+// The time of a worker is limited as follows. The limit is one of processor time, so that a verdict
+// does not depend on the load of the machine. Wider limits of wall clock end a worker that uses no
+// processor time.
 //
 // A worker that answers soon is not measured: no process can use up the limit before the wall clock
 // has reached the limit divided by the number of processors. After that /proc is read about once a
-// second, and more often towards the end.
+// second, and more often as the limit comes near.
+//
+// The time is measured from outside of the worker, so that code in the worker has no influence.
 
-// Measures the processor time that a process uses, with all its threads and all processes that it
-// starts. It measures from outside, so that code in the process has no influence.
-
-// A process and the processes that it started, as /proc shows them from outside.
+// A process (the root) and the processes that it started, as /proc shows them.
 struct ProcessTree {
-  // Processor time in seconds of the processes that the root started, that these started, and so
-  // on: of living ones, and of ended ones for which their parents have waited. The threads of the
-  // root itself and of `apart` do not count. Each process counts up to 0.01 s too little, because
-  // /proc counts in ticks. The time of a process is lost if its parent does not wait for it.
+  // Processor time in seconds of all descendants of the root. The time of a process that has ended
+  // counts only if its parent has waited for it. The threads of the root itself and of `apart` do
+  // not count. The value is up to 0.01 s too small for each process, because /proc counts in ticks.
   double descendant_seconds = 0;
-  // Every thread of each process waits for something other than a processor, or was stopped by a
-  // signal: a process may do both to itself. A process that a debugger holds is not asleep.
+  // Every thread of every process waits for something other than a processor, or was stopped by a
+  // signal; a process can stop itself. A process that a debugger has stopped is not asleep.
   bool is_asleep = false;
 };
 
-// Measures the processes of `root`. A member of its process group counts as started by root even if
-// its own parent has ended; a process that left the group and lost its parents is not found. Reads
-// one file for each process of the machine: about 5 us each. REQUIRES a root that leads its process
-// group.
+// Measures the process tree of `root`. A member of the root's process group counts as a descendant
+// even if its parent has ended. A process that left the group and whose parent has ended is not
+// found. Reads one file for each process of the machine: about 5 us each. REQUIRES a root that
+// leads its process group.
 ProcessTree look_at(pid_t root, pid_t apart = 0);
 
 // Measures seconds of processor time since a beginning: the construction or the last lap().
 //
-// The threads of the process, ended ones included, are measured to the nanosecond; that takes 0.2
-// us. If another process does the work (a worker behind bwrap), that one is measured in this way,
-// and the process itself is not counted.
-//
-// Started processes are measured only when look() is called. Time that they used before the first
-// look() since the beginning is not counted, because it may be of earlier work. So the result is
-// too short by this time, and by the losses that ProcessTree states. It is never too long.
+// The threads of the worker, including ended threads, are measured to the nanosecond, which takes
+// 0.2 us. The processes that it started are measured only when look() is called. The time that they
+// used before the first look() since the beginning is not counted, because it may belong to earlier
+// work. So the result is too small by this time, and by the losses that ProcessTree states. The
+// result is never too large.
 class ProcessorTime {
  public:
-  // Begins to measure `process`. `worker` is the process that does the work, a descendant of
-  // `process`; 0: `process` itself. REQUIRES that `process` is a child of this process that leads
-  // its process group and was not waited for; a child that has ended can still be read.
+  // Begins to measure. `worker` is the process that does the work; 0: `process` itself. If `worker`
+  // is a descendant of `process`, such as a worker behind bwrap, the threads of `process` are not
+  // counted.
+  // REQUIRES that `process` is a child of this process that leads its process group and was not
+  // waited for; the child can have ended.
   explicit ProcessorTime(pid_t process, pid_t worker = 0);
 
-  // Returns the seconds since the beginning. Started processes count as of the last look().
+  // Returns the seconds since the beginning, with started processes as the last look() saw them.
   double seconds() const;
-  // Returns seconds(), and begins anew at that point.
+  // Returns seconds(), and begins again at that moment.
   double lap();
   // Measures the started processes too. About 5 us for each process of the machine.
   ProcessTree look();
@@ -170,35 +169,37 @@ class ProcessorTime {
 
   pid_t process_, worker_;
   std::optional<clockid_t> clock_;
-  double begin_ = 0;                        // of own_seconds()
-  std::optional<double> of_others_before_;  // their use at the first look
-  double of_others_ = 0;                    // their use since then
+  double begin_ = 0;                        // own_seconds() at the beginning
+  std::optional<double> of_others_before_;  // seconds of started processes at the first look
+  double of_others_ = 0;                    // their seconds from the first to the last look
 };
 
-// The wider limits, as multiples of the limit of processor time.
+// The limits of wall clock, as multiples of the limit of processor time.
 inline constexpr double asleep_limit = 10;  // wall clock in which the worker only slept
 inline constexpr double wall_limit = 100;   // wall clock in all
 
 class WorkerWatch {
  public:
-  // Begins the first case. Each case may take `seconds` of processor time, used by the worker with
-  // its threads and by all processes that it started. `worker` must outlive this object. `plugin`
-  // is the process of the plug-in if the worker is bwrap, which started it; 0: none, or unknown.
+  // Begins the first case. Each case may use `seconds` of processor time, summed over the worker
+  // with its threads and all processes that it started. `worker` must outlive this object. If
+  // `worker` is bwrap, `plugin` is the process of the plug-in that bwrap started; 0: unknown.
   WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin = 0);
 
-  // Returns how long to wait for the worker before asking again. Nothing if waiting is over: then
-  // why() says why. 0 if the worker has_ended(): its messages are still read. A worker exceeds its
-  // limit by at most a hundredth of it (at least 1 ms) on each processor.
+  // Returns how long to wait for the worker before the next call of this function. Returns nothing
+  // if a limit was reached (why() names it), and 0 if the worker has_ended(), whose last messages
+  // can then be read. On each processor the worker exceeds its limit by at most a hundredth of the
+  // limit, or by 1 ms if that is more.
   std::optional<std::chrono::milliseconds> patience();
 
   // Returns the processor seconds of the case so far, and begins the next case.
   double next_case();
 
   // Returns "no answer in 10 s of processor time", followed by ": asleep for 100 s" or the like if
-  // another limit ended the case. Only limits are named, so that two such ends have equal texts.
+  // a limit of wall clock ended the case. The numbers are those of the limits, so that two cases
+  // that end at the same limit have equal texts.
   std::string why() const;
-  // Returns whether the worker ended although its end of the channel is still open, because a
-  // process that it started holds the channel open.
+  // Returns whether the worker has ended although the channel is still open, because a process that
+  // the worker started keeps it open.
   bool has_ended() const { return end_ == End::ended; }
 
  private:
@@ -215,7 +216,7 @@ class WorkerWatch {
   Clock::time_point last_look_, next_look_;
   double seconds_ = 0;  // processor seconds at the last look
   double watched_ = 0;  // seconds of wall clock until the last look
-  double asleep_ = 0;   // of these, seconds in which the worker slept
+  double asleep_ = 0;   // how many of these seconds the worker slept
   End end_ = End::none;
 };
 

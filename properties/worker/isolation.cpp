@@ -175,7 +175,7 @@ Expected<ChildProcess> start_behind_bubblewrap(const std::filesystem::path& prog
   // Root keeps no right but the one that lets a limit on processes hold for it (main.cpp).
   if (::getuid() == 0) add({"--cap-drop", "ALL", "--cap-add", "CAP_SETUID"});
   const Descriptor filter = open_filter();
-  if (filter < 0) return Problem{"no filter of system calls for bwrap"};
+  if (filter < 0) return Problem{"the system gives no filter of system calls for bwrap"};
   descriptors.push_back({filter, filter_descriptor});
   add({"--seccomp", std::to_string(filter_descriptor), "--", program});
   words.insert(words.end(), arguments.begin(), arguments.end());

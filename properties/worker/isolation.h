@@ -1,7 +1,7 @@
 // Isolates the process of a plug-in from everything but its own work.
 //
-// The code of a plug-in may be wrong, crash, hang, fill memory or print, and its author may tune it
-// to the exam; but it is no enemy that attacks this machine.
+// The isolation assumes that the code of a plug-in can be wrong, crash, hang, fill memory or print,
+// and that its author can tune the code to the exam; but the code does not attack this machine.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ namespace assay::properties {
 enum class Isolation : std::uint8_t {
   // A process of its own with limits of time, memory, files and processes.
   limits,
-  // In addition, by the program bwrap: no network, no other process in sight, all processes that it
-  // starts end with it, and files can only be read, except in one scratch folder.
+  // The same limits, and the program bwrap: the plug-in has no network, sees no other process, can
+  // only read files, except in one scratch folder, and all processes that it starts end with it.
   bubblewrap,
 };
 constexpr auto names_of(Isolation) {
@@ -34,11 +34,11 @@ constexpr const char* text_of(Isolation isolation) {
   return isolation == Isolation::limits ? "limits alone" : "bubblewrap";
 }
 
-// A new folder among the system's temporary files. It is removed with this object, together with
-// its files. It is the only place in which a plug-in may write; TMPDIR names it to the plug-in.
+// A new folder among the system's temporary files. The destructor removes the folder with its
+// files. The folder is the only place where a plug-in may write; TMPDIR has its path.
 //
 // The process that made the folder holds a lock on it, which the system releases when that process
-// ends in any way. Making a folder removes those folders of this user that nobody locks any more.
+// ends in any way. make() also removes those scratch folders of this user that have no lock.
 class ScratchFolder {
  public:
   // Makes a folder. Fails if the system gives none.
@@ -55,22 +55,23 @@ class ScratchFolder {
   Descriptor lock_;  // the folder, opened
 };
 
-// Keeps the output of a plug-in, one case at a time, for people to read. Nothing is judged by it.
+// The output of a plug-in is stored for people to read, case by case. No verdict depends on it.
 
-// How many bytes of the output of one case are kept: the last ones, because they say how it ended.
+// The most bytes of the output of one case that are stored. These are the last bytes, because they
+// tell how the case ended.
 inline constexpr std::size_t longest_printed = 4096;
 
 // Returns the text as printable lines (words.h), without empty ones at the end.
 std::string printable_lines(const std::string& text);
 
-// A file in memory that a worker gets in place of stdout and stderr. So printing never waits for a
-// reader, and no line on the user's terminal can be mistaken for one of the host.
+// A file in memory that a worker gets in place of stdout and stderr. So a worker that prints never
+// waits for a reader, and its lines cannot be mistaken for lines of the host on the terminal.
 class PrintedFile {
  public:
   // Returns nothing if the system gives no such file.
   static std::optional<PrintedFile> make();
   int descriptor() const { return file_; }  // at least least_passed_descriptor
-  // Shortens a long file to its last part; to be called now and then in a case.
+  // Shortens a long file to its last part. The host calls this now and then during a case.
   void keep_short();
   // Returns the output since the last call, in printable lines. If it is longer than
   // longest_printed, returns "..." and its last whole lines.
@@ -85,23 +86,24 @@ class PrintedFile {
   bool is_cut_ = false;
 };
 
-// Starts a plug-in's worker behind bwrap, the program of bubblewrap.
+// The functions below start a plug-in's worker behind bwrap, the program of bubblewrap.
 
-// Returns why no worker can be started behind bwrap on this machine, in one line; empty if it
-// works. bwrap is tried once in a process, because a container may have the program and yet forbid
-// its work.
+// Returns in one line why no worker can be started behind bwrap on this machine; empty if bwrap
+// works. The first call in a process tries bwrap, because a container may have the program and
+// still forbid its work.
 const std::string& fault_of_bubblewrap();
 
-// Starts the program behind bwrap, as ChildProcess::start does. The program and its processes can
-// write only into the folder `scratch`, which is also their /dev/shm. The child is bwrap, which
-// ends as the program does (end_behind_bubblewrap). If bwrap ends, it ends the program and all its
-// processes.
+// Starts the program behind bwrap, otherwise like ChildProcess::start. The program and its
+// processes can write only into the folder `scratch`, which is also their /dev/shm. The child is
+// bwrap. When the program ends, bwrap ends and passes on how (end_behind_bubblewrap). When bwrap
+// ends, the program and all its processes end.
 Expected<ChildProcess> start_behind_bubblewrap(const std::filesystem::path& program,
                                                const std::vector<std::string>& arguments,
                                                const std::filesystem::path& scratch,
                                                std::vector<PassedDescriptor> descriptors);
 
-// Returns how the program ended. bwrap reports signals as a shell does, by exit codes from 128 on.
+// Returns how the program behind bwrap ended. Like a shell, bwrap reports signals by exit codes
+// above 128.
 ChildEnd end_behind_bubblewrap(const ChildEnd& of_bwrap);
 
 }  // namespace assay::properties

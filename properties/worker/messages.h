@@ -1,9 +1,9 @@
-// The messages between the host and its worker: plain bytes, with lengths in front. Both ends are
-// built from the same sources, which wire_version checks, and run on the same machine. So plain
+// The messages between the host and its worker: plain bytes, with lengths in front. Host and worker
+// are built from the same sources, which wire_version checks, and run on the same machine. So plain
 // data is sent as it lies in memory.
 //
-// The fields of a message are listed once for both directions, below and beside the types
-// (fields.h). The channel that carries messages stands last.
+// The fields of a message are listed once for writing and reading (fields.h): in this header, or
+// beside their types. The channel that carries messages is at the end of this header.
 #pragma once
 
 #include <sys/types.h>
@@ -35,8 +35,8 @@ namespace assay::properties {
 template <class T, class... Other>
 inline constexpr bool is_one_of = (std::is_same_v<T, Other> || ...);
 
-// Types whose values are sent as their bytes. They are listed by name, so that a type that gains a
-// pointer does not slip through.
+// Whether values of type T are sent as their bytes. Such types are listed by name, so that no type
+// with a pointer is sent in this way by mistake.
 template <class T>
 inline constexpr bool travels_as_bytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
@@ -44,10 +44,10 @@ inline constexpr bool travels_as_bytes =
               detector::StepCounts, detector::StepTimes, CaseStep, std::array<std::int32_t, 2>,
               detector::VertexAndFace, detector::TwoEdges>;
 
-// Writes or reads the fields of a message. Names are for other archives; both ends of a message are
-// built from the same list. A message that is too short, or states more items than it holds, is not
-// complete() and leaves the remaining fields untouched: the other end was damaged by the code that
-// it ran.
+// Writes or reads the fields of a message. The names of fields are not sent, because writer and
+// reader use the same list of fields. If a message is too short, or states more items than it has,
+// complete() returns false and the remaining fields do not change. Such a message comes from a
+// worker whose memory was damaged by the code that it ran.
 template <bool reads>
 class Wire : public NamedFields<Wire<reads>> {
  public:
@@ -77,7 +77,8 @@ class Wire : public NamedFields<Wire<reads>> {
       fields(*this, item);
     }
   }
-  // Passes the number of a value. A bool or an enum never gets a number that is no value of it.
+  // Passes the number of a bool or an enum. If a number read is no value of the type, the message
+  // is not complete().
   template <class Number, class T, class ValueOf>
   void pass_as(T& item, ValueOf value_of) {
     Number number = reads ? Number{0} : static_cast<Number>(item);
@@ -99,8 +100,8 @@ class Wire : public NamedFields<Wire<reads>> {
       if constexpr (reads) items.resize(count);
       pass_bytes(items.data(), count * sizeof(T));
     } else {
-      // Items are made one by one. Each takes bytes of the message, so that a large count alone
-      // takes no memory.
+      // Items are made one by one, and each needs bytes of the message, so that a large count
+      // without items needs no memory.
       if constexpr (reads) items.clear();
       for (std::size_t i = 0; i < count && ok_; ++i) {
         if constexpr (reads) items.emplace_back();
@@ -160,8 +161,8 @@ class Wire : public NamedFields<Wire<reads>> {
 // The messages, field by field. A new field of a result or an option does not compile until it is
 // named here.
 
-// Lists the options. Their relation is not sent: the relation of the case counts, and is sent with
-// the case.
+// Lists the fields of the options. Options::counted is not sent, because the relation of the case
+// is used, and is sent with the case.
 template <class Archive>
 void fields(Archive& archive, Options& options) {
   auto& [culling, start, pairs, arithmetic, threads, relation, separation, keeps_near] = options;
@@ -176,7 +177,7 @@ ASSAY_FIELDS(LimitAnswer, share, positions)
 
 template <class Archive>
 void fields(Archive& archive, CaseRun& run) {
-  // The last three members are set by the host.
+  // The host sets the last three members, so they are not sent.
   auto& [end, explanation, steps, candidates, limits, errors, over_capacity, has_answers, times,
          disturbances, processor_seconds, output] = run;
   archive("end", end, "explanation", explanation, "steps", steps, "candidates", candidates,
@@ -190,7 +191,8 @@ ASSAY_FIELDS(corpus::CaseGhosts, apexes, triangles)
 ASSAY_FIELDS(CountedPairs, level, body, apart, rings, rest_distance, rest, triangle_pairs,
              vertex_faces, edge_pairs)
 
-// Lists the relation. Only facts that a detector may know are sent, never the expected facts.
+// Lists the fields of a case and of its relation. Only facts that a detector may know are sent, and
+// never the expected facts.
 template <class Archive>
 void fields(Archive& archive, corpus::CaseRelation& relation) {
   archive("pairs", relation.pairs);
@@ -200,7 +202,7 @@ void fields(Archive& archive, Case& c) {
   std::string query = query_word(c);
   archive("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
           c.view, "counted", c.counted, "query", query);
-  if (query != query_word(c)) say_query(c, query);  // a writer changes nothing
+  if (query != query_word(c)) say_query(c, query);  // false in a writer, which changes nothing
 }
 
 template <class Archive>
@@ -213,17 +215,18 @@ void fields(Archive& archive, Claims& claims) {
 ASSAY_FIELDS(PluginParts, steps, query, candidates, limit, takes_threads)
 ASSAY_FIELDS(PluginDescription, name, version, claims, contract, parts)
 
-// The worker's first message: its description, or why it cannot serve.
+// The worker's first message: the description of the detector, or why the worker cannot run cases.
 struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
   bool serves = true;
-  std::string refusal;  // why the worker cannot serve
+  std::string refusal;  // why the worker cannot run cases; empty if it can
 };
 ASSAY_FIELDS(Hello, wire_version, description, serves, refusal)
 
-// Cases and their configurations. A RunReply comes back for each configuration of the first case,
-// in order, then for each of the next case.
+// Cases and the configurations in which they run. The worker sends a RunReply for each
+// configuration of the first case, in order, then for each configuration of the next case, and so
+// on.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
   std::vector<Case> cases;
@@ -241,8 +244,8 @@ ASSAY_FIELDS(RunReply, number, place, run)
 template <class... T>
 std::string encode(const T&... messages) {
   Wire<false> writer;
-  // A writer does not change the messages; the lists above are not const because readers use them
-  // too.
+  // A writer does not change the messages. The functions `fields` take objects that are not const,
+  // because readers call these functions too.
   (writer.field("", const_cast<T&>(messages)), ...);
   return writer.take();
 }
@@ -254,7 +257,8 @@ bool decode(const std::string& bytes, T& message) {
   return reader.complete();
 }
 
-// Returns a hash that differs if the two ends were built from sources with different plain data.
+// Returns a hash of the sizes of the plain types. Host and worker compare their hashes, to notice
+// that they were built from different sources.
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :
@@ -265,15 +269,14 @@ constexpr std::uint64_t wire_version() {
   return hash;
 }
 
-// The results of a plug-in are checked where they are read (plugin_reading.cpp), in its own
-// process. If that process damages its own memory, its reply may be malformed, which counts as a
-// crash.
+// The results of a plug-in are checked in the plug-in's own process (plugin_reading.cpp). If that
+// process damages its own memory, its reply can be malformed, which counts as a crash.
 
-// Bytes of the longest line of text in a reply.
+// The length in bytes of the longest line of text in a reply.
 inline constexpr std::size_t longest_reply_text = 4096;
 
-// Returns the most bytes that a reply to this case may have: those of a reply with every pair of
-// triangles in contact in each step, and with positions.
+// Returns the length in bytes of the longest valid reply to this case, in which every pair of
+// triangles is in contact in each step, and each step has positions.
 std::uint64_t longest_reply(const Case& c);
 // The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
@@ -281,30 +284,31 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // Returns whether all results of a run fit the case: its steps, triangles and vertices.
 bool fits(const CaseRun& run, const Case& c);
 
-// A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
-// SIGPIPE.
-
-// too_long: the other end began a message of more bytes than are allowed.
+// The end of one transfer of a message. too_long: the other end began a message of more bytes than
+// are allowed.
 enum class Transfer { done, closed, timed_out, too_long };
 
-// Is called before each wait, and returns how long to wait at most before the next call. If it
-// returns nothing, waiting is over; if 0, waiting is over unless there is something to read. An
-// empty function waits for ever.
+// Is called before each wait, and returns the longest time to wait before the next call. If it
+// returns nothing, waiting ends; if it returns 0, waiting ends unless there is something to read.
+// If the function is empty, waiting has no limit.
 using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 
+// A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
+// SIGPIPE.
 class Channel {
  public:
   explicit Channel(int descriptor) : descriptor_(descriptor) {}
-  // Returns two connected channels, both closed on exec; nothing if the system has no more. The
-  // first one knows its senders.
+  // Returns two connected channels, both closed on exec; nothing if the system gives no more
+  // sockets. Only the first channel knows the senders of its messages.
   static std::optional<std::pair<Channel, Channel>> connected();
 
   int descriptor() const { return descriptor_; }
-  // Returns the sender of the bytes received last, by its id in this process's view; 0: unknown.
+  // Returns the process id, as this process sees it, of the sender of the last received bytes; 0:
+  // unknown.
   pid_t sender() const { return sender_; }
   Transfer send(const std::string& message, const Patience& patience = {});
   // Receives a message of at most `most` bytes. Memory is allocated only for bytes that have
-  // arrived, not for announced ones.
+  // arrived, not for the length that a message announces.
   Transfer receive(std::string& message, const Patience& patience = {},
                    std::uint64_t most = ~std::uint64_t{0});
   // Returns whether the other end has closed, without waiting.
@@ -317,7 +321,7 @@ class Channel {
 
   Descriptor descriptor_;
   pid_t sender_ = 0;
-  std::string received_;  // bytes received beyond the last message
+  std::string received_;  // bytes received after the end of the last message
 };
 
 }  // namespace assay::properties

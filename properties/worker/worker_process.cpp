@@ -114,7 +114,7 @@ struct WorkerProcess::Parts {
 
   Expected<void> start() {
     auto ends = Channel::connected();
-    if (!ends) return Problem{"no socket for a worker"};
+    if (!ends) return Problem{"the system gives no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
     std::vector<PassedDescriptor> links = {{ends->second.descriptor(), child_descriptor}};
@@ -138,7 +138,7 @@ struct WorkerProcess::Parts {
           std::to_string(limits.variation), std::to_string(int{limits.asks_twice})})
       arguments.push_back(word);
     auto output = PrintedFile::make();
-    if (!output) return Problem{"no file in memory for what a plug-in prints"};
+    if (!output) return Problem{"the system gives no file in memory for the output of a plug-in"};
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
       links.push_back({output->descriptor(), stream});
     if (isolation == Isolation::limits)
@@ -156,7 +156,7 @@ struct WorkerProcess::Parts {
          {program, files->file(), std::filesystem::temp_directory_path(ignored)}) {
       const auto real = std::filesystem::weakly_canonical(path, ignored);
       if (real.native().starts_with("/dev/"))
-        return real.string() + " is hidden behind it, like all of /dev";
+        return real.string() + " is hidden behind bwrap, like all of /dev";
     }
     return fault_of_bubblewrap();
   }
@@ -195,7 +195,7 @@ struct WorkerProcess::Parts {
     Hello hello;
     if (!decode(message, hello)) return broken_hello();
     if (hello.wire_version != wire_version())
-      return Problem{program.string() + ": of another build than this program"};
+      return Problem{program.string() + ": it is of another build than this program"};
     if (!hello.serves) return Problem{hello.refusal};
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
@@ -276,7 +276,7 @@ struct WorkerProcess::Parts {
     if (is_hung) {
       run.explanation = why_hung;
     } else if (end.by_host) {
-      run.explanation = "closed its channel and went on";
+      run.explanation = "closed its channel, but did not end";
     } else if (!was_killed_from_outside(end)) {
       run.explanation = end.text;
     } else if (++killed_under_way < attempts) {

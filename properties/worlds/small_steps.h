@@ -13,11 +13,11 @@ struct SmallStep {
   std::string family;  // family of the mesh
   Triangles triangles;
   Positions x_t0, x_t1;
-  ViewPrimitive point, line;  // small integers too; the line's ends may move apart
+  ViewPrimitive point, line;  // small integers too; the line may move and change its length
 };
 
-// Makes case `index` of `seed`. A hash of both is the only source of randomness, so that any case
-// can be made alone, on any machine.
+// Makes case `index` of `seed`. The hash of these two numbers is the only source of randomness, so
+// that any machine can make any case alone.
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace assay::properties

@@ -71,7 +71,7 @@ class Reader {
     for (const auto& part : findings_.parts) {
       if (part.seed == run.seed)
         throw StoreProblem(
-            fmt::format("{}: a run with seed {} is there already", file.string(), run.seed));
+            fmt::format("{}: a store beside it has seed {} too", file.string(), run.seed));
     }
     // A digest of the lasting fields of all rows, made as a chain: the digest so far and the hash
     // of the next row make the next digest.
@@ -130,7 +130,7 @@ Expected<RunFindings> read_findings(const std::filesystem::path& folder) {
     return catch_store_problem([&] { return Reader(folder).read(); });
   } catch (const std::exception& failure) {
     // This is thrown for a number that cannot be read, in a store that somebody changed.
-    return Problem{fmt::format("{}: not what a run stores: {}", folder.string(), failure.what())};
+    return Problem{fmt::format("{}: no run stores this: {}", folder.string(), failure.what())};
   }
 }
 

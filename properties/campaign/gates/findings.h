@@ -1,5 +1,5 @@
-// The findings of one campaign: all that the stores of a folder say about it. read_findings reads
-// them and gates.h judges them; every text, file and page only presents findings and gates.
+// The findings of one campaign: all that the stores of its folder say. read_findings makes the
+// findings and gates.h judges them. Every text, file and page only presents findings and gates.
 #pragma once
 
 #include <filesystem>
@@ -28,81 +28,85 @@ struct RunPart {
 
 struct RunFindings {
   std::filesystem::path folder;
-  BoundRun run;                  // the first one, if several are judged together
+  BoundRun run;                  // the first run, if several runs are judged together
   std::vector<StoreFile> files;  // by name
-  std::vector<RunPart> parts;    // by seed; a single one if one run is judged by itself
+  std::vector<RunPart> parts;    // by seed: one item for each run
   Tally tally;
-  Counts times_met;                 // how often each signature of a failure was met
-  std::uint64_t claims_broken = 0;  // how often a failure that breaks no law was met
-  // Ordered by signature; within one signature shrunk failures first, then shorter ones, then by
-  // id.
+  Counts times_met;                 // the number of failures of each signature
+  std::uint64_t claims_broken = 0;  // the number of failures that break a claim, but no law
+  // Ordered by the oddity of the cause (cause.h), then by signature. Within one signature, failures
+  // with a shrunk mesh come first, then failures with a shorter mesh; the rest is ordered by id.
   std::vector<FailureRecord> failures;
   EvidenceFacts evidence;
   std::string library;     // path of the plug-in's library as given to the run; empty: not known
-  std::string begin_time;  // in UTC; the earliest of several stores; empty: not known
-  // SHA-256 over all rows but times and paths. It is the same for the same campaign, however long
-  // the campaign took and wherever it was stored. For several runs: SHA-256 over their digests.
+  std::string begin_time;  // in UTC; if there are several runs, the earliest; empty: not known
+  // SHA-256 over all rows, without times and paths. Two runs of the same campaign under the same
+  // seed have the same digest. If several runs are judged together: SHA-256 over their digests.
   std::string rows;
 
-  // Returns whether the runs together are a whole campaign: one run does all of it, or N runs of
-  // shares 1/N have seeds with all N remainders modulo N. Under other seeds two runs would judge
-  // the same indices (trial_index), and a check of every 16th index, say, might never be made.
-  // Some demands, such as bounds, are made only of a whole campaign.
+  // Returns whether the runs together are a whole campaign: one run does the whole plan, or N runs
+  // of shares 1/N have seeds with all N remainders modulo N. With other seeds two runs would judge
+  // the same indices (trial_index), and a check of every 16th index, for example, might never be
+  // made. A part of a campaign has to pass fewer checks; for example, it needs no bounds.
   bool is_whole() const;
-  // Returns how many of n items the runs have to do together.
+  // Returns how many of n items all runs together have to do.
   std::uint64_t shares_of(std::uint64_t n) const;
-  // Return the number of cases that the runs have to judge together, in one family and in all.
+  // Return the number of cases that all runs together have to judge: in this stratum, or in all
+  // strata.
   std::uint64_t quota(const StratumPlan& stratum) const;
   std::uint64_t quota() const;
-  // Returns whether all cases of a family were drawn, and each was left out by the contract or
-  // refused by the detector as beyond its capacity.
+  // Returns whether all trials of a stratum took place, and in each of them the contract left the
+  // case out, or the detector refused the case as beyond its capacity.
   bool is_left_out(const StratumPlan& stratum) const;
-  // Returns the tally of a family; an empty one if no trial of the family was judged.
+  // Returns the tally of a family; an empty tally if no trial of the family was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
   // Returns one failure of each signature (example_of), the least odd cause first (cause.h).
   std::vector<const FailureRecord*> kinds() const;
   std::uint64_t met_count(const FailureRecord& failure) const;
-  // Returns a stored failure of this signature, if possible one of a trial rather than of the
-  // corpus; null if there is none.
+  // Returns a stored failure of this signature; null if there is none. A failure that is not flaky
+  // is preferred, then a failure that does not come from the corpus.
   const FailureRecord* example_of(const std::string& signature) const;
   // Returns the outcomes of one configuration in one stratum.
   StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
-  // Returns whether the run shows if laws were met often enough. It does for the built-in detector,
-  // once all trials of a whole campaign took place.
+  // Returns whether the gate `harness` judges how often the premises of laws held: the detector is
+  // built in, the plan has laws, and all trials of a whole campaign took place.
   bool laws_are_judged() const;
-  // Returns whether the same command would add something: the run was killed or its time ended.
+  // Returns whether the same command, given again, would do further work, because the run was
+  // killed or its time ended.
   bool has_more_to_do() const;
-  // Return how many planted faults were tried, how many were found, and how many of these by random
-  // cases. The others were found by their curated case alone.
+  // Return the numbers of planted faults that were tried, that were found, and that were found by
+  // random cases. finds() - found_at_random() faults were found only by their curated cases.
   std::uint64_t faults() const, finds() const, found_at_random() const;
 };
 
-// Reads the stores of a folder into findings. This is done here and nowhere else.
-
-// Reads all stores of the folder, whose runs are judged together. O(trials).
+// Returns the findings of all stores in the folder, whose runs are judged together. No other
+// function makes findings. O(trials).
 //
-// Refuses, besides what Store::read refuses: a folder without a run; two runs of different plans,
-// builds or detectors; two runs with the same seed; a trial that its run does not plan.
+// Fails if Store::read fails, if the folder holds no run, if two runs have different plans, builds
+// or detectors, if two runs have the same seed, or if a store holds a trial that is not in the plan
+// of its run.
 Expected<RunFindings> read_findings(const std::filesystem::path& folder);
 
-// States the bounds that the trials of a campaign support, all of them together.
+// The functions below compute the bounds that the trials of a campaign support.
 
-// Returns the configurations in which the detector is asked in a stratum, in the order of its
-// trials' outcomes. A configuration with the name of a family of questions (question_families) is
-// asked only in the stratum of that name, and no other configuration is asked there.
+// Returns the configurations that run in a stratum, in the order of TrialRecord::outcomes. A
+// configuration with the name of a family of questions (question_families) runs only in the stratum
+// of that name, and no other configuration runs there.
 std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector& detector,
                                                             std::string_view family);
 
-// Returns the number of bounds: strata times the claims of their configurations. Strata of large
-// sizes (size_families) are not among them: each of their bounds is stated alone. A trial that
-// breaks any claim of a configuration counts against that configuration's bound, so one bound holds
-// for all of its claims. Counting every claim nevertheless only widens the bounds.
+// Returns the number of bounds: for each stratum the number of claims of its configurations. Strata
+// of large sizes (size_families) do not count here, because each bound of such a stratum is stated
+// alone. A trial that breaks any claim of a configuration counts against the bound of that
+// configuration, so one bound would do for all claims of the configuration. To count every claim
+// only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
 
 // Returns the risk of each bound, such that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
-// Returns the risk of a stratum's bound: risk_of_each, or 1 - family_confidence if it stands alone.
+// Returns the risk of each bound of a stratum: risk_of_each, or 1 - family_confidence for a stratum
+// of large sizes, whose bounds are stated alone.
 double risk_in(const StratumPlan& stratum, const BoundRun& run);
 
 // Returns the bound on the share of cases in which one configuration does not hold.
@@ -110,9 +114,9 @@ double bound_of(const StratumTally::Outcomes& outcomes, const StratumPlan& strat
                 const BoundRun& run);
 
 // Returns whether the gate `bounds` accepts a configuration in a stratum: its bound is not above
-// the wanted one, or, if none is wanted, every trial has a verdict. Nothing is asked of a family
-// from which the contract takes no case, nor of a family of large sizes without a wanted bound. No
-// bound is asked of less than a whole campaign.
+// the wanted bound, or, if no bound is wanted, every trial has a verdict. The gate also accepts a
+// stratum from which the contract takes no case, a stratum of large sizes without a wanted bound,
+// and a stratum with a wanted bound in a part of a campaign.
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
 
 // Returns whether all configurations have the same outcomes in a stratum, so that one row suffices.

@@ -56,7 +56,7 @@ void check_power(const RunFindings& f, Lines& lines) {
     if (proof.status == FaultStatus::planted && !proof.is_found() && was_tried)
       hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
     if (proof.status == FaultStatus::equivalent && proof.is_found())
-      lines.push_back(fmt::format("{}, registered as equivalent, was found", proof.fault));
+      lines.push_back(fmt::format("{} is registered as equivalent, but was found", proof.fault));
   }
   const auto faults = static_cast<double>(f.faults());
   if (faults - static_cast<double>(hidden.size()) < f.run.plan.policy.power * faults)
@@ -71,7 +71,7 @@ void check_tallies(const RunFindings& f, Lines& lines) {
   }
   if (defects != f.claims_broken)
     lines.push_back(
-        fmt::format("{} defects in the trials, {} failures are stored", defects, f.claims_broken));
+        fmt::format("{} defects in trials, but {} stored failures", defects, f.claims_broken));
 }
 
 void check_faults(const RunFindings& f, GateFindings& gate) {
@@ -81,14 +81,14 @@ void check_faults(const RunFindings& f, GateFindings& gate) {
   for (const auto& source : f.evidence.power) {
     if (source.program != build.program || source.worker != build.worker ||
         source.generator != build.generator)
-      gate.add_lasting("the planted faults were proved by another build");
+      gate.add_lasting("the proof that planted faults are found is of another build");
   }
   if (f.faults() != f.run.planted_faults)
     gate.add_to_do(
         fmt::format("{} of {} planted faults were tried", f.faults(), f.run.planted_faults));
   for (const auto& proof : f.evidence.faults) {
     if (f.is_whole() ? !proof.is_whole(plan) : proof.time_over)
-      gate.add_to_do(fmt::format("the time was over before {} had all of its cases", proof.fault));
+      gate.add_to_do(fmt::format("the time ended before all cases for {} were run", proof.fault));
   }
 }
 
@@ -124,7 +124,7 @@ void check_trials(const RunFindings& f, const VerbRequest& request, GateFindings
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (f.is_whole() && most_disturbed * disturbed > trials)
-    gate.add_lasting(fmt::format("{} of {} trials were disturbed from outside; at most 1 % may be",
+    gate.add_lasting(fmt::format("{} of {} trials were disturbed from outside: more than 1 %",
                                  disturbed, trials));
 }
 
@@ -144,7 +144,7 @@ void check_repetitions(const RunFindings& f, GateFindings& gate) {
     return std::ranges::find(rows, name, &JudgedSource::input) != rows.end();
   });
   if (static_cast<std::size_t>(count) < names.size())
-    gate.add_to_do(fmt::format("{} of {} scenes were repeated", count, names.size()));
+    gate.add_to_do(fmt::format("{} of {} sequences were run", count, names.size()));
 }
 
 // Checks that the search asked all of its cases.
@@ -173,7 +173,7 @@ GateFindings check_harness(const RunFindings& f, const VerbRequest& request) {
   check_tallies(f, lines);
   const auto contradictions = f.evidence.sum_of(Source::self_test).defects;
   if (request.certificate && contradictions > 0)
-    lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
+    lines.push_back(fmt::format("the self-test found {} contradictions", contradictions));
   if (f.evidence.canaries.empty()) gate.not_judged = "no canary was tried";
   return gate;
 }
@@ -264,7 +264,7 @@ GateFindings check_bounds(const RunFindings& f, const VerbRequest&) {
   }
   if (!is_judged)
     gate.not_judged =
-        f.is_whole() ? "the campaign has no trials" : "bounds are wanted of a whole campaign";
+        f.is_whole() ? "the campaign has no trials" : "only a whole campaign needs bounds";
   return gate;
 }
 

@@ -35,8 +35,7 @@ std::string reason_against(const ClaimRow& row, const Contract& contract, const 
   if (row.probe == Probe::by_stated_time && seldom * m.without_time > m.errors.collisions())
     return fmt::format("its interval is wider than {} in {} of {} collisions", widest_stated_time,
                        m.without_time, m.errors.collisions());
-  if (row.probe == Probe::by_free_way)
-    return limits.free == 0 ? "no step was without a contact" : "";
+  if (row.probe == Probe::by_free_way) return limits.free == 0 ? "every step had a contact" : "";
   const auto contacts = row.probe == Probe::by_candidates      ? m.least_candidates
                         : row.probe == Probe::by_contact_ahead ? limits.contact
                                                                : m.errors.contact;

@@ -140,7 +140,7 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
   read_fields(json, run);
   constexpr std::uint64_t most_shares = 1'000'000;
   if (run.shares < 1 || run.shares > most_shares)
-    return Problem{fmt::format("{}: wrong number of shares: {}", file.string(), run.shares)};
+    return Problem{fmt::format("{}: {} is no valid number of shares", file.string(), run.shares)};
   return run;
 } catch (const Json::exception& wrong) {
   return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
@@ -150,7 +150,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
   const auto first = corpus::parse_sorted_json(a, "binding"),
              right = corpus::parse_sorted_json(b, "binding");
   const bool are_objects = first && right && first.value().is_object() && right.value().is_object();
-  if (!are_objects) return "one of the two runs is not described";
+  if (!are_objects) return "one of the two stores does not describe its run";
   std::vector<std::string> differences;
   const auto parts_of = [&](Json binding) {
     if (runs == Runs::judged_together) {
@@ -178,7 +178,7 @@ std::string difference_of(const std::string& a, const std::string& b, Runs runs)
     if (part == "library") {
       differences.emplace_back("another build of the detector's library");
     } else if (part == "own_cases") {
-      differences.emplace_back("other own cases (--corpus)");
+      differences.emplace_back("other cases of the owner (--corpus)");
     } else if (!(is_other_build && part == "planted_faults")) {
       differences.push_back(first_difference(part, mine, its));
     }

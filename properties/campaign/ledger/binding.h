@@ -16,8 +16,8 @@ namespace assay::properties {
 nlohmann::json json_of(const Contract& contract);
 
 // Returns the binding, of schema `assay-store/9`. The object holds `campaign` (the plan, with its
-// times set to nothing, because a run that ran out of time may go on), `seed`, `shares`, `detector`
-// (name, built_in, contract, threads, configurations with their claims, query_claims,
+// times set to 0, because a run that ran out of time can be continued), `seed`, `shares`,
+// `detector` (name, built_in, contract, threads, configurations with their claims, query_claims,
 // unjudged_parts), `planted_faults` (how many this build has), `digests` (SHA-256 of program,
 // worker and plug-in, null for the built-in detector, and of the generator's first cases), and
 // `own_cases` (SHA-256) if the run has own cases.
@@ -32,13 +32,14 @@ struct BoundDetector {
   std::string name;
   bool built_in = true;
   Contract contract;
-  std::uint64_t threads = 1;                  // for a plug-in that asks how many it may use
-  std::vector<Configuration> configurations;  // those with questions come last
+  std::uint64_t threads = 1;                  // WorkerLimits::threads
+  std::vector<Configuration> configurations;  // DetectorUnderTest::of_questions come last
   // As in DetectorUnderTest.
   std::vector<std::string> query_claims{}, unjudged_parts{};
 };
 struct BoundDigests {
-  // Nothing for a program that was gone when the run began; no `plugin` for the built-in detector.
+  // Nothing for a file that did not exist when the run began. The built-in detector has no
+  // `plugin`.
   std::optional<std::string> program, worker, plugin;
   std::string generator;
 };

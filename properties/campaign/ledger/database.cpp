@@ -120,7 +120,7 @@ Row lasting(Row row) {
 
 std::uint64_t number_of_text(const std::string& text) {
   const auto number = whole_number_of(text);
-  if (!number) throw StoreProblem(fmt::format("'{}' stands where a number belongs", text));
+  if (!number) throw StoreProblem(fmt::format("'{}' is no number", text));
   return *number;
 }
 
@@ -176,7 +176,7 @@ void check_tables(const Database& database, bool may_lack) {
   const bool are_ours = has_table ? texts.text(0) == declaration && !texts.next() : may_lack;
   if (!are_ours)
     throw StoreProblem(
-        fmt::format("{}: its tables are not those of the store of a run", database.file()));
+        fmt::format("{}: not the store of a run: its tables differ", database.file()));
 }
 
 }  // namespace assay::properties

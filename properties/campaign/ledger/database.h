@@ -1,5 +1,5 @@
-// The few parts of SQLite that a store needs: a database, and one statement at a time; a lock that
-// gives one process a file to itself; the rows of a store; and its problems.
+// Wraps the few parts of SQLite that a store needs: databases and statements. Also locks a file
+// for one process, and reads and writes the rows of a store.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,9 @@ struct sqlite3_stmt;
 
 namespace assay::properties {
 
-// A store reports a problem by an exception inside of campaign/, and by a value outside of it.
-//
-// A store may fail in the middle of a row, deep inside of a phase and in any of its threads, and
-// there an exception is the short way out. Functions for other rooms turn it into a Problem.
+// The exception with which a store reports a problem inside of campaign/. A store can fail in the
+// middle of a row, deep inside of a phase and in any thread, and an exception is the short way out
+// of there. The functions that other rooms call return the problem as a value.
 
 class StoreProblem : public std::runtime_error {
  public:
@@ -33,14 +32,14 @@ class StoreProblem : public std::runtime_error {
   Problem problem() const { return {what()}; }
 };
 
-// Returns the value, or throws its problem.
+// Returns the value. Throws StoreProblem if there is a problem in place of a value.
 template <class T>
 T value_or_throw(Expected<T>&& expectation) {
   if (!expectation) throw StoreProblem(expectation.error());
   if constexpr (!std::is_void_v<T>) return std::move(expectation.value());
 }
 
-// Returns what `work` returns, or the StoreProblem that it throws as a value.
+// Returns the result of `work`, or, if `work` throws a StoreProblem, the problem as a value.
 template <class Work>
 Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
   try {
@@ -55,9 +54,9 @@ Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
   }
 }
 
-// Everything here throws StoreProblem if the disk is full, the file is damaged or not one of
-// SQLite, or it cannot be read or written any more. The message is SQLite's own and names the
-// file.
+// The functions of Database and Statement throw StoreProblem if the disk is full, or if the file is
+// damaged, is no file of SQLite, or cannot be read or written any more. The message is SQLite's own
+// message with the name of the file.
 class Database {
  public:
   enum class Mode : std::uint8_t { read, write };
@@ -66,7 +65,7 @@ class Database {
 
   // Runs one statement or several, without results.
   void run(const std::string& sql) const;
-  // Throws if a page is damaged.
+  // Throws StoreProblem if a page of the file is damaged.
   void check_whole() const;
   std::string file() const;
   sqlite3* handle() const { return db_.get(); }
@@ -97,9 +96,9 @@ class Statement {
   int values_ = 0;
 };
 
-// Locks a file until the descriptor is closed or this process ends, however it ends. The file is
-// made if it is not there, and stays. Throws StoreProblem if it cannot be opened, and, with the
-// text `if_busy`, if it is locked.
+// Locks a file until the descriptor is closed or this process ends in any way. Makes the file if it
+// does not exist; the file is not removed afterwards. Throws StoreProblem if the file cannot be
+// opened. If the file is locked already, the message is `if_busy`.
 Descriptor lock_file(const std::filesystem::path& file, const std::string& if_busy);
 
 // A row of a ledger. A campaign stores everything in rows: a trial, a failure, a note, a planted
@@ -107,8 +106,8 @@ Descriptor lock_file(const std::filesystem::path& file, const std::string& if_bu
 
 struct Row {
   std::string kind;            // "trial", "canary", ...
-  std::string key;             // names the row among those of its kind
-  std::uint64_t progress = 0;  // of two rows with the same key, that with more progress stays
+  std::string key;             // no other row of this kind has the same key
+  std::uint64_t progress = 0;  // the row with more progress replaces a row of the same key
   std::string fields;          // a JSON object
   friend bool operator==(const Row&, const Row&) = default;
 };
@@ -118,23 +117,24 @@ inline constexpr std::string_view binding_kind = "binding", note_kind = "note",
                                   trial_kind = "trial", failure_kind = "failure", met_kind = "met";
 
 // Returns the row without the fields that may differ between two runs of one campaign: times,
-// disturbances from outside, and how far a case could be shrunk in its time.
+// disturbances from outside, the output of a plug-in, and the smallest mesh found within the time.
 Row lasting(Row row);
 
-// Returns the SHA-256 over the whole row, each column behind its length, so that no two different
-// rows give the same bytes. It reveals a row that was changed by a disk, or by somebody who did not
-// renew the hash. It is no signature: whoever may write the file can write a hash that fits.
+// Returns the SHA-256 over all columns of the row, each column behind its length, so that no two
+// different rows give the same bytes. The hash reveals a row that a disk changed, or that somebody
+// changed without a new hash. The hash is no signature: anybody who can write the file can also
+// write the right hash.
 std::string row_hash(const Row& row);
 
 // Returns "trial quick:1:broken:3", "canary pair/x".
 std::string row_name(const Row& row);
 
-// Returns the SQL that makes the one table of a store unless it exists.
+// Returns the SQL statement that makes the table of a store if the table does not exist yet.
 std::string table_declaration();
 
 // Visits rows. `more` is SQL such as "WHERE kind=? ORDER BY key", whose question marks stand for
 // the texts of `values`; if `more` is empty, all rows come in the order of kind and key.
-// Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails.
+// Throws StoreProblem at the first row whose hash is wrong, and if SQLite fails.
 void for_each_row(const Database& database, const std::string& more,
                   const std::vector<std::string_view>& values,
                   const std::function<void(const Row&)>& visit);
@@ -142,8 +142,8 @@ void for_each_row(const Database& database, const std::string& more,
 // Writes the row with its hash, in place of a row of the same kind and key.
 void put_row(const Database& database, const Row& row);
 
-// Throws StoreProblem unless the file holds the table of a store and nothing else, such as a
-// trigger that changes rows by itself. If `may_lack` is set, the table may be missing.
+// Throws StoreProblem if the file holds anything besides the table of a store, such as a trigger
+// that changes rows by itself, or if `may_lack` is false and the file lacks the table.
 void check_tables(const Database& database, bool may_lack);
 
 }  // namespace assay::properties

@@ -18,7 +18,7 @@ T fact_of(const Row& row) {
   T x;
   read_fields_of(row, x);
   if (to_row(x) != row)
-    throw StoreProblem(fmt::format("{} is not as a run writes it", row_name(row)));
+    throw StoreProblem(fmt::format("{}: no run writes such a row", row_name(row)));
   return x;
 }
 
@@ -117,7 +117,7 @@ void append_new(std::vector<T>& list, const std::vector<T>& more) {
 template <class T>
 void join(std::optional<T>& only, const std::optional<T>& other) {
   if (only && other && to_row(*only) != to_row(*other))
-    throw StoreProblem(fmt::format("two runs differ in what they say of {}", T::kind));
+    throw StoreProblem(fmt::format("two runs have different rows of kind {}", T::kind));
   if (!only) only = other;
 }
 
@@ -148,7 +148,7 @@ void EvidenceFacts::add(EvidenceFacts other) {
       if (!are_taken_over) {
         stored_proof.add(proof);
       } else if (to_row(stored_proof) != to_row(proof)) {
-        throw StoreProblem(fmt::format("two runs took over different proofs of {}", proof.fault));
+        throw StoreProblem(fmt::format("two runs took over different proofs for {}", proof.fault));
       }
     });
     append_new(power, other.power);

@@ -1,10 +1,10 @@
-// Evidence that a run stores besides its trials: one struct for each kind, and the functions that
-// turn it into a row of the ledger and back. Each struct states its kind and may have key() and
-// progress(), which go into the row; the fields of the row are the members. A line of text is
-// called `what` in all rows.
+// Evidence that a run stores besides its trials: one struct for each kind of evidence, and the
+// functions that turn evidence into rows of the ledger and back. A struct states its kind and can
+// have key() and progress(), which become columns of the row. Its members become the fields of the
+// row. A line of text has the name `what` in all rows.
 //
-// Two runs of one campaign have equal rows, unless the kind `may_differ`: times and paths
-// (SpeedFigure, Issuance), and a World, which its limit of time may end early.
+// Two runs of one campaign have equal rows, except rows of a kind with `may_differ`: SpeedFigure
+// and Issuance hold times and paths, and a time limit can end the proof of a World early.
 #pragma once
 
 #include <optional>
@@ -24,20 +24,20 @@ namespace assay::properties {
 struct Canary {
   static constexpr const char* kind = "canary";
   std::string fault;
-  std::optional<std::uint64_t> found_after;  // cases until it was found; nothing: it was not
+  std::optional<std::uint64_t> found_after;  // cases until it was found; nothing: not found
   const std::string& key() const { return fault; }
 };
 ASSAY_FIELDS(Canary, fault, found_after)
 
-// A problem that kept the harness itself from going on, after `trials` trials had been stored.
-// `what` is empty if there was none.
+// The problem that stopped the harness itself, after `trials` trials had been stored. `what` is
+// empty if there was no problem.
 struct HarnessProblem {
   static constexpr const char* kind = "problem";
   std::string what;
   std::uint64_t trials = 0;
-  // Returns a number by which the later of two rows replaces the earlier one: it is greater for the
-  // later row. Of two rows with equally many trials, the one with a problem is the later one,
-  // because a problem ends only when a further trial is stored.
+  // Returns a greater number for a later row, so that the later row replaces the earlier row. If
+  // two rows have equally many trials, the row with a problem is the later one, because a problem
+  // counts until a further trial is stored.
   std::uint64_t progress() const { return 2 * trials + (what.empty() ? 0 : 1); }
 };
 ASSAY_FIELDS(HarnessProblem, what, trials)
@@ -48,36 +48,37 @@ struct FaultProof {
   std::string fault, law;
   FaultStatus status = FaultStatus::planted;
   bool curated = false;  // the curated case of the fault shows it
-  // For each seed the number of random cases until the fault showed; nothing if it did not show
-  // within `cases` of them.
+  // For each seed the number of random cases until the fault showed; nothing if the fault did not
+  // show within `cases` random cases.
   std::vector<std::optional<std::uint64_t>> needed;
-  std::uint64_t cases = 0;           // tried under each seed, unless the fault showed before
-  bool time_over = false;            // the hunt was ended by a limit of time
+  std::uint64_t cases = 0;           // the most random cases that were tried under each seed
+  bool time_over = false;            // a time limit ended the hunt
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows the fault; 0: unknown
 
-  bool is_found() const;         // by its curated case, or by a random one under any seed
+  bool is_found() const;         // by its curated case, or by a random case under any seed
   bool found_at_random() const;  // by a random case under any seed
-  // Returns whether the fault was tried on as many cases and seeds as the plan gives to a fault.
+  // Returns whether the fault was tried on as many cases and seeds as the plan wants.
   bool is_whole(const CampaignPlan& plan) const;
-  // Returns the median of `needed`. A seed under which the fault did not show counts as more than
-  // any number; the result is nothing if the median is such a seed.
+  // Returns the median of `needed`. A seed under which the fault did not show counts as infinite;
+  // the result is nothing if the median is infinite.
   std::optional<std::uint64_t> median() const;
   // Adds the cases of another hunt for the same fault, in a run under another seed.
   void add(const FaultProof& other);
 
   const std::string& key() const { return fault; }
-  // Returns more for a hunt that went to its end than for any that the time ended.
+  // Returns more for a complete hunt than for any hunt that a time limit ended.
   std::uint64_t progress() const;
 };
 ASSAY_FIELDS(FaultProof, fault, law, status, curated, needed, cases, time_over, known_vertices)
 
-// The run of the same build from which the proofs of planted faults were taken.
+// The other run of the same build from which this run took over the proofs that planted faults are
+// found.
 struct PowerSource {
   static constexpr const char* kind = "power";
   std::string campaign, detector;
   std::uint64_t seed = 0;
   std::string program, worker, generator;  // SHA-256
-  std::string rows;                        // digest of that run's rows
+  std::string rows;                        // digest of the other run's rows (RunFindings::rows)
   const std::string& key() const { return campaign; }
 };
 ASSAY_FIELDS(PowerSource, campaign, detector, seed, program, worker, generator, rows)
@@ -93,26 +94,26 @@ struct World {
   std::string world;
   std::uint64_t classes = 0, motions = 0, all = 0, collisions = 0;
   bool complete = false;
-  std::optional<std::string> counterexample;  // the claim that fails, in words
+  std::optional<std::string> counterexample;  // the check that fails, in words
   const std::string& key() const { return world; }
   // Returns more for a counterexample than for any number of classes that hold.
   std::uint64_t progress() const;
 };
 ASSAY_FIELDS(World, world, classes, motions, all, collisions, complete, counterexample)
 
-// How the process of a plug-in was isolated throughout a run: the word that was asked for, empty if
-// none was, and the word for the isolation that it had.
+// The isolation of a plug-in's process throughout a run. `asked` is the word that the user gave,
+// or empty if there was no word; `got` is the word for the isolation that the process had.
 struct PluginIsolation {
   static constexpr const char* kind = "isolation";
   std::string asked, got;
 };
 ASSAY_FIELDS(PluginIsolation, asked, got)
 
-// The request of a verb to a run.
+// The gates that a verb of the command line asks for.
 struct VerbRequest {
   static constexpr const char* kind = "asked";
   std::vector<std::string> gates;  // names of gates.h; no other gate is judged
-  bool certificate = false;        // a certificate is to be issued: every gate is asked for
+  bool certificate = false;        // the verb issues a certificate, so every gate is judged
 };
 ASSAY_FIELDS(VerbRequest, gates, certificate)
 
@@ -127,9 +128,9 @@ struct Versions {
 ASSAY_FIELDS(Versions, assay, commit, libraries, corpus)
 
 // The result of one input in one configuration. The input is a part of the shipped corpus, a scene,
-// or the owner's cases; a large mesh, on which a plug-in's claims are tried (several times, if it
-// claims to be deterministic); a lane of the search; or a family of queries of the self-test. Each
-// fills the members that apply to it.
+// or the owner's cases; a large mesh, which a plug-in runs several times if it claims to be
+// deterministic; a lane of the search; or a family of queries of the self-test. Members that do not
+// apply to the input keep their defaults.
 struct JudgedSource {
   static constexpr const char* kind = "judged";
   struct Failed {
@@ -145,7 +146,7 @@ struct JudgedSource {
   // For a lane, `input` is its number, from 1, with leading zeros, and `configuration` is empty.
   // Only whole lanes are stored.
   std::string input{}, configuration{};
-  std::uint64_t planned = 0;  // for a lane: how many cases it was to ask
+  std::uint64_t planned = 0;  // for a lane: the number of its cases
   // `cases`: cases that were judged (steps of a large mesh). `defects`: cases that break a claim or
   // contradict the oracle. `undecided`: for lanes and queries, cases without a verdict.
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0;
@@ -160,11 +161,11 @@ struct JudgedSource {
   // Only for a large mesh.
   std::uint64_t triangles = 0;
   std::uint64_t runs = 0;                // runs that ended by themselves
-  std::vector<std::uint64_t> threads{};  // the number it may use, run by run
-  std::string what{};                    // how two runs differ, or why one ended early
-  bool broken = false;                   // `what` breaks a claim
+  std::vector<std::uint64_t> threads{};  // for each run the greatest number of its threads
+  std::string what{};                    // how two runs differ, or why a run ended early
+  bool broken = false;                   // `what` describes a broken claim
   std::vector<Step> judged{};
-  std::set<std::string> causes{};  // in the hardest cases of a lane's archive (cause.h)
+  std::set<std::string> causes{};  // the causes (cause.h) in the hardest cases of a lane's archive
 
   std::string key() const { return input + ", " + configuration + ", " + name_of(source); }
 };
@@ -174,7 +175,7 @@ ASSAY_FIELDS(JudgedSource, source, input, configuration, planned, cases, left_ou
              collisions, pairs, defects, undecided, complete, failed, open, extremes,
              triangles_in_contact, triangles, runs, threads, what, broken, judged, causes)
 
-// The ratio of the times of two programs that were run in turn.
+// The ratio of the times of two programs that were run alternately.
 struct SpeedFigure {
   static constexpr const char* kind = "speed";
   static constexpr bool may_differ = true;
@@ -197,8 +198,8 @@ struct Issuance {
 };
 ASSAY_FIELDS(Issuance, out, detector, own_cases, data, at, seconds)
 
-// All that the evidence rows of some stores say. Each list is in the order of stores, then of
-// names.
+// The contents of all evidence rows of one store, or of several stores. Each list is ordered by
+// store, then by key.
 struct EvidenceFacts {
   std::vector<Canary> canaries;
   std::vector<HarnessProblem> problems;
@@ -212,15 +213,17 @@ struct EvidenceFacts {
   std::vector<SpeedFigure> speed;
   std::optional<Issuance> issued;
 
-  // Return the inputs of a source, and their sum. The owner's cases are a part of the corpus.
+  // Return the rows of a source, and the sum of these rows. The rows of Source::corpus include the
+  // owner's cases.
   std::vector<JudgedSource> rows_of(Source source) const;
   JudgedSource sum_of(Source source) const;
 
-  // Throws StoreProblem on a row that no run stores.
+  // Adds the contents of a row. Throws StoreProblem if no run stores such a row.
   void take(const Row& row);
   // Adds the evidence of a run of the same campaign under another seed. The corpus and the
   // self-test, which every run does in the same way, count once; the cases of a planted fault add
-  // up. Throws StoreProblem if the two judged different inputs, or took over different proofs.
+  // up. Throws StoreProblem if the runs have different requests or versions, or took over different
+  // proofs of planted faults.
   void add(EvidenceFacts other);
 };
 EvidenceFacts facts_in(const Store& store);

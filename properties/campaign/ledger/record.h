@@ -1,4 +1,5 @@
-// The records that a campaign stores of each trial and of each failure; and their rows.
+// The records that a campaign stores of each trial and of each failure, and the functions that turn
+// records into rows and back.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +13,16 @@
 
 namespace assay::properties {
 
-// How often something with a name was met.
+// The number of things of each name.
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
-// How often a law was met (LawTally, law.h).
+// Counts of steps on which a law was checked (LawTally, law.h).
 struct LawCount {
   std::uint64_t premise = 0, close = 0, broken = 0;
-  // By the word for the culling, its part of `premise`; for a law to be met under several cullings.
+  // The part of `premise` under each culling, by the word for the culling. Empty for a law whose
+  // premise may hold under any culling.
   Counts by_culling;
-  // Only for a plug-in: steps whose answers differ in two forms of a case, as its claims allow.
+  // Only for a plug-in: steps whose answers differ between two forms of a case.
   std::uint64_t differs = 0;
   static constexpr bool adds_up = true;
   friend bool operator==(const LawCount&, const LawCount&) = default;
@@ -37,26 +39,27 @@ ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 
 // The extremes of one case or of many: the largest value of each member.
 struct Extremes {
-  std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next one
+  std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next new start
   std::uint64_t valence = 0;         // triangles at a vertex
   std::uint64_t bodies = 0;          // in a relation that names bodies
-  std::uint64_t components = 0;      // triangles connected through shared vertices
+  std::uint64_t components = 0;      // sets of triangles connected through shared vertices
   std::uint64_t pairs = 0;           // in contact in one step, by the oracle
   std::uint64_t triangles = 0;
-  void include(const Extremes& other);  // the larger value of each stays
+  void include(const Extremes& other);  // each member becomes the larger of the two values
   friend bool operator==(const Extremes&, const Extremes&) = default;
 };
 ASSAY_FIELDS(Extremes, steps_in_a_row, valence, bodies, components, pairs, triangles)
 inline void add_to(Extremes& sum, const Extremes& more) { sum.include(more); }
 
-// The counts of a trial besides its outcomes. Member by member they add up to the counts of many.
+// The counts of a trial besides its outcomes. Member by member, the counts of single trials add up
+// to the counts of many trials.
 struct TrialCounts {
   Counts tags;  // cases that have the tag
-  // The keys name the view sets of the two triangles in contact, and the law.
+  // By the names of the view sets of the two triangles in contact.
   std::map<std::string, SetPairCount, std::less<>> set_pairs;
-  std::map<std::string, LawCount, std::less<>> laws;
-  StepMeasures measures;  // most of them only for a plug-in
-  Extremes extremes{};    // of a mesh that was judged; over many, the largest
+  std::map<std::string, LawCount, std::less<>> laws;  // by the name of the law
+  StepMeasures measures;                              // most of them only for a plug-in
+  Extremes extremes{};  // of the judged mesh; over many trials, the largest value of each member
   static constexpr bool adds_up = true;
   friend bool operator==(const TrialCounts&, const TrialCounts&) = default;
 };
@@ -66,7 +69,7 @@ struct TrialRecord {
   std::string id;  // campaign:seed:family:index
   std::string family;
   std::uint64_t index = 0;
-  // One letter a configuration: H(olds) D(efect) U(ndecided) E(rror) R(efused: capacity), or
+  // One letter for each configuration: H(olds) D(efect) U(ndecided) E(rror) R(efused: capacity), or
   // not_run.
   std::string outcomes;
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
@@ -75,7 +78,7 @@ struct TrialRecord {
   std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
   // How often a worker was killed from outside while it ran this trial, which was then run again.
   std::uint64_t disturbed = 0;
-  // The most processor time that one configuration took, whether its limit ended it or not.
+  // The most processor time that one configuration took, even if the time limit ended its run.
   std::uint64_t slowest_us = 0;
   bool has(Outcome outcome) const;  // some configuration has this outcome
   bool is_judged() const;           // some configuration holds or has a defect
@@ -93,13 +96,15 @@ struct SourceRow {
   Source value;
   const char* name;
   Source counts_as;    // itself, or the source that it is a part of
-  bool is_drawn;       // its cases depend on the seed, so those of runs under other seeds add up
-  const char* prefix;  // begins the ids of its failures, and no id of a trial
-  // Texts: the first two say, on the terminal and in a summary, where a kind of failure was met
-  // that no trial shows; the last names the count behind the verdict.
+  bool is_drawn;       // its cases depend on the seed, so results under different seeds add up
+  const char* prefix;  // the ids of its failures begin with this text; no id of a trial does
+  // contact_text (on the terminal) and met_in_summary (in a summary) say where a kind of failure
+  // was found that no trial shows. `defects` is the label of the number of defects in the line of a
+  // verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
-  // The section of a certificate that lists the source's inputs, if any; and the members of
-  // JudgedSource shown there. "queries=cases" shows `cases` under the name `queries`.
+  // section: the section of a certificate that lists the source's inputs, if any. shown_text: the
+  // members of JudgedSource in that section; "queries=cases" shows `cases` under the name
+  // `queries`.
   const char *section = "", *shown_text = "";
 };
 constexpr auto names_of(Source) {
@@ -121,8 +126,8 @@ constexpr auto names_of(Source) {
         "queries=cases"}});
 }
 
-// A defect, with its mesh if that is kept. `mesh` and `smallest` are case files (assay-case/1) as
-// text.
+// A defect, with its mesh if the mesh is stored. `mesh` and `smallest` are case files
+// (assay-case/1) as text.
 struct FailureRecord {
   Source source = Source::trial;
   std::string case_id, configuration;
@@ -131,27 +136,27 @@ struct FailureRecord {
   // contact. Empty if only a law is broken.
   std::string claim{}, kind{}, contact{};
   std::string explanation{};
-  std::string mesh{};                  // empty: the failure was met, its mesh is not stored
+  std::string mesh{};                  // empty: the mesh of this failure is not stored
   std::string smallest{};              // empty: the mesh was not shrunk
   std::string smallest_explanation{};  // of the mesh `smallest`; empty: same as `explanation`
-  bool flaky = false;                  // the case, run alone in a new process, does not fail so
-  std::string printed{};               // what the plug-in printed; may differ between runs
+  bool flaky = false;     // the case does not fail in this way if it is run alone in a new process
+  std::string printed{};  // the output of the plug-in; may differ between runs
 
-  // Return the texts for people. The id begins with a prefix of the source, such as "corpus/" in
-  // "corpus/NAME"; no trial's id does, because the name of a campaign has no '/'. The other two
-  // texts name a broken law, "law L3_..." and "view-point, law L3_...", because one case may break
-  // both a law and a claim in the same configuration.
+  // Return the texts for people. The id begins with SourceRow::prefix, as in "corpus/NAME"; the id
+  // of a trial has no '/'. If a law is broken, signature and configuration name the law ("law
+  // L3_...", "view-point, law L3_..."), because one case can break both a law and a claim in the
+  // same configuration.
   std::string id() const, signature() const, shown_configuration() const;
-  std::string rule() const;  // law and claim, with which the signature begins
+  std::string rule() const;  // the broken law and claim: the beginning of the signature
   // Returns the explanation of the smallest mesh, if there is one. For a flaky failure, which is
   // not shrunk, the text says what flaky means.
   std::string shown_explanation() const;
-  // Returns "met 3 times"; for a kind that no trial has shown, where it was found.
+  // Returns "met 3 times", or, if no trial shows the failure, where the failure was found.
   std::string met_text(std::uint64_t trials) const;
   bool is_of_corpus() const { return row_of(source).counts_as == Source::corpus; }
 };
 
-// A text behind the explanation of a failure that its own case does not show.
+// The end of the explanation of a flaky failure.
 inline constexpr const char* needs_what_came_before =
     "; its case alone gives another result: the failure may need earlier work of the process, and "
     "a replay may hold";
@@ -160,9 +165,9 @@ inline constexpr const char* needs_what_came_before =
 // 0 and 1 meet at t = 0.5".
 std::string about_text(const std::string& signature, const std::string& explanation);
 
-// Turn records into rows and back; reading throws StoreProblem if no run stores such a row.
-// `met_row` says that a trial failed in this way. It is stored for every failure, while only a few
-// meshes are stored.
+// Turn records into rows and back. trial_of and failure_of throw StoreProblem if no run stores such
+// a row. met_row returns the row that counts a failure. A trial stores such a row for each of its
+// failures, but it stores the meshes of only a few.
 Row to_row(const TrialRecord& record);
 Row to_row(const FailureRecord& failure);
 Row met_row(const FailureRecord& failure);

@@ -16,7 +16,7 @@ namespace assay::properties {
   throw StoreProblem(fmt::format("{}: {}", row_name(row), wrong.what()));
 }
 
-// Returns the fields. Throws StoreProblem, which names the row, if they are no JSON object.
+// Returns the fields. If the fields are no JSON object, throws a StoreProblem that names the row.
 inline nlohmann::json fields_of(const Row& row) {
   auto json = corpus::parse_sorted_json(row.fields, "fields");
   if (!json) throw StoreProblem(fmt::format("{}: {}", row_name(row), json.error().message));
@@ -25,7 +25,7 @@ inline nlohmann::json fields_of(const Row& row) {
   return std::move(json.value());
 }
 
-// Sets the members of x that the fields name (fields.h); the rest of x stays.
+// Sets the members of x that the fields name (fields.h); other members of x do not change.
 template <Zeros zeros = Zeros::stay, class T>
 void read_fields_of(const Row& row, T& x) try {
   read_fields<nlohmann::json, zeros>(fields_of(row), x);

@@ -26,7 +26,7 @@ std::optional<std::string> other_schema(const std::string& binding) {
 }
 
 StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
-  return StoreProblem(fmt::format("{}: is of schema {}, this assay reads {}: run it again",
+  return StoreProblem(fmt::format("{}: is of schema {}, this program reads {}: repeat the run",
                                   file.string(), schema, store_schema));
 }
 
@@ -82,7 +82,7 @@ Expected<Store> Store::read(const std::filesystem::path& file) {
 Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
   return catch_store_problem([&] {
     Descriptor lock =
-        lock_file(file.string() + ".lock", file.string() + ": another run is writing it");
+        lock_file(file.string() + ".lock", file.string() + ": another process writes this file");
     Store store(std::move(lock), Database(file, Database::Mode::write));
     // With these settings a killed process loses nothing that add() returned from. Only a power
     // cut may lose the end.

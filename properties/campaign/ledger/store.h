@@ -1,5 +1,5 @@
-// Keeps the rows of one run in one SQLite file, which survives a kill at any moment; and names the
-// files of the run's folder.
+// Stores the rows of one run in one SQLite file, which survives a kill of the process at any
+// moment; and names the files of the run's folder.
 //
 // Every row carries a hash (campaign/ledger/database.h), which is checked whenever the row is read.
 #pragma once
@@ -21,42 +21,44 @@ inline constexpr const char* store_schema = "assay-store/9";
 // All failures that a store holds.
 struct FailureList {
   std::vector<FailureRecord> list;  // by signature, then id
-  Counts times_met;                 // by signature; failures without a kept mesh count, too
+  Counts times_met;                 // by signature; failures without a stored mesh count, too
 };
 
-// Functions that return Expected are for all rooms. The others throw StoreProblem and are for
-// campaign/ alone (campaign/ledger/database.h).
+// Functions that return Expected are for all rooms. All other functions throw StoreProblem and are
+// for campaign/ alone (campaign/ledger/database.h).
 class Store {
  public:
-  // Opens the file for writing, or makes it. `binding` says to which run the trials belong (plan,
-  // seed, share, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
-  // the file was made for another binding, if another process has it open for writing, if it is no
-  // store of this schema, if it is damaged or a row was changed, and if it cannot be written.
+  // Opens the file for writing; makes the file if it does not exist. `binding` says to which run
+  // the trials belong (plan, seed, share, detector). Costs O(rows), about 2 us for each row,
+  // because every row is checked. Fails if the file has another binding, if another process has the
+  // file open for writing, if it is no store of this schema, if it is damaged, if a row was
+  // changed, or if the file cannot be written.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
   // Opens an existing file, whatever run it was made for, without writing to it. All reads see one
-  // state of the file, even while another process adds to it. Fails if there is no such file,
-  // if it is no store of this schema or damaged, and, when its rows are read, if one was changed.
+  // state of the file, even while another process adds to it. Fails if there is no such file, if it
+  // is no store of this schema, or if it is damaged. A row that was changed is noticed only when it
+  // is read: the reading function then throws StoreProblem.
   static Expected<Store> read(const std::filesystem::path& file);
 
   Expected<FailureList> kept_failures() const;
   Expected<void> keep(const Row& row) {
     return catch_store_problem([&] { set(row); });
   }
-  // Makes the store a single file: moves all rows from the files beside it into it. Reading it then
-  // does not change its bytes.
+  // Makes the store a single file: moves the rows from SQLite's files beside the store into the
+  // store. Afterwards reading does not change the bytes of the store.
   Expected<void> seal();
 
   std::string binding() const;
 
-  // What the functions below have written survives a kill of the process once they return. They are
-  // not for several threads at once.
+  // When one of the functions below returns, the rows that it wrote survive a kill of the process.
+  // Only one thread at a time may call these functions.
 
   // Replaces the row of the same kind and key, unless the old row has more progress.
   void set(const Row& row);
   // Removes all rows of a kind.
   void drop(std::string_view kind);
-  // Adds a trial with its failures, all of it or nothing. Every failure counts as met; those with a
-  // mesh are kept.
+  // Adds a trial with its failures, either completely or not at all. Every failure is counted
+  // (times_met), and a failure with a mesh is also stored.
   void add(const TrialRecord& record, const std::vector<FailureRecord>& failures = {});
   void add(const FailureRecord& failure) { set(to_row(failure)); }
   // Removes the stored failures of the corpus whose signature is not in the set.
@@ -65,17 +67,17 @@ class Store {
   void set_smallest(const FailureRecord& failure);
   void set_note(const std::string& key, const std::string& value);
 
-  // Visits the rows of a kind in the order of their keys; trials of a family come in order of
-  // place.
+  // Visits the rows of a kind in the order of their keys; trials of a family come in the order of
+  // their index.
   void for_each(std::string_view kind, const std::function<void(const Row&)>& visit) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   bool has_trial(const std::string& id) const;
   std::uint64_t trial_count() const;
   std::vector<FailureRecord> failures() const;  // by signature, then id
-  // Returns how many failures of each signature were met, whether their mesh was kept or not.
+  // Returns the number of failures of each signature, with and without a stored mesh.
   Counts signatures() const;
   std::optional<std::string> note(const std::string& key) const;
-  std::vector<Row> evidence() const;  // all other rows, by kind and key
+  std::vector<Row> evidence() const;  // all rows of the kinds in evidence.h, by kind and key
 
  private:
   Store(Descriptor lock, Database db) : lock_(std::move(lock)), db_(std::move(db)) {}
@@ -83,11 +85,11 @@ class Store {
   Database db_;
 };
 
-// Copies a store into another file, whose bytes depend on the rows alone. The other file is either
-// complete afterwards or as it was. Fails as Store::read does, and if the copy cannot be written.
+// Copies a store into another file, whose bytes depend on the rows alone. Fails if Store::read
+// fails, or if the copy cannot be written; the other file then stays as it was.
 Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to);
 
-// The files of a run's folder, by their names.
+// The functions below return the paths of the files in the folder OUT of a run.
 
 // Returns OUT/run.sqlite.
 inline std::filesystem::path store_file(const std::filesystem::path& out) {
@@ -108,18 +110,19 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
 // folder cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_runs(const std::filesystem::path& folder);
 
-// Fails if the folder holds a store other than `outputs`, because its stores are judged together.
+// Fails if the folder holds a store that is not in `outputs`, because all stores of a folder are
+// judged together.
 Expected<void> expect_no_other_store(const std::filesystem::path& folder,
                                      const std::set<std::filesystem::path>& outputs);
 
-// The notes that hold the path of a plug-in's library, as given to the run, and the time at which
-// the run began. Both functions throw StoreProblem, and are for campaign/ alone; a time that is
-// stored already stays.
+// note_library stores the path of a plug-in's library, as given to the run. note_begin stores the
+// time at which the run began, if no such time is stored yet. Both throw StoreProblem, so they are
+// for campaign/ alone. The constants are the keys of the two notes.
 inline constexpr const char *library_note = "library", *begin_note = "begun";
 void note_library(Store& store, const std::filesystem::path& library);
 void note_begin(Store& store);
 
-// Returns the current time in UTC: 2026-01-31T12:00:00Z. No verdict rests on it.
+// Returns the current time in UTC: 2026-01-31T12:00:00Z. No verdict depends on the time.
 std::string time_in_utc();
 
 // Returns the file of a failure below OUT, the same in every run that finds the failure:

@@ -138,11 +138,11 @@ std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const Law
 std::string starved(const Law& law, const LawCount& count, std::uint64_t wanted_premises) {
   if (wanted_premises == 0) return "";
   if (count.premise < wanted_premises)
-    return fmt::format("the premise of {} held {} times, {} are wanted", law.name, count.premise,
-                       wanted_premises);
+    return fmt::format("the premise of {} held in {} steps, but {} are wanted", law.name,
+                       count.premise, wanted_premises);
   if (4 * count.close >= count.premise) return "";
-  return fmt::format("{} was close in {} of {} cases, a quarter is wanted", law.name, count.close,
-                     count.premise);
+  return fmt::format("the premise of {} was close in {} of {} steps, but a quarter is wanted",
+                     law.name, count.close, count.premise);
 }
 
 std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t wanted_premises) {
@@ -154,7 +154,7 @@ std::vector<std::string> starved_laws(const TrialCounts& counts, std::uint64_t w
     if (!line.empty()) lines.push_back(std::move(line));
     for (const auto& [culling, premise] : premises_by_culling(count, *law)) {
       if (least_of_a_culling * premise >= wanted_premises) continue;
-      lines.push_back(fmt::format("the premise of {} held {} times under {}, {} are wanted",
+      lines.push_back(fmt::format("the premise of {} held in {} steps under {}, but {} are wanted",
                                   law->name, premise, culling,
                                   (wanted_premises + least_of_a_culling - 1) / least_of_a_culling));
     }

@@ -98,8 +98,8 @@ struct Hunt {
       const auto seeds = static_cast<std::uint64_t>(hunt_.seeds);
       const auto cases = static_cast<std::uint64_t>(seed - 1) * hunt_.cases + end;
       if (progress_)
-        progress_(fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden", seed,
-                              seeds, end, hidden, count),
+        progress_(fmt::format("seed {} of {}: {} cases, {} of {} planted faults not found yet",
+                              seed, seeds, end, hidden, count),
                   cases, seeds * hunt_.cases - cases);
       // Equivalent and open faults are not expected to be found, but they must have been tried on
       // a fair share of the cases too.
@@ -190,15 +190,15 @@ bool is_of_build(const RunFindings& proof, const BoundRun& build) {
 std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
   if (!proof.evidence.power.empty()) return "took its own proof from another run";
   if (proof.faults() != build.planted_faults || proof.finds() != build.planted_faults)
-    return fmt::format("shows {} of {} planted faults found", proof.finds(), build.planted_faults);
+    return fmt::format("found {} of {} planted faults", proof.finds(), build.planted_faults);
   for (const auto& fault : proof.evidence.faults) {
     if (fault.status == FaultStatus::equivalent && fault.is_found())
       return fmt::format("found {}, which is registered as equivalent", fault.fault);
-    if (fault.time_over) return fmt::format("was over before {} had all of its cases", fault.fault);
+    if (fault.time_over) return fmt::format("ended before all cases for {} were run", fault.fault);
     if (!fault.is_whole(plan))
       return fmt::format(
-          "gave each fault {} cases of {} seeds, campaign {} asks for {} of {}: make a proof by "
-          "`assay run --campaign {} --out DIR`",
+          "tried each fault on {} cases under {} seeds, but campaign {} wants {} cases under {} "
+          "seeds: make a proof by `assay run --campaign {} --out DIR`",
           fault.cases, fault.needed.size(), plan.name, plan.fault_cases, plan.fault_seeds,
           plan.name);
   }
@@ -211,7 +211,7 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
                                 const std::filesystem::path& out, const CampaignRequest& request) {
   if (request.plan.fault_cases == 0) {
     return Problem{
-        fmt::format("campaign {} plants no faults: no proof of them is needed", request.plan.name)};
+        fmt::format("campaign {} plants no faults, so it needs no proof", request.plan.name)};
   }
   if (is_below(folder, out)) {
     return Problem{fmt::format("{}: a proof must lie outside of the folder that the run writes",

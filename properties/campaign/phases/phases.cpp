@@ -225,19 +225,19 @@ std::string difference_of_trials(const TrialRecord& first, const TrialRecord& no
       return c < record.outcomes.size() ? std::string(1, record.outcomes[c]) : "nothing";
     };
     if (letter(first) != letter(now))
-      return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
-                         letter(first));
+      return fmt::format("{} has outcome {} now, but {} is stored", detector.configurations[c].name,
+                         letter(now), letter(first));
   }
   for (const auto& [name, member] : {std::pair("triangles", &TrialRecord::triangles),
                                      {"steps", &TrialRecord::steps},
                                      {"collisions", &TrialRecord::collisions},
                                      {"pairs", &TrialRecord::pairs}}) {
     if (first.*member != now.*member)
-      return fmt::format("{} {} now, {} stored", now.*member, name, first.*member);
+      return fmt::format("{} {} now, but {} stored", now.*member, name, first.*member);
   }
-  if (first.mesh != now.mesh) return "its mesh differs from the stored one";
+  if (first.mesh != now.mesh) return "its mesh differs from the stored mesh";
   if (first.outcomes != now.outcomes) return "it has more outcomes than configurations";
-  if (first.counts != now.counts) return "its counts differ from the stored ones";
+  if (first.counts != now.counts) return "its counts differ from the stored counts";
   return "";
 }
 

@@ -1,5 +1,5 @@
-// Runs the phases of a campaign: planted faults, large meshes, the search, the shrinking of
-// failures, and all of them in order.
+// Runs a campaign, or one of its phases: planted faults, large meshes, the search, the shrinking of
+// failures. Also runs stored trials again.
 #pragma once
 
 #include <cstdint>
@@ -24,45 +24,45 @@
 
 namespace assay::properties {
 
-// Plants every registered fault in the detector and counts the cases that the harness needs to
-// find it.
+// A hunt plants every registered fault in the detector, and counts for each fault the cases until
+// the harness finds it.
 
 struct FaultHunt {
   std::string campaign;  // for ids: campaign:seed.fSEED:family:index
   std::uint64_t seed = 1;
   int seeds = 1;
-  std::uint64_t cases = 0;  // at most, for each seed, from all families in turn
+  std::uint64_t cases = 0;  // the most cases for each seed; they come from all families in turn
   int jobs = 1;
-  std::filesystem::path curated;  // folder of the curated cases; empty: not tried
+  std::filesystem::path curated;  // folder of the curated cases; empty: they are not tried
 };
 
-// Is told the progress of a phase, in words.
+// Is called with the progress of a phase, in words.
 using OnText = std::function<void(const std::string&)>;
-// Is told the progress of a hunt, in words, and how many cases are done and left.
+// Is called with the progress of a hunt: in words, the number of cases done, and the number of
+// cases still to do.
 using OnHunt = std::function<void(const std::string&, std::uint64_t count, std::uint64_t rest)>;
 
-// Hunts for all registered faults. One judgement of a case by the oracle serves all faults. A fault
-// that is found under a seed leaves the round of that seed; equivalent and open faults stay to the
-// end of each round. The result does not depend on the number of jobs, unless the deadline ends it.
-// About 0.2 ms for each case and each fault still in the round.
+// Hunts for all registered faults, in one round for each seed. The oracle judges a case once for
+// all faults. A fault that is found leaves the round; equivalent and open faults stay to the end of
+// the round. If the deadline does not end the hunt, the result is the same for any number of jobs.
+// About 0.2 ms for each case and each fault in the round.
 std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
                                     const OnHunt& progress);
 
-// Returns the failure that the fault shows in a case, judged by the claims of its options; nothing
-// if the case holds. If `results` has no judgement of the oracle yet, the oracle is asked, and its
-// judgement serves the next fault too.
+// Returns the failure of a case in a detector with the planted fault, judged by the claims of the
+// fault's options; nothing if the case holds. If `results` has no judgement of the oracle yet, adds
+// the judgement, which also serves the next fault.
 std::optional<Failure> failure_of_fault(const Fault& fault, CaseResults& results);
 
 // The canary is a detector that is known to be wrong. It goes through the same checks as the
-// detector under test. If a run does not find it, the run is blind.
+// detector under test. If these checks do not find the canary, they find nothing.
 
-// Runs random cases of all families in turn, 400 at most, until the planted fault shows. Throws
-// StoreProblem if there is no worker.
+// Runs the canary on random cases of all families in turn, until its planted fault shows, but on at
+// most 400 cases. Throws StoreProblem if there is no worker.
 Canary meet_canary(const CampaignRequest& request);
 
-// Takes over, from another run of the same build, the proof that planted faults are found. Planted
-// faults test the harness of a build, not the detector that it judges, so the run of a plug-in need
-// not plant them again.
+// A run can take over, from another run of the same build, the proof that planted faults are found.
+// Planted faults test the harness of a build, so the run of a plug-in need not plant them again.
 
 // Returns the proof in `folder` for the request. Fails
 //   if the request's plan plants no faults, or if read_findings fails;
@@ -75,79 +75,80 @@ Canary meet_canary(const CampaignRequest& request);
 Expected<PowerProof> take_power(const std::filesystem::path& folder,
                                 const std::filesystem::path& out, const CampaignRequest& request);
 
-// Puts large meshes to a plug-in. The oracle judges some of their steps, and a plug-in that claims
-// to be deterministic runs them again and again. This tries its claims beyond the small meshes of
-// the trials, which fit into any buffer and have little work for threads to share.
+// A campaign also gives large meshes to a plug-in, because the small meshes of the trials fit into
+// any buffer and give little work to threads. The oracle judges some steps of these meshes. A
+// plug-in that claims to be deterministic runs each mesh several times.
 
-// The numbers of threads, in turn, for a plug-in that asks how many it may use. The last number is
-// given to two runs.
+// The greatest number of threads in each run of a mesh, for a plug-in that claims to be
+// deterministic and has a function that limits its threads (PluginParts::takes_threads).
 inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 
-// Returns how many threads the plug-in may use, run by run.
+// Returns for each run of a mesh the greatest number of the plug-in's threads.
 std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request);
 
-// Returns whether the plan puts large meshes to this detector. The detector must be a plug-in of
-// steps, or of a broad phase.
+// Returns whether the plan gives large meshes to the detector: only to a plug-in that answers steps
+// or lists candidates.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
-// Returns one of the forms in which a scene is put to a plug-in. Form 0 has the wanted number of
-// triangles. The other forms are between that size and the size of the largest trial. About half of
-// them are several smaller copies side by side, which makes many components. The seed draws these
-// sizes, the number of frames, the order of vertices, triangles and corners, and one linear map
-// near the identity, through which all frames go. So nobody knows these meshes before the seed is
-// known. The map keeps contacts and their times, unless rounding decides them.
+// Returns one of the forms in which a scene is given to a plug-in. Form 0 has the wanted number of
+// triangles. The size of any other form is between the wanted number and the size of the largest
+// trial. About half of the other forms consist of several copies side by side, and so of many
+// components. The seed draws the sizes, the number of frames, the order of vertices, triangles and
+// corners, and one linear map near the identity, which transforms all frames. So nobody knows these
+// meshes before the seed is known. The map does not change contacts and their times, except by
+// rounding.
 inline constexpr int forms_of_a_scene = 3;
 Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
                     int form);
 
-// Returns a small mesh in many steps, so that one handle commits more often than in any other case.
-// A scene of some tens of triangles, in which the mesh meets itself, is played forwards and
-// backwards until all steps are done, so the mesh meets itself up to the last steps. All frames go
-// through a linear map near the identity that drifts slowly, so no two steps are equal. The seed
-// draws the scene, the size, the number of steps and the rest, as for repeated_scene.
+// Returns a small mesh in many steps, so that one detector commits more steps than in any other
+// case. A scene of 60 to 100 triangles, in which the mesh meets itself, is played forwards and
+// backwards again and again, so the mesh meets itself up to the last steps. A linear map near the
+// identity, which changes slowly from frame to frame, transforms all frames, so no two steps are
+// equal. The seed draws the scene, the size, the number of steps, the numbering and the map.
 inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
 inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 Case long_sequence(std::uint64_t seed);
 
-// Puts every scene of the corpus, as the seed draws it, the long sequence, and the request's other
-// sequences to the plug-in. A plug-in that claims to be deterministic runs each of them with each
-// of repeated_threads if it asks how many it may use, else three times; any other plug-in runs each
-// once. Each run has a process of its own, except the last, which is a second run in the process of
-// the run before it. Stores a JudgedSource for each mesh that is not stored yet. If an answer
-// differs from that of the first run, or a run ends in a way that breaks a claimed `total`, that is
-// a failure, whose mesh is the step that differs. A run that hangs is reported and breaks nothing;
-// after three such meshes no further mesh is run.
+// Gives these meshes to the plug-in: every scene of the corpus in each of its forms, the long
+// sequence, and CampaignRequest::repeated. The runs of a mesh are those of threads_of_runs: several
+// for a plug-in that claims to be deterministic, otherwise one. Each run has a process of its own;
+// only the last of several runs repeats the mesh in the process of the run before it. Stores a
+// JudgedSource for each mesh that is not stored yet. A run that gives other answers than the first
+// run, or that ends in a way that breaks a claimed `total`, is stored as a failure. The mesh of
+// such a failure is the step that differs. A run that hangs is reported, but is no failure; after
+// three such meshes no further mesh is run.
 //
-// The oracle judges two steps of each scene, as the first run answered them: the step with the
-// fewest contacts, and the first step without any. Contacts that the contract leaves out do not
-// count. A scene may lack such a step. It also judges up to two steps whose answers break a claim
-// if the built-in detector is right. That detector only chooses the steps; it decides nothing. A
-// step that breaks a claim is a failure, whose mesh is the step alone, or, if the step fails only
-// after the steps before it, the scene up to this step. In the long sequence the oracle judges
-// every step, and the first four failing steps of each signature are kept.
+// The oracle judges the answers of the first run to some steps of each scene: the step with the
+// fewest contacts, the first step without a contact, and up to two steps whose answers break a
+// claim if the built-in detector is right. Contacts that the contract leaves out do not count here.
+// The built-in detector only chooses steps; all verdicts are by the oracle. A step that breaks a
+// claim is stored as a failure. Its mesh is the step alone, or, if the answer to the step alone
+// differs, the scene up to this step. In the long sequence the oracle judges every step, and the
+// first four failing steps of each signature are stored.
 //
 // A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //
-// Throws StoreProblem; so it is for campaign/ alone.
+// Throws StoreProblem, so this function is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
                          const OnText& progress);
 
-// Walks a mesh under a limiter (walks.cpp): each step starts where the limiter let the last step
-// stop, as in a simulator. So the mesh comes nearer and nearer to itself, which cases that are
-// fixed beforehand do not show.
+// In a walk, as in a simulator, each step starts where a limiter let the step before it stop
+// (walks.cpp). So the mesh comes nearer and nearer to itself. Cases that are fixed beforehand do
+// not test this.
 
-// The movement to which the bodies of a walk are driven. All bodies are tetrahedra, above a floor
-// of two triangles at rest or between two such plates.
+// The motion of the bodies in a walk, as far as the limiter allows it. All bodies are tetrahedra.
+// They lie above a floor, which is a plate of two triangles at rest, or between two plates.
 enum class WalkKind : std::uint8_t {
   resting,      // one body falls onto the floor, is pushed about there, and lifted now and then
   sliding,      // one body is pushed down and along
   pile,         // three bodies lie on one another
   closing_gap,  // two bodies are driven through each other, to the same goal again and again
-  far_goal,     // one body falls by a thousand times its size in each step
+  far_goal,     // in each step the goal of one body is 1000 times its size below it
   squeezed,     // two plates close on one body
-  far_away,     // a pile, 2^20 of its sizes from the origin
+  far_away,     // a pile that lies 2^20 times the size of a body from the origin
 };
-// Names the walks; the names are their ids.
+// The name of a walk is the id of its case.
 constexpr auto names_of(WalkKind) {
   using enum WalkKind;
   return std::to_array<Named<WalkKind>>({{resting, "walk-resting"},
@@ -162,36 +163,35 @@ constexpr auto names_of(WalkKind) {
 // The number of steps of a walk in a campaign.
 inline constexpr int steps_of_a_walk = 1000;
 
-// Returns where the limiter lets the mesh stop in a step; nothing if it does not say.
+// Returns the positions at which the limiter lets the mesh stop in a step; nothing if the limiter
+// gives no answer.
 using AskedLimit = std::function<std::optional<Positions>(const Case& one_step)>;
 
-// Returns the walk as a case, with a step from each place to its goal, so that it can be played
-// again without the limiter. Goals are rounded as the contract says, and a step that the contract
-// does not take is left out of the walk. If the limiter does not say where to stop, or stops at a
-// place that numbers cannot express, that step is the last. The seed draws shapes, pushes and
-// lifts. At the start the bodies are farther apart than the separation of the contract.
+// Returns the walk as a case, which can be played again without the limiter. Each step goes from
+// the positions at which the step before it stopped to a goal. Goals are rounded as the contract
+// says, and a step that the contract does not take is left out of the walk. If the limiter gives no
+// answer to a step, or positions that are not finite, this step is the last. The seed draws shapes,
+// pushes and lifts. At the start the bodies are farther apart than the separation of the contract.
 Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract,
           const AskedLimit& ask);
 
-// Runs a campaign from its canary to its worlds. Each phase stores its findings and tells an
-// observer. They are read back (findings.h) and judged (gates.h).
+// A campaign searches for failures (search/search.h) after its trials. The search consists of lanes
+// that share nothing. Each lane runs in one thread with a worker process of its own (search.cpp).
 
-// The search of a campaign (search/search.h): after the trials, in lanes that share nothing, each
-// in a thread with a worker process of its own (search.cpp).
-
-// Searches in the lanes of this run that are not stored yet, and stores the result of each: its
-// defects with their meshes, then the lane itself. So a killed run, started again, repeats the
-// lanes that were cut, with the same results. These depend on plan, seed and share alone, not on
-// the number of jobs; a lane that the deadline ends is not stored. `corpus` is the folder of the
-// curated cases. `progress` is called from one thread at a time. Throws StoreProblem; so it is for
-// campaign/ alone.
+// Searches in the lanes of this run that are not stored yet, and stores the result of each lane:
+// its defects with their meshes, then the lane itself. So a run that was killed and is started
+// again repeats the lanes that it had not completed, with the same results. The results depend on
+// plan, seed and share, and are the same for any number of jobs. Of a lane that the deadline ends,
+// only the defects are stored. `corpus` is the folder of the curated cases. `progress` is called
+// from one thread at a time. Throws StoreProblem, so this function is for campaign/ alone.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline, const OnText& progress);
 
-// Shrinks the cases on which a detector fails.
+// The functions below shrink the cases on which a detector fails.
 
-// Returns a judge that runs a case in the worker and asks the oracle; the judge returns nothing if
-// the case holds. The arguments must outlive it. `jobs`: threads of the oracle for large meshes.
+// Returns a judge for the reducer. The judge runs a case in the worker, asks the oracle about it,
+// and returns nothing if the case holds. The arguments must outlive the judge. `jobs` is the number
+// of the oracle's threads for large meshes.
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs = 1);
 
@@ -200,24 +200,25 @@ Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
 
-// Shrinks the first stored failure of each signature (failures of one signature break the same
-// claim in the same way). Failures that were shrunk before, or that the store calls flaky, are left
-// alone. A failure that its own case does not show in a new process becomes flaky; then the next
-// two of the signature are tried. A failure whose shrinking was interrupted goes on from its
-// smallest mesh so far. Each better mesh is stored as soon as it is found. `limits` hold for each
-// failure, the deadline for all. Throws StoreProblem, which only campaign/ catches.
+// Shrinks one stored failure of each signature (failures of one signature break the same claim in
+// the same way). Skips a signature if one of its failures was shrunk to the end before. Skips flaky
+// failures. If the case of a failure does not fail in a new process, the failure becomes flaky, and
+// up to two further failures of the signature are tried. If the shrinking of a failure was
+// interrupted, it continues from the smallest mesh so far. Each smaller mesh is stored as soon as
+// it is found. `limits` hold for each failure, the deadline for all failures together. Throws
+// StoreProblem, so this function is for campaign/ alone.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const OnText& progress);
 
 // Returns the finding that the reducer preserves while it shrinks a failure.
 Finding finding_of(const Failure& failure);
 
-// Is told about the phases of a campaign, in their order. Each function may be called from a thread
-// other than the caller's, but by one thread at a time.
+// Is informed about the phases of a campaign, in their order. The functions can be called from any
+// thread, but only from one thread at a time.
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
-  // Is called first, with the number of trials that are in the store already.
+  // Is called first, with the number of trials that the store already has.
   virtual void on_begin(std::uint64_t /*trials*/) {}
   // Is called when a phase begins: "trials", "repetitions", "search", "shrinking", "faults" or
   // "tetrahedron". The first call comes after the canary.
@@ -225,66 +226,70 @@ class CampaignObserver {
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
-  // Is told the progress of the phase in words; if it can be counted, also how much is done and
-  // left.
+  // Is called with the progress of the phase in words. If progress can be counted, also with the
+  // numbers of items done and still to do; otherwise both numbers are 0.
   virtual void on_progress(const std::string&, std::uint64_t /*done*/, std::uint64_t /*left*/) {}
-  // Is called when all trials and their failures are stored; faults and worlds are still to come.
+  // Is called after the phase "shrinking", before "faults" and "tetrahedron".
   virtual void on_failures_shrunk(const FailureList&) {}
 };
 
-// Does all work whose results are not in the store yet: the trials, the shrinking of failures, and
-// the planted faults (or it takes the request's proof of them). Trials have nine tenths of the
-// plan's time; if some are missing then, failures are shrunk in the last tenth and nothing else is
-// begun. The canary and the worlds of tetrahedra are always done again; of two results for a world,
-// the result that came farther stays. A share does the same worlds and large meshes as a whole
-// campaign, because they take little time. `corpus` is the folder of the curated cases.
+// Runs all phases of a campaign, from the canary to the worlds of tetrahedra. Skips work whose
+// results the store already has. Each phase stores its results and informs the observer; findings.h
+// reads the results back, and gates.h judges them. If the request has a proof that planted faults
+// are found, stores this proof and plants no faults. `corpus` is the folder of the curated cases.
 //
-// Stored rows stay, whatever happens. Fails if the store cannot be read or written any more.
+// Trials have nine tenths of the plan's time. If trials are missing when this time is over,
+// failures are shrunk in the last tenth, and no other phase begins. The canary and the worlds are
+// always done again. Of two results for the same world, the store keeps the result that covers
+// more. The worlds and the large meshes are not divided into shares, because they take little time.
+//
+// Fails if the store cannot be read or written any more. Rows that were stored before stay.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer);
 
-// Returns the seconds of the clock that the shrinking of failures may take: the plan's shrink_share
-// of its own limit, or two minutes if it has no limit.
+// Returns the most seconds of wall clock for the shrinking of failures: shrink_share * seconds of
+// the plan, or two minutes if the plan has no time limit.
 double shrinking_seconds(const CampaignPlan& plan);
 
-// Keeps the failures of curated cases and scenes, each with a small mesh, as for failing trials.
+// The functions below store the failures of curated cases and scenes, as for failing trials.
 
-// Takes the failures whose signature is not in the store yet, and stores the smallest mesh of each
-// such signature. Then it shrinks these meshes. Each takes at most a minute, and all together at
-// most the share of the plan's time that is reserved for shrinking. REQUIRES failures in the order
-// of the corpus. The rows of an earlier call stay. `progress` is called with the signature that is
-// being shrunk.
-// Returns the stored failures of the corpus.
+// Stores failures of the corpus, shrinks them, and returns all stored failures of the corpus. For
+// each signature that is not in the store yet, stores the failure with the smallest mesh. Shrinking
+// takes at most a minute for one failure, and at most shrinking_seconds() for all failures
+// together. REQUIRES failures in the order of the corpus. The rows of an earlier call stay.
+// `progress` is called with the signature of the failure that is being shrunk.
 Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
                                              const std::vector<FailureRecord>& failures,
                                              Store& store, const OnText& progress);
 
-// Stores the rows of the corpus, and removes the failures of an earlier call that the corpus does
-// not show any more. In a run (`now`) the smallest mesh of each signature is stored at once, and
-// shrunk with the failures of the trials; in a certificate (`later`) shrink_corpus_failures does
-// both.
+// Stores the rows of the corpus, and removes stored failures of the corpus whose signature is not
+// in `failures`. With KeepMeshes::now, for a run, also stores for each signature the failure with
+// the smallest mesh, so that it is shrunk together with the failures of the trials. With
+// KeepMeshes::later, for a certificate, stores no failures: shrink_corpus_failures does this.
 enum class KeepMeshes : std::uint8_t { now, later };
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
                            const std::vector<FailureRecord>& failures, KeepMeshes when);
 
-// Makes and judges stored trials once more, and compares the results with the stored ones.
+// Stored trials can be made and judged once more, to compare their results with the stored results.
 
 struct TrialsAgain {
   std::uint64_t trials = 0;  // trials that were run once more
   std::uint64_t all = 0;     // trials that are stored
-  // The first trial, by family and index, whose result differs: "trial ID: bvh is D now, H is
-  // stored".
+  // The first trial, by family and index, whose result differs: "trial ID: bvh has outcome D now,
+  // but H is stored".
   std::optional<std::string> difference;
 };
 
-// Draws, by `seed`, a share (above 0, at most 1) of the trials that the stores of a folder hold,
-// but at least one. Runs them again as the request says, and compares with the store: the outcomes
-// in every configuration, and triangles, steps, collisions, pairs, counts and mesh. It does not
-// compare times. A trial that ended at its time limit may have another result on a slower machine.
+// Draws, by `seed`, a share (above 0, at most 1) of the trials in the stores of a folder, but at
+// least one trial. Runs the drawn trials again as the request says, and compares the outcomes in
+// every configuration, triangles, steps, collisions, pairs, counts and mesh with the stored values.
+// Times are not compared. A trial that ended at its time limit can have another result on a slower
+// machine.
 //
 // REQUIRES a request with the plan and the detector of the stores; each store states its own seed
-// and share. Fails if a store cannot be read, if the detector cannot be run, and if no trial is
-// stored. Costs O(trials stored) to draw them, then the time that they took in the first run.
+// and share. Fails if a store cannot be read, if the detector cannot be run, or if no trial is
+// stored. Costs O(stored trials) to draw, then the time that the drawn trials took in the first
+// run.
 Expected<TrialsAgain> run_again(CampaignRequest request, const std::filesystem::path& folder,
                                 double share, std::uint64_t seed, const OnTrial& progress);
 

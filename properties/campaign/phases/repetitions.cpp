@@ -225,7 +225,7 @@ struct Repetitions {
                      .triangles = static_cast<std::uint64_t>(c.triangles.rows())};
     const auto contracted_case = contract_case(c, contract());
     if (!contracted_case) {
-      row.what = "beyond the contract";
+      row.what = "the contract does not take this mesh";
     } else if (hung_ >= most_hung_repetitions) {
       row.what = fmt::format("not run: the detector hung on {} large meshes before", hung_);
     } else {
@@ -275,7 +275,7 @@ struct Repetitions {
         return;
       }
       if (is_refused(run)) {
-        row.what = "it is beyond the capacity of the detector";
+        row.what = "the mesh is beyond the capacity of the detector";
         return;
       }
       ++row.runs;
@@ -362,8 +362,8 @@ struct Repetitions {
     row.broken = verdict.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
     row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
-                  : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
-                                row.threads.size(), row.threads.back(), answer_of(run, *s),
+                  : fmt::format("step {}, run {} with {} threads: {}; run 1 with {} threads: {}",
+                                *s + 1, row.threads.size(), row.threads.back(), answer_of(run, *s),
                                 row.threads.front(), answer_of(first, *s));
     if (row.broken) keep_end(s ? with_steps(c, {*s}, contract()) : c, run, verdict, row.what);
   }

@@ -223,8 +223,8 @@ std::vector<LawTally> check_in_copies(std::size_t count,
     const std::string case_id = case_of(tallies.size());
     if (was_killed_from_outside(run.end)) {
       if (++kills == most_kills)
-        throw std::runtime_error(
-            fmt::format("{}: the check of laws was {}, {} times", case_id, run.end.text, kills));
+        throw std::runtime_error(fmt::format("{}: the copy that checks laws was {}, {} times",
+                                             case_id, run.end.text, kills));
       continue;
     }
     tallies.push_back({1, 0, 1, fmt::format("{}: the check ended: {}", case_id, run.end.text)});

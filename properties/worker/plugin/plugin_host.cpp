@@ -208,7 +208,7 @@ CaseRun PluginHost::run(const Case& c, bool is_timed) const {
                    asks_twice_};
   if (c.counted && !c.counted->pairs.count_all()) {
     // A contracted case has no relation for such a plug-in.
-    if (!table_.count) return {RunEnd::refused, "not all pairs count, and it has no `count`", {}};
+    if (!table_.count) return {RunEnd::refused, "the relation needs a function `count`", {}};
     auto refusal = tell_what_counts(table_, handle, c.counted->pairs);
     if (!refusal.empty()) return {RunEnd::refused, std::move(refusal), {}};
   }

@@ -32,7 +32,7 @@ std::string gap_in(const assay_detector_api& table) {
   const bool all = table.evaluate && table.commit && table.result;
   if (any != all) return "a function is missing in its table: evaluate, commit or result";
   if (!all && !table.query && !table.candidates && !table.limit)
-    return "its table holds nothing to judge";
+    return "its table has no function to judge";
   const bool needs_handle = all || table.candidates || table.limit;
   if (needs_handle && !(table.create && table.destroy))
     return "a function is missing in its table: create or destroy";
@@ -92,7 +92,7 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api) {
   if (!api) return Problem{"not a detector plug-in: assay_detector() returns nothing"};
   const std::uint32_t version = api->abi_version;
   if (version < first_version || version > ASSAY_DETECTOR_ABI_VERSION) {
-    return Problem{"built for ABI version " + std::to_string(version) + ", this program takes " +
+    return Problem{"built for ABI version " + std::to_string(version) + ", this program accepts " +
                    std::to_string(first_version) + " to " +
                    std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
@@ -134,15 +134,15 @@ Expected<PluginDescription> described(const assay_description& raw, const Plugin
   description.claims = Claims::of_bits(raw.claims);
   description.parts = parts;
   if (description.claims.has(Claim::candidates) && !description.parts.candidates)
-    return breach("it claims candidates, and has no such function");
+    return breach("it claims candidates, but has no function for candidates");
   if (description.parts.candidates && !description.claims.has(Claim::candidates))
-    return breach("it has a function for candidates, and does not claim candidates");
+    return breach("it has a function for candidates, but does not claim candidates");
   if (const auto fault =
           fault_of_limits(description.claims, description.contract, description.parts.limit);
       !fault.empty())
     return breach("it has " + fault);
   if (description.parts.query && description.claims.empty())
-    return breach("it has a query function, and claims nothing");
+    return breach("it has a function for queries, but claims nothing");
   return description;
 }
 
@@ -224,7 +224,7 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count, St
       }
       return read_pairs(raw, triangle_count, result.pairs);
     default:
-      return "answer " + std::to_string(raw.answer) + " is none";
+      return "answer " + std::to_string(raw.answer) + " is no answer of the interface";
   }
 }
 
@@ -252,7 +252,7 @@ Expected<LimitAnswer> limit_answer(const assay_limit& raw, const Claims& claims,
   if (has_share && !(raw.share >= 0 && raw.share <= 1))
     return Problem{"its share " + number_text(raw.share) + " is not from 0 to 1"};
   if (!has_share && claims.has_any({Claim::path_free, Claim::progress}))
-    return Problem{"it states no share, and claims path-free or progress"};
+    return Problem{"it states no share, but claims path-free or progress"};
   LimitAnswer limit{raw.share, x_t1};
   if (raw.positions) {
     limit.positions = Eigen::Map<const Positions>(raw.positions, x_t0.rows(), 3);

@@ -77,7 +77,7 @@ Problem not_here(std::string_view word, const std::string& reason) {
   return {std::string(word) + ": " + reason};
 }
 
-constexpr const char* no_word = "not a detector in Python: python:MODULE:CLASS is wanted";
+constexpr const char* no_word = "not a detector in Python: write python:MODULE:CLASS";
 
 }  // namespace
 
@@ -129,7 +129,7 @@ Expected<std::vector<fs::path>> python_module_files(std::string_view word) {
     }
     return files;
   }
-  return not_here(word, "no module " + python->module + " in this folder or those of PYTHONPATH");
+  return not_here(word, "no module " + python->module + " here or in a folder of PYTHONPATH");
 }
 
 }  // namespace assay::properties

@@ -87,7 +87,7 @@ TEST(Starved, LawsAreNamed) {
   ASSERT_EQ(starved_laws(counts, 100).size(), 1u);
   EXPECT_NE(starved_laws(counts, 100)[0].find(name), std::string::npos);
   counts.laws[name].premise = 0;
-  EXPECT_NE(starved_laws(counts, 1).at(0).find("held 0 times"), std::string::npos);
+  EXPECT_NE(starved_laws(counts, 1).at(0).find("held in 0 steps"), std::string::npos);
   EXPECT_TRUE(starved_laws(counts, 0).empty());
   const auto under = [&](const char* law, const char* culling) -> std::uint64_t& {
     return counts.laws[law].by_culling[culling];
@@ -100,8 +100,8 @@ TEST(Starved, LawsAreNamed) {
   const auto lines = starved_laws(counts, 100);
   ASSERT_EQ(lines.size(), before + 2);
   EXPECT_NE(std::find(lines.begin(), lines.end(),
-                      "the premise of L8_CarriedCleanIsClean held 4 times under view-line, 10 are "
-                      "wanted"),
+                      "the premise of L8_CarriedCleanIsClean held in 4 steps under view-line, but "
+                      "10 are wanted"),
             lines.end());
   EXPECT_EQ(broken_laws(counts), 0u);
   counts.laws[name].broken = 3;
@@ -157,7 +157,7 @@ TEST_F(PowerProofs, WhatIsNoneIsRefused) {
   other.worker = "/bin/true";
   expect_refused(proof_without(0, binding_of(other)), "of another build of assay");
   request.plan.fault_cases = 0;
-  expect_refused(scratch / "nowhere", "no proof of them is needed");
+  expect_refused(scratch / "nowhere", "so it needs no proof");
 }
 
 }  // namespace

@@ -320,7 +320,7 @@ TEST(Gates, APlugInIsGivenEverySceneAndALimiterEveryWalk) {
   const auto wanted = corpus::scenes().size() + 1 + all;
   expect_incomplete(
       {plug_in, repeats, scenes, limits, walks(all - 1)},
-      std::to_string(wanted - 1) + " of " + std::to_string(wanted) + " scenes were repeated");
+      std::to_string(wanted - 1) + " of " + std::to_string(wanted) + " sequences were run");
 }
 
 TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
@@ -520,10 +520,10 @@ TEST(FailureGroups, WhatTheyDoComesFromTheKindNotFromTheStageOrALawBeforeIt) {
   for (const auto& group : groups) kinds[group.does] = group.kinds.size();
   const std::map<std::string, std::size_t> wanted = {{"lose a contact", 4},
                                                      {"break a law", 1},
-                                                     {"report what is not there, or too early", 2},
-                                                     {"stop before they have to", 1},
+                                                     {"report a false or too early contact", 2},
+                                                     {"stop the caller too early", 1},
                                                      {"end without an answer", 1},
-                                                     {"answer otherwise when asked again", 2}};
+                                                     {"give another answer in a second run", 2}};
   EXPECT_EQ(kinds, wanted);
   EXPECT_EQ(text_of(groups[0], 11), "4 of 11 kinds of failure lose a contact");
   EXPECT_TRUE(groups[0].shared.empty());

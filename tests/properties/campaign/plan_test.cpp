@@ -140,7 +140,7 @@ TEST_F(Plans, TheNameOfABuiltInOneBelongsToItsPlanAlone) {
     auto other = json;
     other["fault_seeds"] = 12345;
     for (const auto& another : {smaller, other})
-      expect_refused(another.dump(), "differs from the built-in campaign of its name");
+      expect_refused(another.dump(), "differs from the built-in campaign of the same name");
   }
 }
 

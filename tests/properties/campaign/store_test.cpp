@@ -112,7 +112,7 @@ TEST_F(Stores, AreForOneRunAndThatOneAtATime) {
   expect_no_open(file, "two", "holds another run");
   const Store store = open("one");
   EXPECT_EQ(store.binding(), "one");
-  expect_no_open(file, "one", "another run is writing it");
+  expect_no_open(file, "one", "another process writes this file");
   EXPECT_TRUE(Store::read(file));
 }
 
@@ -139,7 +139,7 @@ const std::string test_binding = R"({"schema": "assay-store/9"})";
 TEST_F(Stores, OfAnotherSchemaAreToldInOneLine) {
   { open(R"({"schema": "assay-store/2"})"); }
   expect_no_read(file, "is of schema \"assay-store/2\"");
-  expect_no_open(file, test_binding, "run it again");
+  expect_no_open(file, test_binding, "repeat the run");
   std::filesystem::remove(file);
   Database(file, Database::Mode::write)
       .run(
@@ -147,7 +147,7 @@ TEST_F(Stores, OfAnotherSchemaAreToldInOneLine) {
           "KEY(key)) WITHOUT ROWID; INSERT INTO note VALUES('binding', '{\"schema\": "
           "\"assay-store/5\"}', '')");
   constexpr auto line =
-      ": is of schema \"assay-store/5\", this assay reads assay-store/9: run it again";
+      ": is of schema \"assay-store/5\", this program reads assay-store/9: repeat the run";
   expect_no_read(file, line);
   expect_no_open(file, test_binding, line);
 }
@@ -295,7 +295,7 @@ TEST_F(ChangedRows, AStoreWithMoreThanItsTablesIsDamaged) {
     // Without its table nobody knows what it was.
     const bool is_gone = more == "DROP TABLE ledger";
     EXPECT_TRUE(says(read.error(), is_gone ? "not the store of a run"
-                                           : "its tables are not those of the store of a run"))
+                                           : "not the store of a run: its tables differ"))
         << more;
     // A table that is not there yet is made: a store may be killed before it is.
     EXPECT_EQ(static_cast<bool>(Store::open(file, test_binding)), is_gone) << more;

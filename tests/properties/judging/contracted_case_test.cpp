@@ -139,13 +139,13 @@ TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
                   "start free: triangles 0 and 1 are in contact where the step starts");
   expect_left_out(
       at_heights({1.25, 1, 2}), {.start = StartRule::apart, .start_distance = 1.5},
-      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and likewise "
-      "for every other step");
+      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts; no other step is "
+      "taken");
   auto large = at_heights({1, 2});
   expect_taken(large, {.coordinates = Coordinates::float32});
   large.frames[0](0, 0) = 1e300;
   expect_left_out(large, {.coordinates = Coordinates::float32},
-                  "frame 1 of 2: a coordinate has no float32");
+                  "frame 1 of 2: a coordinate is beyond float32");
 }
 
 TEST(ContractedCase, IsBroughtIntoTheRange) {
@@ -228,7 +228,7 @@ TEST(TallyInput, FactsSpeakOfAllPairsAndOfThoseThatCount) {
   c.counted->steps[0].pairs->pop_back();
   const auto failed = check_case(c, detector::Culling::bvh).broken_facts;
   ASSERT_EQ(failed.size(), 1u);
-  EXPECT_TRUE(says(failed[0], "step 1: of what counts: "));
+  EXPECT_TRUE(says(failed[0], "step 1: pairs that count: "));
 }
 
 // The bodies name triangles, whoever cannot be told which of them meet.

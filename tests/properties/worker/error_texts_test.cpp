@@ -34,7 +34,7 @@ TEST(Names, AreShortAndTheirOwn) {
   EXPECT_EQ(fault_of_name("mine"), "");
   EXPECT_EQ(fault_of_name(std::string(100, 'x')), "");
   EXPECT_EQ(fault_of_name(std::string(101, 'x')),
-            "a name or version of 101 bytes, and 100 are the most");
+            "a name or version of 101 bytes, but 100 are allowed");
   for (const char* name : {"built-in", "Built in", "built-in 1"})
     EXPECT_EQ(fault_of_name(name), "the name of the built-in detector");
   for (const char* name : {" mine", "mine "})

@@ -132,7 +132,7 @@ TEST_F(Hostile, AScratchFolderBelowDevLeavesLimitsAlone) {
   WorkerProcess asked(ASSAY_WORKER, plugin("hostile"), {.isolation = Isolation::bubblewrap});
   const auto refused = asked.describe();
   ASSERT_FALSE(refused);
-  EXPECT_TRUE(says(refused.error().message, "/dev/shm is hidden behind it"));
+  EXPECT_TRUE(says(refused.error().message, "/dev/shm is hidden behind bwrap"));
 }
 
 TEST_F(Hostile, WhatItWritesCountsAsMemory) {

@@ -68,7 +68,7 @@ TEST(PluginResult, BrokenRulesAreNamed) {
   raw.answer = ASSAY_FREE;
   expect_broken(raw, "answers free and gives pairs");
   raw.answer = 99;
-  expect_broken(raw, "answer 99 is none");
+  expect_broken(raw, "answer 99 is no answer of the interface");
 }
 
 // A limiter's answer for one vertex that goes from `from` to `to` along each axis.

@@ -157,7 +157,7 @@ TEST(Plugins, WhatIsNoPlugInIsRefusedInOneLine) {
       {plugin("nowhere"), "no such file"},
       {std::string(ASSAY_SOURCE_DIR) + "/README.md", "not a detector plug-in"},
       {plugin("without_entry"), "it exports no assay_detector()"},
-      {plugin("wrong_abi"), "built for ABI version 99, this program takes 1 to 3"}};
+      {plugin("wrong_abi"), "built for ABI version 99, this program accepts 1 to 3"}};
   for (const auto& [library, why] : refused) {
     WorkerProcess worker(ASSAY_WORKER, library);
     const auto description = worker.describe();

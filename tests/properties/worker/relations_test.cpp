@@ -102,7 +102,7 @@ TEST(Relations, L19_APlugInThatCannotBeToldIsAskedAboutAllPairs) {
   WorkerProcess worker(ASSAY_WORKER, plugin("wrapped_builtin"));
   const auto run = worker.run(cases[0], plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::refused);
-  EXPECT_EQ(run.explanation, "not all pairs count, and it has no `count`");
+  EXPECT_EQ(run.explanation, "the relation needs a function `count`");
 }
 
 // What a plug-in leaves out by itself, and says so, is counted and not held against it.

@@ -151,12 +151,12 @@ TEST(Contract, WhatIsSenselessIsRefusedInOneLine) {
       {"range=1:0.5", "upside down"},
       {"tolerance=0.01", "is above 0.001"},
       {"tolerance=nan", "no time"},
-      {"start=apart:0", "start_distance of 0"},
+      {"start=apart:0", "start_distance is 0"},
       {"start=apart:-1", "is no length"},
       {"range=-1:1", "range of coordinates is invalid"},
       {"margin=inf", "its margin is no length"},
       {"separation=-1 adjacency=2", "its separation is no length"},
-      {"separation=0.1", "it has a separation, and tests neighbours"}};
+      {"separation=0.1", "it has a separation, but tests neighbours"}};
   for (const auto& [words, line] : senseless) {
     ::setenv("ASSAY_BY_CONTRACT", words.c_str(), 1);
     WorkerProcess worker(ASSAY_WORKER, test::plugin("by_contract"));

@@ -184,11 +184,11 @@ TEST_F(Power, IsRefusedInOneLine) {
   // Without planted faults, or with fewer cases or seeds than are asked for.
   const auto none = scratch.write("none.json", plan_text(4));
   ASSERT_EQ(run_assay("run --campaign " + none + " --out " + scratch / "none").exit_code, 0);
-  refused(plan, scratch / "none", "shows 0 of ");
+  refused(plan, scratch / "none", "found 0 of ");
   refused(scratch.write("more.json", faults_text("more", 21, 1)), proof_folder(),
-          "gave each fault 20 cases of 1 seeds, campaign more asks for 21 of 1");
+          "tried each fault on 20 cases under 1 seeds, but campaign more wants 21 cases under 1");
   refused(scratch.write("seeds.json", faults_text("seeds", 20, 2)), proof_folder(),
-          "campaign seeds asks for 20 of 2");
+          "campaign seeds wants 20 cases under 2");
   // Where nothing is planted, no proof is wanted.
   expect_ended(
       "run --campaign " + none + " --out " + (scratch / "ignored") + " --power " + proof_folder(),
@@ -244,7 +244,7 @@ TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
   EXPECT_EQ(predicate["power"]["planted"], predicate["power"]["found"]);
   const auto hidden = hide_a_fault(scratch / "both/seed-2.sqlite");
   expect_refused("report " + (scratch / "both") + " --out " + scratch / "page.html",
-                 "seed-2.sqlite: two runs took over different proofs of " + hidden);
+                 "seed-2.sqlite: two runs took over different proofs for " + hidden);
   ASSERT_EQ(both("other").exit_code, 0);
   rename_source(scratch / "other/seed-2.sqlite", "other", "other");
   expect_refused("report " + (scratch / "other") + " --out " + scratch / "page.html",
@@ -252,7 +252,7 @@ TEST_F(Power, SharesTakeItOverAndAreCertifiedTogether) {
   // The key of a row says another name than the row itself.
   rename_source(scratch / "other/seed-2.sqlite", "third", "other");
   expect_refused("report " + (scratch / "other") + " --out " + scratch / "page.html",
-                 "power third is not as a run writes it");
+                 "power third: no run writes such a row");
 }
 
 }  // namespace

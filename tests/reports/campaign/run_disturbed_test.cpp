@@ -212,7 +212,7 @@ TEST_F(RunSelfKill, AtRandomDoesNotHoldAndIsNeverCertified) {
   EXPECT_EQ(made.exit_code, is_defect ? 1 : 3) << made.err;
   expect_says(made.out,
               {" trials ran again: their worker was killed from outside (", "\ncomplete   FAILS\n",
-               " of 200 trials were disturbed from outside; at most 1 % may be\n"});
+               " of 200 trials were disturbed from outside: more than 1 %\n"});
   EXPECT_EQ(contains(made.out, "\nDEFECT "), is_defect) << made.out;
   EXPECT_FALSE(contains(made.out, "certified")) << made.out;
   const std::string verdict = is_defect ? "defect" : "incomplete";

@@ -118,7 +118,7 @@ TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
   plan = scratch.write("plan.json", plan_text(4000));
   Started started(words(out), text);
   wait_for_trials(out, 1);
-  expect_refused(run(out), "another run is writing it");
+  expect_refused(run(out), "another process writes this file");
   EXPECT_EQ(run_assay("list failures " + out).out, "no failures\n");
   started.send(SIGKILL);
   started.end();

@@ -195,8 +195,8 @@ def test_what_goes_wrong_is_told(mine, frames, name, outcome, text):
         ("python:mine:WrongContract", "'colour' is not a member"),
         ("python:mine:Absent", "mine has no class Absent"),
         ("python:absent:Mine", "No module named 'absent'"),
-        ("python:mine", "python:MODULE:CLASS is wanted"),
-        ("python:mi-ne:X", "python:MODULE:CLASS is wanted"),
+        ("python:mine", "write python:MODULE:CLASS"),
+        ("python:mi-ne:X", "write python:MODULE:CLASS"),
         ("python:mine:Queries", "assay check QUERIES.csv"),
     ],
 )

@@ -221,10 +221,10 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
 }
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
-  expect_refused(candidates("", "check " + queries), "it holds no elementary query");
+  expect_refused(candidates("", "check " + queries), "it answers no elementary queries");
   expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
-                 "it holds no elementary query");
+                 "it answers no elementary queries");
   expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "but a query alone");
   expect_refused("replay tiny:1:query-ulp:0", "--detector");
   expect_refused(asked("claims=8", "check " + queries), "claims nothing of its query");

@@ -60,11 +60,11 @@ TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
     forge(id, [&](TrialRecord& record) { was = std::exchange(record.*number, 7654); });
     EXPECT_LE(verify("").exit_code, 1);
     EXPECT_TRUE(contains(verify("").out, "verified: ")) << "the forgery is whole";
-    expect_named(fmt::format("trial {}: {} {} now, 7654 stored\n", id, was, name));
+    expect_named(fmt::format("trial {}: {} {} now, but 7654 stored\n", id, was, name));
     forge(id, [&](TrialRecord& record) { record.*number = was; });
   }
   forge(id, [](TrialRecord& record) { record.mesh = 7654; });
-  expect_named(fmt::format("trial {}: its mesh differs from the stored one\n", id));
+  expect_named(fmt::format("trial {}: its mesh differs from the stored mesh\n", id));
   expect_problem(verify("--again 1 --detector " + plugin("always_free")), "the built-in detector");
 }
 
@@ -84,7 +84,7 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   }
   ASSERT_FALSE(id.empty());
   forge(id, [](TrialRecord& record) { record.outcomes = "H"; });
-  expect_named(fmt::format("trial {}: constant answer is D now, H is stored\n", id));
+  expect_named(fmt::format("trial {}: constant answer has outcome D now, but H is stored\n", id));
   forge(id, [](TrialRecord& record) { record.outcomes = "D"; });
 
   // The library as it is named, a copy of it, and another one.
