@@ -1,5 +1,6 @@
-// L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which the
-// closure adds; and the claims of the detector. L13 and L14: pairs that normal cones may leave out.
+// L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which pairs
+// the closure adds. Also the claims of the detector. L13 and L14: pairs that normal cones may leave
+// out.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Laws about the same step, asked for in another way.
+// Laws about one step that is evaluated in two ways.
 #include <fmt/format.h>
 
 #include <algorithm>
