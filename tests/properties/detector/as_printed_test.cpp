@@ -1,4 +1,4 @@
-// The thesis as printed misses, each deviation on its case.
+// The thesis as printed misses contacts: each of its deviations does on the case made for it.
 #include "properties/faults/fault.h"
 #include "properties/judging/exam.h"
 #include "tests/curated_cases.h"

@@ -1,4 +1,5 @@
-// What is drawn for cases: each value of each factor, and each two of the new factors together.
+// The options that are drawn for cases: each value of each factor occurs, and each pair of values
+// of two of the new factors.
 #include "properties/laws/options/drawn_options.h"
 
 #include <fmt/format.h>

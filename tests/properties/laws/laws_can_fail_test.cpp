@@ -1,5 +1,5 @@
-// A law that cannot fail proves nothing: each is put to results, or to a pair set, that are wrong,
-// and has to say so.
+// A law that cannot fail proves nothing, so each law is checked on results, or on a pair set, that
+// are wrong, and must report this.
 #include <fmt/format.h>
 
 #include "detector/contact/elementary.h"

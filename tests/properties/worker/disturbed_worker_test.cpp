@@ -1,5 +1,5 @@
-// What is a neighbour's doing and what is the detector's own: workers killed from outside, and
-// plug-ins that end their process.
+// The worker tells disturbances from outside from the doing of the detector: workers that are
+// killed from outside, and plug-ins that end their process.
 #include <sys/resource.h>
 
 #include "properties/judging/exam.h"

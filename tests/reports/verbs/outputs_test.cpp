@@ -1,5 +1,5 @@
-// What a verb is asked to write is written whatever the verdict, or refused by one line before any
-// work.
+// An output file that a user asks for is written whatever the verdict is, or a single line refuses
+// it before any work.
 #include <fmt/format.h>
 
 #include "tests/recorded_log.h"
