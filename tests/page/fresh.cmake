@@ -1,4 +1,4 @@
-# Checks that the committed page was built from the committed sources, as reports/page/digest.mjs does.
+# Checks that the committed page is built from the committed sources, like reports/page/digest.mjs.
 # usage: cmake -DPAGE=reports/page -P fresh.cmake
 file(GLOB_RECURSE sources RELATIVE ${PAGE} ${PAGE}/src/*)
 list(APPEND sources build.mjs digest.mjs package.json package-lock.json tsconfig.json)

@@ -1,6 +1,7 @@
 /* A detector by boxes: two triangles collide if the boxes around their paths meet. On meshes of
  * more than 1,000 triangles its first time changes if it may use several threads, although it
- * claims to be deterministic. A word of the environment variable ASSAY_THREADS_MATTER can change this:
+ * claims to be deterministic. A word of the environment variable ASSAY_THREADS_MATTER can change
+ * this:
  *
  *   harmless         the time is the same with any number of threads
  *   at-random        the time changes in every second call, whatever the number of threads */
