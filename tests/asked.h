@@ -1,5 +1,5 @@
 // How many cases a test runs, and with which seed: as the environment says, otherwise as the test
-// says. For example, ASSAY_SEED=7 ASSAY_CASES=100000 runs more cases, and other ones.
+// says. For example, ASSAY_SEED=7 ASSAY_CASES=100000 runs more cases, with another seed.
 #pragma once
 
 #include <cstdint>

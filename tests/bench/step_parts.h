@@ -41,7 +41,7 @@ const std::optional<corpus::Sequence>& step_named(const std::string& name);
 // Returns why a step is absent. If public data is missing, that is no error.
 const char* why_absent(const std::string& name);
 
-// Shows also the time for each of `items` things.
+// Also shows the time of a single thing, out of `items` things.
 void show_each(benchmark::State& state, std::size_t items);
 
 // Registers a benchmark of this name, which calls `function` with the arguments.

@@ -66,7 +66,7 @@ struct Recorded {
 struct Node {
   Op op;
   int a = -1, b = -1;  // operands; of Op::halved the array and the depth
-  double value = 0;    // of a constant, or the value with which the run continues
+  double value = 0;    // value of a constant, or value with which the run continues
   Kind kind = Kind::plain;
   std::string name;       // of an input: the name of the point, and the axis
   double lo = 0, hi = 0;  // range of a free number
@@ -114,7 +114,8 @@ inline Recorded made(Op op, int a, int b, double value, Kind kind) {
   return out;
 }
 
-// Returns a coordinate of the thing that is named `what`. The last letter of its name is the axis.
+// Returns a coordinate of the thing that is named `what`. The last letter of the name of the
+// coordinate is the axis.
 inline Recorded coordinate(const std::string& what, int number, int axis, double value) {
   Recorded out;
   out.value = value;

@@ -197,8 +197,8 @@ def states(rows):
 
 
 CLAIMS = json.loads((ROOT / "reports/schemas/certificate.schema.json").read_text())["$defs"]["claim"]["enum"]
-# No subject causes these: an undecided step, because it takes until a limit of time; and claims that are
-# not judged, except the named ones.
+# No subject causes these: an undecided step, because it takes until a limit of time; and that a claim is
+# not judged, except for the five claims below.
 NEVER = {("outcome", "undecided")} | {("not judged", claim) for claim in CLAIMS if claim not in (
     "free-sound", "not-late", "first-time", "first-pairs", "all-pairs")}
 OUTCOMES = ["holds", "defects", "undecided", "errors", "refused"]

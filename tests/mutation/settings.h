@@ -13,7 +13,7 @@ namespace assay::mutation {
 struct Setting {
   std::string_view name;
   detector::Options options;
-  bool own_primitives = false;  // the detector's, even if the case states some
+  bool own_primitives = false;  // the detector's primitives, even if the case states others
   bool view_facts = false;      // the oracle's view sets are known
   bool saved = false;           // each step runs in a new detector, from the saved state
   int most_triangles = 1000;

@@ -1,6 +1,6 @@
 // Brute force in plain doubles, compiled with the flags that relax the rules of floating point, and
-// with all claims made: many detectors are like this. It rounds, it has no care for motion in a
-// plane, and the library switches denormal numbers off for the thread that loads it.
+// with all claims made: many detectors are like this. It rounds, it does not handle motion in a
+// plane, and its library switches denormal numbers off for the thread that loads it.
 #include <algorithm>
 
 #include "detector/plugin/assay_detector.hpp"

@@ -1,5 +1,5 @@
-// A detector of pairs that come within a distance, which takes its answers from the oracle; and
-// such detectors with a fault. ASSAY_KEEPS_DISTANCE holds words of told.h, and
+// A detector of pairs that come within a distance. It takes its answers from the oracle, and can
+// have a fault. ASSAY_KEEPS_DISTANCE holds words of told.h, and
 //
 //   separation=D
 //   ours           the steps are answered by the built-in detector

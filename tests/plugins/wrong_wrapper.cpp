@@ -1,7 +1,7 @@
 // The built-in detector behind a wrapper that is wrong in one of twelve ways, which
 // ASSAY_TEST_WRONG names. All but the last way exist in Python, too
 // (tests/reports/python/wrong_detectors.py): a campaign that finds a wrong wrapper in C++ has to
-// find it in Python.
+// find the same wrapper in Python.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

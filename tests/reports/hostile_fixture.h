@@ -109,8 +109,8 @@ class HostilePlugin : public testing::Test {
     EXPECT_TRUE(contains(status, ") S ")) << mode << ": " << status;
   }
 
-  // Expects that a run or a certificate of the plug-in has the expected exit code and no verdict
-  // that it holds.
+  // Expects one of the exit codes of the mode, and that no file of the run or the certificate says
+  // that the plug-in holds.
   void expect_no_verdict_bought(const std::string& verb, const HostileMode& mode,
                                 const Outcome& ended) const {
     const auto is_expected =
@@ -149,7 +149,7 @@ class HostilePlugin : public testing::Test {
                                  R"( "seconds": 60, "case_seconds": 0.1, "shrink_share": 0.001,)"
                                  R"( "strata": [{"family": "closed-generic", "cases": 3}]})");
   const std::string hostile = plugin("hostile");
-  // A prefix for commands that puts a bwrap into the PATH which is not permitted to run, as in some
+  // A prefix for commands. It puts into the PATH a bwrap that is not permitted to run, as in some
   // containers.
   const std::string forbidden_bwrap = [&] {
     namespace fs = std::filesystem;

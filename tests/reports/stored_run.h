@@ -15,7 +15,7 @@
 namespace assay::tests {
 
 // Returns a case of two bodies, each a triangle. The lowest corner of the upper triangle is above
-// the inside of the lower triangle, at height `height_t0` and then `height_t1`. The next corner is
+// the inside of the lower triangle, at height `height_t0` and then `height_t1`. Another corner is
 // 0.1 higher.
 inline corpus::Case one_above_another(double height_t0, double height_t1) {
   corpus::Case c;

@@ -1,4 +1,4 @@
-// Detectors of others (corpus/peers) in a small campaign. Each shows the failures that
+// Detectors of others (corpus/peers) in a small campaign. Each detector shows the failures that
 // corpus/peers/README.md expects and none that its contract leaves out, and each failure keeps its
 // cause when it is shrunk.
 #include "properties/campaign/phases/phases.h"

@@ -99,7 +99,7 @@ class CuratedStep {
 
   // Returns the candidates K with this Vv.
   oracle::Candidates k(Flags violated = {}) const { return {signs, std::move(violated)}; }
-  // Returns the pairs in contact that are among the candidates (`held`), or that are not.
+  // Returns the pairs in contact that are candidates or, if `held` is false, those that are not.
   std::vector<detector::PairContact> pairs_of(const oracle::Candidates& candidates,
                                               bool held) const {
     std::vector<detector::PairContact> pairs;

@@ -1,5 +1,6 @@
-// The options that are drawn for cases: each value of each factor occurs, and each pair of values
-// of two of the new factors.
+// The options that are drawn for cases: for several pairs of factors, such as relation and
+// question, all pairs of values occur. Also covering arrays, and the body that is far from the
+// mesh.
 #include "properties/laws/options/drawn_options.h"
 
 #include <fmt/format.h>

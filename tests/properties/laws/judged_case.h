@@ -16,7 +16,7 @@ namespace assay::properties::test {
 
 struct Setting {
   detector::Options options;
-  bool own_primitives = false;  // the detector's, even if the case states some
+  bool own_primitives = false;  // the detector's primitives, even if the case states others
   StagesOf stages_of = detector::standard_stages;
 };
 

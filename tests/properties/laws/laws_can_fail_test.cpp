@@ -1,5 +1,5 @@
-// A law that cannot fail proves nothing, so each law is checked on results, or on a pair set, that
-// are wrong, and must report this.
+// A law that cannot fail proves nothing, so each law is checked on wrong results, or on a wrong
+// pair set, and must report them.
 #include <fmt/format.h>
 
 #include "detector/contact/elementary.h"

@@ -1,5 +1,5 @@
-// The worker tells disturbances from outside from the doing of the detector: workers that are
-// killed from outside, and plug-ins that end their process.
+// The worker distinguishes disturbances from faults of the detector: workers are killed from
+// outside, and plug-ins end their process.
 #include <sys/resource.h>
 
 #include "properties/judging/exam.h"

@@ -39,7 +39,7 @@ def cloud():
 
 @pytest.fixture
 def long_step():
-    """Returns a step that takes long enough with culling "none" for other threads to act on it."""
+    """Returns a step that, with culling "none", takes long enough for other threads to act meanwhile."""
     return tetrahedra(1500)
 
 

@@ -179,7 +179,7 @@ def test_a_query_with_wrong_options_is_refused():
 
 
 KEPT = ("result", "first_time", "distance", "least_distance", "t0", "t1", "triangles", "frames")
-# Flags that the script leaves to the author of a case. Meshes have flags of their first contact besides.
+# Flags that the script leaves to the author. Flags of meshes depend on the first contact; none is compared.
 FLAGS = {"Tangential", "SplitInvariant", "DoubleRoot", "ParallelEdges", "TouchAtEnd", "NoArea"}
 
 

@@ -1,5 +1,5 @@
-// An output file that a user asks for is written whatever the verdict is, or a single line refuses
-// it before any work.
+// If a user asks for an output file, the file is written whatever the verdict is, or is refused by
+// a single line before any work.
 #include <fmt/format.h>
 
 #include "tests/recorded_log.h"
