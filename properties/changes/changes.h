@@ -59,7 +59,7 @@ extern const CaseChange inside_out;
 extern const CaseChange halves;       // each committed step is divided at t=1/2
 extern const CaseChange played_back;  // each step from its end to its start, the last step first
 extern const CaseChange other_steps_first;  // all steps are played in another order before the case
-extern const CaseChange other_evaluations;  // before each step runs its reverse, and a step at rest
+extern const CaseChange other_evaluations;  // each step comes after its reverse and a step at rest
 extern const CaseChange split_edges;        // an edge is split in all of its triangles (L18)
 }  // namespace changes
 

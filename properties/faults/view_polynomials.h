@@ -46,9 +46,9 @@ ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
 ViewSign sign_of(const ViewPieces& pieces);
 
-// sign_at returns the sign of the triangle if it and the primitive rest where they are at t=0, 1/2
-// or 1. still returns the point at rest there. Both are exact if the middle of two coordinates is a
-// double.
+// `sign_at` returns the sign of the triangle if it and the primitive rest where they are at t=0,
+// 1/2 or 1. `still` returns the point at rest there. Both are exact if the middle of two
+// coordinates is a double.
 enum class Sample { start, middle, end };
 ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                  const ViewPrimitive& primitive);

@@ -35,7 +35,7 @@ struct Family {
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
   // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one query for each `one_in` of "query-small-int"; more for slow families
+  int one_in = 1;  // one query for each `one_in` of "query-small-int"; large if slow
 };
 
 // Returns the families of the strata in a fixed order.

@@ -176,7 +176,7 @@ class EverydayNumbers {
   double divisor_ = 1;           // ... divided by divisor_
   double time_step_ = 1;         // dt of Motion::velocity
   Point offset_ = {0, 0, 0};     // moves the whole scene; in units of the size
-  bool is_turned_;               // the scene, by any angle, before places are rounded
+  bool is_turned_;               // the scene is turned before places are rounded
   std::array<Point, 3> rows_{};  // of the rotation matrix
 };
 

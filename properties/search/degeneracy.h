@@ -74,8 +74,8 @@ inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);
 
-// coplanarity_at returns F at a time. root_of returns the first root of F in [0, 1], in doubles;
-// nothing if F has none.
+// `coplanarity_at` returns F at a time. `root_of` returns the first root of F in [0, 1], in
+// doubles; nothing if F has none.
 double coplanarity_at(const FourPoints& query, double time);
 std::optional<double> root_of(const FourPoints& query);
 

@@ -79,8 +79,8 @@ inline void place_randomly(Random& random, Coordinates kind, Eigen::Index vertic
   }
 }
 
-// any_triangles draws each corner alone, so a triangle can have one vertex twice. random_triangles
-// returns only triangles with three different vertices.
+// `any_triangles` draws each corner alone, so a triangle can have one vertex twice.
+// `random_triangles` returns only triangles with three different vertices.
 inline detector::Triangles any_triangles(Random& random, int vertices, int count) {
   detector::Triangles f(count, 3);
   for (Eigen::Index i = 0; i < f.size(); ++i) f.data()[i] = random.below(vertices);
