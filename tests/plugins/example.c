@@ -1,5 +1,5 @@
 /* A detector by boxes: two triangles collide if the boxes around their paths meet. It never misses
- * a contact, and claims this alone; it often reports a contact where there is none. */
+ * a contact, and claims this alone; it often reports a contact falsely. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // A detector by spheres: two triangles collide if the spheres around their paths meet. It never
-// misses a contact, and claims this alone; it often reports a contact where there is none.
+// misses a contact, and claims this alone; it often reports a contact falsely.
 #include <cmath>
 
 #include "detector/plugin/assay_detector.hpp"
