@@ -1,5 +1,5 @@
-// How much a test does, and which case of it: by the environment, or by a number that stands in it.
-// ASSAY_SEED=7 ASSAY_CASES=100000, say, run more of other cases.
+// How many cases a test runs, and with which seed: as the environment says, otherwise as the test
+// says. For example, ASSAY_SEED=7 ASSAY_CASES=100000 runs more cases, with another seed.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ inline std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Returns how many cases a test does where `cases` are usual. Under a sanitizer a case takes five
-// times as long, and a quarter of the cases shows what it looks for.
+// Returns how many cases a test runs: `cases` or, under a sanitizer, a quarter of them. A case
+// takes five times as long there, and a quarter of the cases is enough for the sanitizer to find
+// its errors.
 constexpr int usual(int cases) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return cases / 4;
@@ -22,7 +23,8 @@ constexpr int usual(int cases) {
 #endif
 }
 
-// Returns how far apart the places are at which a test looks, where so far is usual.
+// Returns the distance between the places at which a test looks: `apart` or, under a sanitizer,
+// four times as much.
 constexpr int spaced(int apart) { return 4 * apart / usual(4); }
 
 }  // namespace assay::tests

@@ -1,5 +1,5 @@
-// Steps on whose way something is passed within a unit in the last place, before the contact: there
-// rounding decides of each place short of the contact whether the straight way to it is free.
+// Steps in which a triangle passes another one within a unit in the last place before the contact.
+// So for each place before the contact, rounding decides whether the straight way there is free.
 #pragma once
 
 #include <random>
@@ -16,8 +16,8 @@ struct ClosePass {
   detector::Positions x_t0, x_t1;
 };
 
-// Found by campaigns. Their contact is at 1, at 0.698, at 0.869 and at 2/3. The largest part of the
-// time until it whose place is free is 0.711, 0.998, 0.894 and 0.75.
+// Returns steps that campaigns found. Their contacts are at 1, 0.698, 0.869 and 2/3. The largest
+// share of the time until the contact to which the way is free is 0.711, 0.998, 0.894 and 0.75.
 inline std::vector<ClosePass> known_close_passes() {
   const auto pass = [](const char* name, const char* triangles, const char* x_t0,
                        const char* x_t1) {
@@ -42,9 +42,9 @@ inline std::vector<ClosePass> known_close_passes() {
            "-1 0 0.756282850401476")};
 }
 
-// A moving triangle passes a resting one as closely as numbers allow, or touches it there by an
-// ulp, and comes to a resting plate at t = 0.9. By even seeds its edge goes past a corner of the
-// resting one, by odd seeds its corner past an edge.
+// Returns a step in which a moving triangle passes a resting triangle as closely as doubles allow,
+// or touches it by an ulp, and reaches a resting plate at t = 0.9. With an even seed its edge
+// passes a corner of the resting triangle, with an odd seed its corner passes an edge.
 inline ClosePass drawn_close_pass(std::uint64_t seed) {
   using Row = Eigen::RowVector3d;
   std::mt19937_64 engine(seed);

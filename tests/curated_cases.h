@@ -1,5 +1,5 @@
-// The cases of corpus/curated. Each of these throws where one cannot be read. curated_cases() have
-// no relation, because laws, state and most plug-ins speak of all pairs.
+// Reads the cases of corpus/curated. Each function throws if a case cannot be read. The cases of
+// curated_cases() have no relation, because laws, state and most plug-ins are about all pairs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Rows of numbers of meshes, written as lists or as texts.
+// Makes triangles and positions from lists of numbers, or from texts.
 #pragma once
 
 #include <array>
@@ -55,13 +55,15 @@ inline detector::Triangles triangles_of(const std::string& text) {
   return matrix_of_text<detector::Triangles>(text);
 }
 
-// Outward octahedron: vertices +x -x +y -y +z -z.
+// Returns the triangles of an octahedron whose normals point outward. Its vertices are +x -x +y -y
+// +z -z.
 inline detector::Triangles octahedron() {
   return triangles_of("0 2 4, 2 1 4, 1 3 4, 3 0 4, 2 0 5, 1 2 5, 3 1 5, 0 3 5");
 }
 
-// Two triangles in each square of a sheet of `side` times `side` vertices, numbered row by row; a
-// square is left out by the row and column of its first vertex.
+// Returns two triangles for each square of a sheet of `side` times `side` vertices, which are
+// numbered row by row. `is_left_out` says which squares are left out, by the row and the column of
+// their first vertex.
 template <class IsLeftOut>
 detector::Triangles sheet_triangles(int side, IsLeftOut is_left_out) {
   std::vector<Corners> rows;

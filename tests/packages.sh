@@ -1,4 +1,5 @@
-# Sourced by tests/run and reports/certify: what Assay needs of Debian 12, and how it gets it.
+# Sourced by tests/run and reports/certify: the packages of Debian 12 that Assay needs, and
+# functions that install them and build.
 # shellcheck shell=bash
 
 assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev libmpfi-dev
@@ -9,17 +10,17 @@ assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev 
 # shellcheck disable=SC2034
 assay_peer_packages="libfcl-dev libbullet-dev"
 
-# For micro benches (tests/bench); without it they are left out.
+# For micro benches (tests/bench), which are left out without this package.
 # shellcheck disable=SC2034
 assay_bench_packages="libbenchmark-dev"
 
-# For the Python module (reports/python) and its tests; without them it is left out.
+# For the Python module (reports/python) and its tests, which are left out without these packages.
 # shellcheck disable=SC2034
 assay_python_packages="python3 python3-dev pybind11-dev python3-numpy python3-meshio python3-pytest
   python3-pip python3-setuptools python3-venv python3-wheel"
 
-# ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what
-# it is and stops. YES=1 does not ask.
+# ensure_packages YES EXTRA...: installs the missing packages of assay_packages and EXTRA, or names
+# them and stops. With YES=1 it does not ask first.
 ensure_packages() {
   local yes=$1 missing=() package answer
   shift
@@ -69,8 +70,8 @@ ensure_packages() {
   rm -f "$log"
 }
 
-# show_build SECONDS: shows how far a build is, by the lines of Ninja on its input: on a terminal in
-# one line that is rewritten each second, elsewhere in a line each SECONDS.
+# show_build SECONDS: reads the lines of Ninja from its input and shows the progress of the build:
+# on a terminal one line that is rewritten each second, elsewhere a line every SECONDS.
 show_build() {
   local line step='' started=$SECONDS shown=$SECONDS between=$1
   [ ! -t 1 ] || between=1
@@ -88,8 +89,8 @@ show_build() {
   [ ! -t 1 ] || printf '\r\033[K'
 }
 
-# build_preset PRESET TARGET...: configures build/PRESET and builds the targets, and shows no more
-# than how far it is unless it fails. A compile of the algebraic kernel takes 0.6 GB and more under a
+# build_preset PRESET TARGET...: configures build/PRESET and builds the targets. Shows only the
+# progress, unless the build fails. A compile of the algebraic kernel takes 0.6 GB and more under a
 # sanitizer.
 build_preset() {
   local preset=$1 log started=$SECONDS

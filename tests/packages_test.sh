@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a build shows while it goes on, and what it comes to (packages.sh), with a cmake that is none.
+# Tests the progress of a build and its result (packages.sh), with a script in place of cmake.
 set -euo pipefail
 packages=$(cd "$(dirname "$0")" && pwd)/packages.sh
 scratch=$(mktemp -d)
@@ -27,7 +27,7 @@ expect() { # WHAT PATTERN TEXT
   fi
 }
 
-# A subshell, so that what it sources stays there.
+# This runs in a subshell, so that the sourced functions exist only there.
 build() {
   (
     set -e

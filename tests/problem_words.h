@@ -1,5 +1,5 @@
-// What is expected of an answer that may be a problem: its value, or words of what it says. A test
-// names words of the line, so that no other refusal passes for it.
+// Expectations about a result that may be a problem: its value, or words of its message. A test
+// names words of the message, so that it does not pass with another refusal.
 #pragma once
 
 #include "corpus/problem.h"
@@ -17,7 +17,8 @@ testing::AssertionResult says(const corpus::Expected<T>& answer, std::string_vie
   return testing::AssertionFailure() << "there is no problem that says \"" << words << '"';
 }
 
-// The value; a problem in its place ends the test, and its message is that of the failure.
+// Returns the value. If there is a problem instead, the test ends, and its failure shows the
+// message of the problem.
 template <class T>
 T value_of(corpus::Expected<T> answer) {
   if (!answer) throw std::runtime_error(answer.error().message);

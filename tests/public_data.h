@@ -1,5 +1,6 @@
-// The folder of the public data. A test that reads it says so: its suite or its name begins with
-// `Public` (tests/house), and tests/without_data.py sees that it is skipped where there is no data.
+// The folder of the public data. If a test reads this data, its suite or its name begins with
+// `Public` (tests/house). tests/without_data.py checks that such a test is skipped without the
+// data.
 #pragma once
 
 #include <cstdlib>
@@ -7,7 +8,8 @@
 
 namespace assay::tests {
 
-// What ASSAY_DATA names; nothing where it is not set, empty or no folder.
+// Returns the folder that ASSAY_DATA names; null if the variable is not set, is empty or names no
+// folder.
 inline const char* public_data() {
   const char* folder = std::getenv("ASSAY_DATA");
   return folder && std::filesystem::is_directory(folder) ? folder : nullptr;

@@ -1,4 +1,4 @@
-// Logs as a simulator's recorder writes them, of frames and answers that a test gives.
+// Writes logs as a simulator's recorder does, from the frames and answers of a test.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace assay::tests {
 
-// What the built-in detector claims.
+// Returns a description that makes all claims of the built-in detector.
 inline assay_description all_claims_description() {
   assay_description d = {};
   d.name = "recorded";
@@ -37,7 +37,8 @@ class LogWriter {
 
   static assay_record_array array(const detector::Positions& x) { return {x.data(), 0}; }
 
-  // A step whose answer is `result`. Without x_t0 it starts where the last one ended.
+  // Records a step with the answer `result`. Without x_t0, the step starts where the last step
+  // ended.
   void step(const detector::Positions* x_t0, const detector::Positions& x_t1,
             const detector::StepResult& result) {
     std::vector<std::int32_t> pairs;
@@ -71,8 +72,8 @@ class LogWriter {
   assay_recorder recorder_;
 };
 
-// Writes a log of two steps that are said to be free. In the second one a triangle falls through
-// another.
+// Writes a log of two steps, both answered `free`. In the second step a triangle falls through
+// another one.
 inline void write_missed_contact(const std::string& path) {
   detector::Triangles triangles(2, 3);
   triangles << 0, 1, 2, 3, 4, 5;

@@ -9,8 +9,9 @@
 
 namespace assay::tests {
 
-// A triangle at rest in the plane z = 0, and one above it whose corner sinks from z = 3 to `z`
-// above the inside of the first; its other two corners stay at z = 4.
+// Returns a case with a triangle at rest in the plane z = 0 and a second triangle above it. A
+// corner of the second triangle sinks from z = 3 to `z`, above the inside of the first; its other
+// two corners stay at z = 4.
 inline corpus::Case sinking_corner(
     double z, const std::map<std::string, std::string, std::less<>>& options = {}) {
   corpus::Case c;

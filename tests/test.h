@@ -1,5 +1,6 @@
-// GoogleTest and what of the standard library tests are made of. Every test includes it, by itself
-// or through the header of its room, and so lists only what it tests.
+// Includes GoogleTest and the headers of the standard library that most tests use. Every test
+// includes this file, directly or through the header of its room, so that its own includes are only
+// what it tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@
 
 namespace assay {
 
-// Whether a text holds these words; the whole text is shown where it does not.
+// Succeeds if the text contains these words; a failure shows the whole text.
 inline testing::AssertionResult says(std::string_view text, std::string_view words) {
   if (text.find(words) != std::string_view::npos) return testing::AssertionSuccess();
   return testing::AssertionFailure() << '"' << text << "\" does not say \"" << words << '"';

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs every test that reads public data as a machine without it does: each has to be skipped.
+"""Runs every test that reads public data without these data: each test must be skipped.
 
 usage: tests/without_data.py CTEST BUILD
 
 These are the tests whose suite or name begins with `Public`, and python_public_data_test.
-ASSAY_DATA is not set, empty, and the name of no folder, in turn.
+In turn, ASSAY_DATA is not set, is empty, and names no folder.
 """
 
 import json

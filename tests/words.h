@@ -1,4 +1,5 @@
-// A list of names written as one text, for a formatter puts each name of a list on a line.
+// Splits a text into words. A list of names is written as one text, because the formatter would put
+// each name on its own line.
 #pragma once
 
 #include <iterator>

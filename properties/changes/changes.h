@@ -1,8 +1,9 @@
-// Changes a case. One list of changes says what each does to the mesh, its steps and all places,
-// and which answers it keeps. The caller gives the random numbers, so that a seed keeps its cases.
+// Changes a case. One list says what each change does to the mesh, to its steps and to all
+// positions, and which answers stay the same. The caller passes the random numbers, so that a seed
+// always gives the same cases.
 //
-//   const auto form = changes::mirror.of(c);  // drawn by the id of the case
-//   const auto up = scaled(c, 7);             // by this power of two; nothing if a bit is lost
+//   const auto form = changes::mirror.of(c);  // the id of the case seeds the random numbers
+//   const auto up = scaled(c, 7);             // by 2^7; nothing if a coordinate loses a bit
 #pragma once
 
 #include <functional>
@@ -19,23 +20,24 @@ class Random;
 // A case in another form.
 struct Form {
   Case c;
-  // By triangle of the form: the same triangle in the case, or the one that it is a part of.
+  // For each triangle of the form: the number of the same triangle in the case, or of the triangle
+  // from which it was split.
   Numbers parent;
-  // By step of the case: the same step in the form. Empty if the answers cannot be compared,
-  // because coordinates were rounded or steps divided.
+  // For each step of the case: the number of the same step in the form. Empty if the answers cannot
+  // be compared, because coordinates were rounded or steps were divided.
   std::vector<std::size_t> step;
   bool same_times = true;    // contacts keep their times to the last bit
   bool swaps_signs = false;  // V+ becomes V-; answers that rest on L5 differ
 };
 
 struct CaseChange {
-  // The random numbers are drawn by the case's id and this word.
+  // The case's id and this word seed the random numbers.
   std::string_view seed;
   // Returns nothing if the change does not apply, or if it would round a coordinate.
   std::optional<Form> (*draw)(const Case&, Random&);
   // Whether the coordinates of the case are rounded before the change (on_a_grid).
   bool on_grid = false;
-  // The steps of the case are asked for unchanged, between other steps that must not matter. A
+  // The steps of the case stay unchanged, and other steps that must not matter run between them. A
   // detector that claims to be deterministic then gives the same answers.
   bool same_calls = false;
   bool keeps_lengths = true;
@@ -43,34 +45,35 @@ struct CaseChange {
   std::optional<Form> of(const Case& c) const;
 };
 
-// All changes. Each keeps the answers, pairs and times of a case, apart from the numbers of its
-// triangles, unless its Form says otherwise.
+// All changes. A change keeps the answers, pairs and times of a case, unless its Form says
+// otherwise. The triangles may get other numbers.
 namespace changes {
 extern const CaseChange vertex_numbers;
-extern const CaseChange triangle_order;  // and another first corner of each triangle
-extern const CaseChange backwards;       // order of vertices and triangles; two or more holes
+extern const CaseChange triangle_order;  // also begins each triangle at another corner
+extern const CaseChange backwards;       // reverses the numbers; needs two or more holes
 extern const CaseChange power_of_two;    // all lengths are scaled
 extern const CaseChange translation;
-extern const CaseChange mirror;  // and all triangles reversed, so that outside stays outside
+extern const CaseChange mirror;  // also reverses all triangles, so that outside stays outside
 extern const CaseChange axes;    // permuted; an odd permutation also reverses all triangles
 extern const CaseChange inside_out;
-extern const CaseChange halves;             // each committed step is divided at t=1/2
-extern const CaseChange played_back;        // each step from its end to its start, the last first
+extern const CaseChange halves;       // each committed step is divided at t=1/2
+extern const CaseChange played_back;  // each step from its end to its start, the last step first
 extern const CaseChange other_steps_first;  // all steps are played in another order before the case
-extern const CaseChange other_evaluations;  // before each step, its reverse and a step at rest
+extern const CaseChange other_evaluations;  // each step comes after its reverse and a step at rest
 extern const CaseChange split_edges;        // an edge is split in all of its triangles (L18)
 }  // namespace changes
 
-// Returns the case, reduced to its mesh, frames and steps, in this form.
+// Reduces the case to its mesh, frames and steps, and returns its form under this change; nothing
+// if the change does not apply.
 std::optional<Form> form_of(const CaseChange& change, const Case& c);
 
 Form unchanged(const Case& c);
 
-// The parts from which changes are made. If a case has a view primitive and ghosts, these change
-// with the mesh.
+// Parts from which changes are made. They change the view primitive and the ghosts of a case
+// together with the mesh.
 
-// Returns the addresses of all coordinates along one axis, or along all (axis -1), point by point:
-// of the frames, of the view primitive, of the apexes.
+// Returns the addresses of all coordinates along one axis, or along all axes (axis -1), point by
+// point: first those of the frames, then of the view primitive, then of the apexes.
 template <class Case>  // const or not
 auto numbers_along(Case& c, int axis = -1) {
   std::vector<decltype(c.frames.front().data())> numbers;
@@ -120,7 +123,7 @@ bool adds_exactly(double a, double b, double& sum);
 // Returns whether x * 2^exponent is a double that keeps all bits of x, and if so sets x to it.
 bool scales_exactly(double& x, int exponent);
 
-// Scale by 2^exponent, and translate; return nothing if a coordinate would be rounded.
+// Return the case scaled by 2^exponent, or translated; nothing if a coordinate would be rounded.
 std::optional<Case> scaled(Case c, int exponent);
 std::optional<Case> translated(Case c, const Point& by);
 // Mirrors the case along an axis, and turns its triangles over.
@@ -128,24 +131,24 @@ Case mirrored(Case c, int axis);
 
 // Gives a vertex this path in the step from one frame to another.
 void set_path(Case& c, const CaseStep& step, std::int32_t vertex, const MovingPoint& path);
-// Gives vertex v the number new_number[v]. A relation stays as it is.
+// Gives vertex v the number new_number[v]. The relation of the case keeps the old numbers.
 void renumber_vertices(Case& c, const Numbers& new_number);
 // Gives triangle t the number new_number[t].
 void reorder_triangles(Form& form, const Numbers& new_number);
-// Renumber vertices and triangles, after drawing another first corner for each triangle. The second
-// function draws the numbers too.
+// Draw another first corner for each triangle, then renumber vertices and triangles. The second
+// function also draws the new numbers.
 Form renumbered(Random& random, const Case& c, const Numbers& vertices, const Numbers& triangles);
 Case renumbered(Random& random, const Case& c);
 
-// Adds a mesh with a place for each of its vertices in each frame of the case.
+// Adds a mesh to the case. `places` returns the positions of its vertices in a frame.
 void add_mesh(Case& c, const Triangles& triangles,
               const std::function<Positions(std::size_t frame)>& places);
-// Puts copies of the mesh side by side, so far apart that none meets another.
+// Repeats the mesh, so that `copies` equal meshes lie side by side, too far apart to meet.
 void put_side_by_side(Case& c, int copies);
 
-// Keeps only these frames, each once and in this order, and makes the script of these steps, which
-// name frames by their old numbers. The script is left out if its steps are just the consecutive
-// frames.
+// Keeps only these frames, each once and in this order, and makes `script` the script of the case.
+// Its steps name frames by their old numbers. The script is left out if each step goes from one
+// frame to the next.
 void take_frames(Case& c, const Numbers& frames, std::vector<CaseStep> script);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// L18: if some edges of a mesh are split, in all triangles that have them, its contacts stay, as
-// long as no triangle that is split loses its area.
+// L18: a mesh keeps its contacts if edges are split in all of their triangles, as long as no split
+// triangle loses its area.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

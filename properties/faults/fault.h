@@ -15,7 +15,7 @@ namespace assay::properties {
 
 enum class FaultStatus : std::uint8_t {
   planted,
-  open,        // no case that shows it is known, nor a proof that there is none
+  open,        // no case is known that shows it, and no proof that no case can
   equivalent,  // never shows: an invariant makes it as sound as the stage that it replaces
 };
 
@@ -34,13 +34,13 @@ struct Fault : PlantedStage {
   std::string_view name{};     // module/fault
   std::string_view law{};      // claim or law that must find it: "L2", "all-pairs (L7)"
   std::string_view curated{};  // id of the curated case that shows it; "": none
-  // The number of vertices of the smallest known mesh that shows the fault, in the frozen list by
-  // which the reducer is measured; 0: none is known. The apexes of stated ghosts are counted. The
-  // curated case of the fault may by now be smaller.
+  // The number of vertices of the smallest known mesh that shows the fault, apexes of stated ghosts
+  // included; 0: none is known. The reducer is measured by these numbers, so they stay, even if the
+  // curated case of the fault is smaller by now.
   int smallest_vertices = 0;
   std::string_view about{};  // the mistake, in a line
-  // Options of the detector in which the fault is planted. If a row of the registry states none:
-  // view points, all pairs.
+  // Options of the detector in which the fault is planted. A row of the registry that states no
+  // options has Culling::view_point and all pairs.
   Options options{Culling::view_point};
   FaultStatus status = FaultStatus::planted;
   std::string_view reason{};  // for open and equivalent faults: why they are so

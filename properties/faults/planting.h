@@ -33,8 +33,8 @@ constexpr void at_place_of(const Use& use) {
 }
 
 // Returns the standard stages, except that `Wrong` replaces the stage from which it derives. Wrong
-// marks are searched by the binary descent, which reads the flags of every node; the wide descent
-// reads those of every third level, or fewer.
+// marks are searched by the binary descent, which reads the flags of every node. The wide descent
+// reads flags on every third level at most.
 template <class Wrong>
 detector::Stages with(const Options& options) {
   detector::Stages stages = detector::standard_stages(options);

@@ -1,4 +1,5 @@
-// Wrong beliefs about triangles that are clean at the start of a step: by view (L5), layers (L9).
+// Wrong decisions about which triangles are clean at the start of a step: by views (L5) or by
+// layers (L9).
 #include <algorithm>
 
 #include "detector/geometry/winding.h"

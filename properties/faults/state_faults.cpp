@@ -1,4 +1,4 @@
-// Wrong beliefs about which triangles a step leaves clean (L8), and wrong releases (L9).
+// Wrong decisions about which triangles are clean after a step (L8), and wrong releases (L9).
 
 #include <algorithm>
 

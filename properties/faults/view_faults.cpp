@@ -1,6 +1,6 @@
 // Wrong view tests.
 //
-// From a point: f = (p0 - q).N is a cubic in t, and every short cut here ignores a part of it (L2).
+// Views from a point: f = (p0 - q).N is a cubic in t. Every fault here ignores a part of f (L2).
 
 #include "detector/exact/bernstein.h"
 #include "detector/geometry/winding.h"

@@ -15,7 +15,7 @@ using PolynomialVector = std::array<detector::Polynomial, 3>;
 detector::Polynomial dot(const PolynomialVector& x, const PolynomialVector& y);
 
 // The polynomials of one triangle (corners p0, p1, p2, normal N) and one primitive (ends q0, q1).
-// All have a common positive factor, which changes no sign.
+// The polynomials have a common positive factor, which changes no sign.
 struct ViewPolynomials {
   PolynomialVector to_corner;                  // p0 - q0
   PolynomialVector normal;                     // N
@@ -27,7 +27,7 @@ struct ViewPolynomials {
 ViewPolynomials view_polynomials(const detector::MovingTriangle& triangle,
                                  const ViewPrimitive& primitive);
 
-// Returns the sign of f if f keeps it over [0,1] and has no zero there; else zero.
+// Returns the sign of f over [0,1], or zero if f has a zero there.
 ViewSign strict_sign(const detector::Polynomial& f);
 
 // Replace f by its value at t=0, by its value at t=1, or by the line through both values.
@@ -46,17 +46,19 @@ ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
 ViewSign sign_of(const ViewPieces& pieces);
 
-// Return the sign of a triangle, or a point, held still at t=0, 1/2 or 1, the triangle together
-// with the primitive. Exact if the middle of two coordinates is a double.
+// `sign_at` returns the sign of the triangle if it and the primitive rest where they are at t=0,
+// 1/2 or 1. `still` returns the point at rest there. Both are exact if the middle of two
+// coordinates is a double.
 enum class Sample { start, middle, end };
 ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                  const ViewPrimitive& primitive);
 MovingPoint still(Sample sample, const MovingPoint& point);
 
-// Returns the common sign of all; zero if they differ.
+// Returns the sign if all signs are equal, else zero.
 ViewSign common_sign(std::initializer_list<ViewSign> signs);
 
-// Returns the common sign at these times, wrongly taken for the sign of the whole step.
+// Returns the sign if the signs at all these times are equal, else zero. A fault uses this sign for
+// the whole step.
 template <Sample... samples>
 ViewSign sampled(const detector::MovingTriangle& triangle, const ViewPrimitive& primitive) {
   return common_sign({sign_at(samples, triangle, primitive)...});

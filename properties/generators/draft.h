@@ -58,8 +58,9 @@ inline Point mean(const Points& points) {
 
 using Face = std::array<std::int32_t, 3>;
 
-// The place of these vertices in a frame: on the plane of a face that is level across `axis`, or
-// `units` units of the last place beyond it. `way` is their way to that place.
+// Where these vertices land in a frame: on the plane of a face whose corners have the same
+// coordinate along `axis`, or `units` units of the last place beyond the plane. `way` is the
+// displacement by which the vertices come there.
 struct Landing {
   std::size_t frame = 0;
   std::vector<std::int32_t> vertices;
@@ -80,9 +81,9 @@ struct Draft {
   // Vertices from this index on belong to a second piece; 0 if there is one piece only.
   std::int32_t second_piece = 0;
   Points holes;                   // centres of holes at the start
-  std::vector<Landing> landings;  // to be met when the draft gets its numbers (parts.h)
-  Points closing;                 // by vertex, its way when the shape closes to a ring; or none
-  std::vector<Point> q0, q1;      // view primitive by frame; q1 empty: a point; both empty: none
+  std::vector<Landing> landings;  // use_everyday_numbers carries them out
+  Points closing;  // by vertex, the displacement that closes the shape to a ring; or empty
+  std::vector<Point> q0, q1;  // view primitive by frame; q1 empty: a point; both empty: none
   std::vector<std::string> tags;
 
   Points& rest() { return frames.front(); }
@@ -92,8 +93,8 @@ struct Draft {
     rest().push_back(x);
     return vertices() - 1;
   }
-  // Adds two triangles for the quad whose corners are given counter-clockwise as seen from
-  // outside. It is split along ac.
+  // Adds the quad abcd as two triangles, split along ac. Its corners are counter-clockwise as seen
+  // from outside.
   void quad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     faces.push_back({a, b, c});
     faces.push_back({a, c, d});
@@ -106,7 +107,7 @@ inline Point& at(Points& x, std::int32_t v) { return x[static_cast<std::size_t>(
 
 inline bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v || f[2] == v; }
 
-// Joins two drafts of one frame. The vertices of `b` follow those of `a`.
+// Joins two drafts that have one frame each. The vertices of `b` follow those of `a`.
 Draft joined(Draft a, const Draft& b);
 
 // Drops vertices that no face uses, and renumbers the others in their order.
@@ -122,7 +123,7 @@ bool is_cycle(const std::vector<Face>& faces);
 // Returns the greatest magnitude of a coordinate in the frames of the case.
 double greatest_of(const Case& c);
 
-// Turns the draft into a case. Its tags are sorted, each once.
+// Turns the draft into a case. The tags of the case are sorted, without duplicates.
 RandomCase finished(Draft draft, std::string id);
 
 }  // namespace assay::properties

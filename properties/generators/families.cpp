@@ -218,9 +218,9 @@ RandomCase make_any(Random& random, std::string id) {
 }
 
 constexpr Family question_table[] = {
-    {"limits", "cases of any family; the built-in is asked how far each step may go", false, true,
+    {"limits", "cases of any family; the question is how far each step can go", false, true,
      make_any},
-    {"within", "cases of any family; the built-in keeps a distance of 2^-6", false, true,
+    {"within", "cases of any family; the question is which pairs come within 2^-6", false, true,
      make_any}};
 
 constexpr Family family_table[] = {

@@ -3,13 +3,13 @@
 // Every case is valid input: coordinates finite, no index repeated in a triangle, no two triangles
 // with the same three vertices. Options are left empty and no facts are stated.
 //
-// Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200. In
-// degenerate and far families, where a step takes the oracle longest, the last three are 42 %, 6 %
-// and 2 %. Everyday families have 60 % of 2..4 (closed ones of 8), 30 % of up to 12, and 10 % of
-// 12..40, so that even a slow detector is judged by many cases. (Shapes come as near to a size as
-// they can; broken shapes and shapes of pieces may have a few triangles more.) Steps: 60 % of the
-// cases have 1, 20 % 2, 12 % 3, 8 % 4..8; cases above 40 triangles have at most 3, cases made to be
-// positive at most 2.
+// Sizes: half of the cases have 4..12 triangles, 30 % 12..40, 15 % 40..100, and 5 % 100..200. In
+// degenerate and far families the oracle needs most time for a step, so there the three larger
+// sizes have 42 %, 6 % and 2 %. In everyday families 60 % of the cases have 2..4 triangles (closed
+// cases 8), 30 % up to 12, and 10 % 12..40, so that even a slow detector is judged by many cases.
+// (Shapes come as near to a size as they can; broken shapes and shapes of pieces may have a few
+// triangles more.) Steps: 60 % of the cases have 1 step, 20 % 2, 12 % 3, and 8 % 4..8. Cases above
+// 40 triangles have at most 3 steps, and cases that are made to be positive at most 2.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct Family {
   bool is_closed = false;   // every case is a cycle
   bool degenerate = false;  // exact coincidences are frequent, so the oracle needs slow rungs
   RandomCase (*make)(Random&, std::string id);
-  std::uint64_t triangles = 0;  // approximate size of every case; 0: few, as above
+  std::uint64_t triangles = 0;  // approximate size of every case; 0: the sizes above
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
   // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one query for each `one_in` of "query-small-int": slow families get fewer
+  int one_in = 1;  // one query for each `one_in` of "query-small-int"; large if slow
 };
 
 // Returns the families of the strata in a fixed order.
@@ -43,15 +43,14 @@ std::span<const Family> families();
 // Returns the families of cases with a relation (add_relation).
 std::span<const Family> counted_families();
 
-// Returns the families of cases for the questions that the built-in detector is asked besides
-// contacts, each in the configuration of the same name (DetectorUnderTest): "limits", how far a
-// step may go, and "within", which pairs come within a distance. Their cases are those of
-// families(), by turns.
+// Returns two families of cases for questions other than contacts: "limits", how far a step can go,
+// and "within", which pairs come within a distance. The built-in detector answers each question in
+// the configuration of the same name (DetectorUnderTest). The cases come from families() in turn.
 std::span<const Family> question_families();
 bool is_question_family(std::string_view name);
 
 // Returns the families of large cases of one size each, "size-1e3" to "size-1e6". Each of their
-// strata states a bound, but no bound is wanted, because their cases are few and slow.
+// strata states its bound, but no bound is required, because the cases are few and slow.
 std::span<const Family> size_families();
 bool is_size_family(std::string_view name);
 
@@ -63,14 +62,14 @@ RandomCase make_case(const Family& family, std::string_view id);
 // Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
 //
 // Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
-// is shortened to a share s of its displacement. The shortened step is committed if it is free,
-// and reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
+// is shortened to a share s of its displacement. The shortened step is committed if it is free, and
+// reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
 // number, times the greatest power of two that is at most half of the first contact time. Later
-// steps keep their own displacements, from the place of the mesh at that time.
+// steps keep their own displacements, and start where the mesh is by then.
 //
 // Frames and script are explicit, so the case replays without the oracle. A view primitive moves
-// with the frames. Expected facts and ghosts are dropped. Costs the oracle's judgement of each
-// step and of each shortened one. REQUIRES that `c` has no script of its own.
+// with the frames. Expected facts and ghosts are dropped. The oracle judges each step and each
+// shortened step. REQUIRES that `c` has no script of its own.
 Case with_response(const Case& c);
 
 }  // namespace assay::properties

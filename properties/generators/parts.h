@@ -12,18 +12,19 @@
 
 namespace assay::properties {
 
-// Rest shapes. Closed shapes have one piece, or two pieces that are apart, nested, one a cavity in
-// the other, or joined at a vertex or an edge. Unclosed shapes are closed ones with holes, sheets,
-// tubes, spirals, and rings with a gap that close. There are damaged shapes, too.
+// Rest shapes. A closed shape has one or two pieces. Two pieces are apart or nested, or joined at a
+// vertex or an edge, or one is a cavity in the other. Unclosed shapes are closed shapes with holes,
+// sheets, tubes, spirals, and rings with a gap that closes. Some shapes are damaged.
 //
-// The shapes in one piece lie about the origin, radius of the order of 1, outward normals.
+// Shapes of one piece lie about the origin. Their radius is of the order of 1, and their normals
+// point outward.
 
 // Returns a tetrahedron, bipyramid, sphere, capsule, star or torus with about `size` triangles
 // (4..200), in varied proportions; tagged "shape:...". `star_shaped` is set if all triangles are
 // positive from the origin.
 Draft simple_shape(Random& random, int size);
 
-// Returns such a shape with `star_shaped` set: convex, or a star with small hollows.
+// Returns a simple shape with `star_shaped` set: a convex shape, or a star with small hollows.
 Draft star_shape(Random& random, int size);
 
 // Returns any closed shape with about `size` triangles (4..200); tagged "shape:...". It starts
@@ -39,66 +40,65 @@ Draft open_shape(Random& random, int size);
 Draft open_star_shape(Random& random, int size);
 
 // Returns a mesh that a detector must accept although it is hardly the surface of a body: a closed
-// or unclosed shape with one to three damages. A damage is: triangles that are missing, turned
-// round or without area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices
-// that nothing uses, triangles between any vertices. Tagged "broken:...".
+// or unclosed shape with one to three damages. The damages are: triangles that are missing, turned
+// over or without area; doubled vertices and open seams; 3 to 6 triangles at an edge; vertices
+// without a triangle; triangles between any three vertices. Tagged "broken:...".
 Draft broken_shape(Random& random, int size);
 
-// A motion takes all vertices of one frame to the next.
+// A motion moves all vertices from one frame to the next.
 
 struct Motion {
   const char* name;
-  // Moves x, which begins as the last frame of the draft. `amount` is in (0, 1]; at 1 the motion is
-  // as large as the mesh, so that most shapes collide.
+  // Changes x, a copy of the last frame of the draft, into the next frame. `amount` is in (0, 1];
+  // at 1 the motion is as large as the mesh, so that most shapes collide.
   void (*move)(Random& random, const Draft& draft, Points& x, double amount);
   int weight;
   bool exact;              // makes coincidences: for degenerate families only
   bool small_meshes_only;  // brings all triangles into contact: for small meshes only
-  // Takes many vertices through one plane or line at the same time, so that all contacts are
-  // degenerate. Only degenerate families want that; elsewhere the motion is roughened.
+  // Moves many vertices through one plane or line at the same time, so that all contacts are
+  // degenerate. Only degenerate families use the motion as it is; other families roughen it.
   bool level = false;
 };
 
 std::span<const Motion> motions();
 
-// Chooses `count` of the motions, each at most once, so that a case is made of few of them (swarm
-// weights).
+// Chooses `count` different motions. A case uses only these few motions (swarm weights).
 std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too,
                                         bool for_a_small_mesh);
 
 // Moves every vertex a little aside, by up to amount / 32.
 void roughen(Random& random, Points& x, double amount);
 
-// Moves each vertex along its own ray from `centre`, by up to a half. Every triangle that is
-// positive from `centre` stays positive from there, between the frames too.
+// Moves each vertex along its own ray from `centre`, by up to amount / 2 of its distance. Every
+// triangle that is positive from `centre` stays positive from there, between the frames too.
 void breathe(Random& random, const Point& centre, Points& x, double amount);
 
 // Motions that keep a star shape positive from within, which is the premise of L4 and L5.
 
 // Adds `steps` frames to a draft whose triangles (and ghosts) are positive from the origin, and
-// chooses the view primitive. In seven of eight cases something comes close to failing: the view
-// value of a triangle falls to 1 % of the largest or less. The reason is a dent to the view-point,
-// a vertex that nearly reaches the opposite edge as seen from there, or a view-point just below the
-// surface. Tagged "motion:positive" and "close:...".
+// chooses the view primitive. In seven of eight cases a triangle nearly loses its sign: its view
+// value falls to 1 % of the largest value or less. The cause is a dent that nearly reaches the
+// view-point, a vertex that nearly reaches the opposite edge as seen from the view-point, or a
+// view-point just below the surface. Tagged "motion:positive" and "close:...".
 void move_positively(Random& random, Draft& draft, int steps);
 
 // Aims contacts, and places the view primitive, in a mesh that moves.
 //
-// Contacts: the path of a vertex is chosen so that it meets a feature at a chosen time. The time is
-// a dyadic number, and the place a dyadic combination of vertices. The contact is exact if
+// Contacts: the path of a vertex is chosen so that the vertex meets a feature at a chosen time. The
+// time is a dyadic number, and the place a dyadic combination of vertices. The contact is exact if
 // coordinates have few bits, and otherwise only nearly exact. Another contact may come first.
 
 // Changes one step of the draft, which has two frames or more. Tags "aim:..." say the aim (face,
-// edge, vertex, edge-edge, grazing, simultaneous, coplanar, region-border) and when (start, end,
-// mid-step). If `may_touch_at_start` is set, t = 0 and coplanar aims occur too.
+// edge, vertex, edge-edge, grazing, simultaneous, coplanar, region-border) and the time (start,
+// end, mid-step). If `may_touch_at_start` is set, t = 0 and coplanar aims occur too.
 void aim(Random& random, Draft& draft, bool may_touch_at_start);
 
-// Chooses a point or a segment anywhere as view primitive, or none (the detector's own). Sets q0,
-// q1 for all frames; tags "view:...". A third of the cases gets none.
+// Chooses a point or a segment anywhere as view primitive, or none, so that the detector makes its
+// own. Sets q0, q1 for all frames; tags "view:...". A third of the cases gets no primitive.
 void choose_view(Random& random, Draft& draft);
 
-// Does the same for meshes that are positive from `drift`, a place for each frame: chooses none,
-// the point `drift`, or a short segment about it.
+// Chooses the view primitive of a mesh that is positive from the point `drift`, which has a place
+// in each frame: no primitive, this point, or a short segment about it.
 void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 // Coordinate menus: the kinds of doubles that a case is made of. Each function changes all frames
@@ -110,24 +110,24 @@ void round_to_grid(Draft& draft, double scale, int bits);
 // Adds an offset with exponents up to 40, so that low bits are rounded away.
 void move_far(Random& random, Draft& draft);
 
-// Scales by powers of two: one for all, one for each axis, or one for each vertex (from the origin,
-// so that triangles positive from there stay so). The powers lie within 2^+-60; one in 16 up to
-// 2^+-400.
+// Scales by powers of two from the origin: one power for all coordinates, one for each axis, or one
+// for each vertex (triangles that are positive from the origin then stay positive). The powers lie
+// between 2^-60 and 2^60; in one case of 16, between 2^-400 and 2^400.
 void mix_scales(Random& random, Draft& draft);
 
 // Makes all coordinates integers times 2^-1074, or replaces a few coordinates by such numbers.
 void make_denormal(Random& random, Draft& draft);
 
-// Makes a mesh nearly degenerate, in one or two of these ways: neighbouring doubles; a vertex
-// within 2^-20 to 2^-45 of another vertex, or of an edge or a face that does not hold it, in one
-// frame or in all. Tagged "menu:...".
+// Makes a mesh nearly degenerate, in one or two of these ways: some coordinates go to neighbouring
+// doubles; a vertex comes within 2^-20 to 2^-45 of another vertex, or of an edge or a face without
+// this vertex, in one frame or in all frames. Tagged "menu:...".
 void miss_nearly(Random& random, Draft& draft);
 
 // Everyday numbers: lengths, places and ends of motions as programs make them.
 //
 // Sizes are 10^-4 to 10^6 and no powers of two. Places are decimals, inches, quotients or float32,
-// or are turned by any angle; ends come from x + v dt, from x + dx, or are rounded as places are.
-// So mantissas are full and x0 + (x1 - x0) is often not x1, and yet many faces are level, like
+// or are turned by any angle. The end of a motion is x + v dt or x + dx, or is rounded as places
+// are. So mantissas are full and x0 + (x1 - x0) is often not x1, and yet many faces are level, like
 // floors and boxes. Detectors that round their input err here. They err neither at random places,
 // where nothing is level, nor at small integers, where nothing is rounded.
 
@@ -135,13 +135,14 @@ void miss_nearly(Random& random, Draft& draft);
 double everyday_size(Random& random);
 
 // Returns the double `units` units of the last place from `c` in the direction of the sign of
-// `towards`, or in the opposite one if `units` is negative. At 0 the units are those of 1.
+// `towards`, or in the opposite direction if `units` is negative. If c is 0, the units are those of
+// 1.
 double units_beyond(double c, int units, double towards);
 
-// Moves the first `first_group` of four points, which come by `way`, along one axis until they
-// touch the other points or have passed them by less than a unit of the last place, and then
-// `units` units beyond. One point touches a face, two points touch an edge, by the exact sign of
-// their volume.
+// Moves the first feature of the four points (the first `first_group` points, which come by `way`)
+// along one axis, until it touches the other feature or has passed it by less than a unit of the
+// last place; then moves it `units` units farther. The feature is a point that meets a face, or an
+// edge that meets an edge. The exact sign of the volume of the four points decides.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
 // Returns by how many units of the last place a motion ends beyond a feature: 0 in four of six
@@ -155,7 +156,7 @@ class EverydayNumbers {
 
   // Returns the place of a point that is given in units of the size.
   Point place(const Point& x) const;
-  // Returns the end of a vertex at `x0` that moves by `way`, given in units of the size.
+  // Returns the place to which a vertex at `x0` moves by `way`, which is in units of the size.
   Point end(const Point& x0, const Point& way) const;
   // Returns whether equal coordinates stay equal in places and ends.
   bool keeps_levels() const { return !is_turned_; }
@@ -171,30 +172,30 @@ class EverydayNumbers {
   Rounding rounding_;
   Motion motion_;
   int grain_ = 0;                // places are multiples of 10^grain_ ...
-  double multiplier_ = 1;        // ... times this
-  double divisor_ = 1;           // ... over this
-  double time_step_ = 1;         // of a motion by velocity
-  Point offset_ = {0, 0, 0};     // of the whole scene, in units of the size
-  bool is_turned_;               // by any angle, before places are rounded
-  std::array<Point, 3> rows_{};  // of the turn
+  double multiplier_ = 1;        // ... times multiplier_ ...
+  double divisor_ = 1;           // ... divided by divisor_
+  double time_step_ = 1;         // dt of Motion::velocity
+  Point offset_ = {0, 0, 0};     // moves the whole scene; in units of the size
+  bool is_turned_;               // the scene is turned before places are rounded
+  std::array<Point, 3> rows_{};  // of the rotation matrix
 };
 
-// Gives a draft everyday numbers, and puts its landings in place. Before, frames, view and axis are
-// in units of the size.
+// Gives a draft everyday numbers, and carries out its landings. REQUIRES frames, view primitive and
+// axis in units of the size.
 void use_everyday_numbers(Random& random, Draft& draft);
 
 // Makes two pieces of about `size` triangles together, in units of the size. The lower piece has a
 // level top and rests or rises; the upper piece comes down on it. At the end of a step, a vertex or
 // a level edge of the upper piece lands on the top, on its border or at its corner. In other cases
-// the upper piece goes on through the top, slides along it, begins there, or stays and leaves
-// again. A third of the open pieces is flat and mostly slides within the plane of the top.
+// the upper piece goes on through the top, slides along it, starts on it, or stays on it and leaves
+// again. A third of the open pieces are flat, and these mostly slide within the plane of the top.
 Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Relations between pairs for random cases: which pairs count (detector/mesh/counted_pairs.h).
 
-// Gives the case a relation that leaves something out: bodies (its components), some of which do
-// not meet; one or two rings; or pairs nearer at rest (in the first frame) than a distance of the
-// order of an edge. The relation is one of triangles or of features.
+// Gives the case a relation that leaves pairs out: pairs of bodies (the case's components) that are
+// not to meet; pairs within one or two rings; or pairs that at rest (in the first frame) are nearer
+// than about the length of an edge. The relation speaks of triangles or of features.
 void add_relation(Random& random, RandomCase& random_case);
 
 // The one thing that a relation leaves out.
@@ -209,41 +210,43 @@ constexpr auto names_of(LeftOut) {
 }
 
 // Returns a relation of triangles, or sometimes of features, that leaves `left_out` out of the
-// case. single_pairs: about every second pair of `in_contact`, or one of its feature pairs.
-// near_at_rest: pairs nearer than a length between that of an edge and 2^-10 of it, with one of the
-// frames at rest. REQUIRES left_out != LeftOut::nothing.
+// case. LeftOut::single_pairs leaves out about every second pair of `in_contact`, or one feature
+// pair of such a pair. LeftOut::near_at_rest leaves out pairs that, in the frame chosen as rest
+// shape, are nearer than a drawn length; this length is between 2^-10 of an edge length and a whole
+// edge length. REQUIRES left_out != LeftOut::nothing.
 CountedPairs relation_without(LeftOut left_out, Random& random, const Case& c,
                               std::span<const PairContact> in_contact);
 
-// Bodies that are added to a case, far from its own.
+// Bodies that are added to a case, far from its own mesh.
 
 // Two triangles without a common vertex that come well within a distance d, just within it, or just
-// not within it. a0 a1 a2 rests, and b0 b1 b2 moves rigidly over a step. Their nearest features lie
-// in a known direction, so their distance is known without rounding. It is d, the double before or
-// after d, a share of 2^-20 less, or half of d; at the end of the step, at its start, throughout,
-// or only in the middle. The features are a vertex and a face, edge or vertex, or two edges,
-// crossing or parallel.
+// not within it. Triangle a0 a1 a2 rests, and b0 b1 b2 moves rigidly over a step. The direction
+// between their nearest features is known, so their distance is known without rounding. The
+// distance is d, the double before or after d, (1 - 2^-20) d, or d/2. It is reached at the end of
+// the step, at its start, throughout the step, or only in the middle. The features are a vertex and
+// a face, edge or vertex, or two edges, crossing or parallel.
 struct Approach {
   std::array<MovingPoint, 3> a, b;
 };
 Approach draw_approach(Random& random, double d);
 
-// Adds the two triangles of an approach to the mesh, far from it, in one step of its script;
-// expected facts of the case are dropped. A query (query_case.h) becomes one of the features of an
-// approach instead: b0 and the face a, or the edges a0a1 and b0b1. A mesh with coordinates above
-// most_aimed stays as it is. REQUIRES a step, and d from least_aimed to most_aimed.
+// Adds the two triangles of an approach, far from the mesh, and moves them in one step of the
+// script. Drops the expected facts of the case. If the case is a query (query_case.h), returns a
+// query of two features of an approach instead: b0 and the face a, or the edges a0a1 and b0b1. A
+// mesh with coordinates above most_aimed stays as it is. REQUIRES a step, and d from least_aimed to
+// most_aimed.
 Case with_approach(Case c, double d, Random& random);
 inline constexpr double least_aimed = 0x1p-900, most_aimed = 0x1p900;
 
-// A body that makes a small case large, so that a detector shares its work out to several threads.
+// A body that makes a small case large, so that a detector divides its work among several threads.
 //
 // Returns the case with a sheet far from the mesh, whose 12,544 vertices follow those of the mesh:
 // some loops over vertices then have four pieces (detector/mesh/for_all.h). With two or three
-// threads some lane takes two of them. Seen from above the sheet is a grid at rest; its heights
-// change from frame to frame. So it meets nothing, and no two of its triangles without a common
-// vertex come within `apart`: every step has the same answer as without the sheet. In a relation
-// the sheet is a body of its own. Views and facts are dropped. Returns nothing if coordinates are
-// too large or too small.
+// threads, one thread works on two of these pieces. Seen from above the sheet is a grid at rest;
+// its heights change from frame to frame. So it meets nothing, and no two of its triangles without
+// a common vertex come within `apart`: every step has the same answer as without the sheet. In a
+// relation the sheet is a body of its own. Views and facts are dropped. Returns nothing if
+// coordinates are too large or too small.
 std::optional<Case> with_far_body(Case c, double apart);
 
 }  // namespace assay::properties

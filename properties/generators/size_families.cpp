@@ -1,10 +1,10 @@
-// The families of one size each. Shapes take turns by the index of the case, so that a few cases
-// show all shapes.
+// Families of large cases, each family of one size. The shape alternates with the index of the
+// case, so that a few cases show all shapes.
 //
 // A shape fills an empty draft with about `triangles` triangles, at least 100, and states the
 // places of the vertices at the end of its one motion. Lengths of edges are of the order of 1,
-// unless a shape says otherwise. Each starts without contact, so that every contract with a start
-// takes it.
+// unless a shape says otherwise. Each shape starts without contact, so that its cases satisfy any
+// contract about the start.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,6 @@
-// L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which the
-// closure adds; and the claims of the detector. L13 and L14: pairs that normal cones may leave out.
+// L3, L6 and L7: which contacts of a step are in K, which pairs K may leave out, and which pairs
+// the closure adds. Also the claims of the detector. L13 and L14: pairs that normal cones may leave
+// out.
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ constexpr Law first_contact_law_table[] = {
      "pair in K = (V+,V-) u (U,V0) u (U,Vv), pairs of two components included.",
      "pair set, view signs", each_step<first_contact_is_a_candidate>},
     {"L6_OutsideKSomethingMetBefore", "L6",
-     "Where all contacting pairs of a place are outside K, a triangle there was in contact "
+     "If all pairs in contact at a place are outside K, a triangle at this place was in contact "
      "strictly earlier.",
      "pair set, view signs", each_step<outside_k_something_came_before>},
 };
@@ -127,8 +128,8 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
 
 constexpr Law pair_set_law_table[] = {
     {"L7_ClosureIsThePairSet", "L7",
-     "Closing K over the contacts that it finds gives the complete pair set of the step: the "
-     "oracle's pairs, each with its first time to the last bit.",
+     "The closure of K gives the complete pair set of the step: the oracle's pairs, each with its "
+     "first time to the last bit.",
      "pair set", each_step<closure_is_the_pair_set>},
     {"Claim_FreeSound", "claim", "Free is never answered when there is a contact.", "pair set",
      each_step<claim_holds<Claim::free_sound>>},
@@ -139,9 +140,9 @@ constexpr Law pair_set_law_table[] = {
     {"Claim_FirstPairs", "claim",
      "Every place of the first contact (connected part of the contact graph) has a reported pair.",
      "pair set", each_step<claim_holds<Claim::first_pairs>>},
-    {"Claim_AllPairs", "claim", "Every pair in contact is reported, none with a later time.",
-     "pair set", each_step<claim_holds<Claim::all_pairs>>},
-    {"Claim_NoSpurious", "claim", "No pair, time or collision is reported before there is one.",
+    {"Claim_AllPairs", "claim", "Every pair in contact is reported, and not too late.", "pair set",
+     each_step<claim_holds<Claim::all_pairs>>},
+    {"Claim_NoSpurious", "claim", "No pair, time or collision is reported before its contact.",
      "pair set", each_step<claim_holds<Claim::no_spurious>>},
     {"Claim_Total", "claim", "Every valid step is answered.", "nothing",
      each_step<claim_holds<Claim::total>>},

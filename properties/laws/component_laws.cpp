@@ -85,7 +85,7 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
       const bool dirty = (facts.result(s).doubts[at(t)] & detector::doubt::dirty) != 0;
       if (dirty && facts.starts_by_view_alone()) continue;
       if (dirty == (alone.clean[i] != 0)) {
-        return fmt::format("triangle {} is {}; where its component is alone it is {}", t,
+        return fmt::format("triangle {} is {}; if its component is alone, it is {}", t,
                            dirty ? "dirty" : "clean", alone.clean[i] ? "clean" : "not clean");
       }
     }
@@ -96,13 +96,13 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
 std::string difference_alone(const CaseFacts& facts, const StepResult& among,
                              const StepResult& alone, std::size_t component) {
   const auto& own = facts.surface().mesh.components[component].triangles;
-  if (alone.doubts.size() != own.size()) return "no answer alone";
+  if (alone.doubts.size() != own.size()) return "no answer if the component is alone";
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (among.signs[at(own[i])] != alone.signs[i]) {
       return fmt::format("triangle {} has a different sign if its component is alone", own[i]);
     }
     if (among.doubts[at(own[i])] != alone.doubts[i]) {
-      return fmt::format("triangle {} has other doubts where its component is alone", own[i]);
+      return fmt::format("triangle {} has other doubts if its component is alone", own[i]);
     }
   }
   auto next = alone.pairs.begin();
@@ -113,10 +113,10 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
     }
     const bool same = next != alone.pairs.end() && own[at(next->pair.a)] == contact.pair.a &&
                       own[at(next->pair.b)] == contact.pair.b && next->time == contact.time;
-    if (!same) return fmt::format("({}, {}) differs alone", contact.pair.a, contact.pair.b);
+    if (!same) return fmt::format("({}, {}) differs if alone", contact.pair.a, contact.pair.b);
     ++next;
   }
-  return next == alone.pairs.end() ? "" : "more contacts alone";
+  return next == alone.pairs.end() ? "" : "more contacts if the component is alone";
 }
 
 // Checks that a component by itself behaves as it does among others. One component is checked,
@@ -143,16 +143,16 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law component_law_table[] = {
     {"L10_PairsOfTwoComponentsNeedNoSigns", "L10",
-     "Triangles of two components that meet are found, with their first time, also where both are "
-     "clean and of one strict sign.",
+     "Triangles of two components that meet are found, with their first time, even if both "
+     "triangles are clean and have the same strict sign.",
      "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
     {"L10_ComponentsAreCleanByThemselves", "L10",
-     "At a new start, components in each other's boxes (nested, or interpenetrating) have the "
-     "dirty triangles that each has alone: its layers count only itself.",
+     "At a new start, a component in the box of another one (nested, or interpenetrating) has the "
+     "same dirty triangles as if it were alone: its layers count only itself.",
      "layers of each component alone", each_step<components_are_clean_by_themselves>},
     {"L10_EachComponentAsIfAlone", "L10",
-     "A component run by itself, from its own primitive and apexes, has the same signs, doubts and "
-     "contacts of its own as among the others.",
+     "A component that is run alone, with its own primitive and apexes, has the same signs, doubts "
+     "and own contacts as in the whole mesh.",
      "nothing", check_component_alone},
 };
 

@@ -78,7 +78,7 @@ bool any_zero_area(CaseFacts& facts, std::size_t s) {
 Observation free_only_when_the_oracle_says_so(CaseFacts& facts, std::size_t s, bool doubtful) {
   if (!doubtful || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   return holds_if(facts.result(s).answer != Answer::free || facts.judgement(s).pairs.empty(),
-                  "free, and the oracle has a contact");
+                  "answered free, but the oracle finds a contact");
 }
 
 Observation broken_edges(CaseFacts& facts, std::size_t s) {

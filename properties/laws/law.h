@@ -1,10 +1,11 @@
-// A law: a statement that holds in every step of every case, as code, and how often it was met.
+// A law is a statement, as code, that holds in every step of every case. A tally says how often the
+// premise of a law held.
 //
-// A law that is never met proves nothing, so each law counts the steps in which its premise held,
-// and among these the close ones. In a close step the law was nearly broken or nearly did not
-// apply: the smallest of the values on which it rests is at most 1 % of the largest. These values
-// are |view values| over the step; for L13 they say how far the triangles of a certified patch face
-// its direction (case_facts.h).
+// A law whose premise never holds proves nothing, so each law counts the steps in which its premise
+// held, and the close steps among these. In a close step the law was nearly broken or nearly did
+// not apply: the smallest of the values on which the law rests is at most 1 % of the largest. These
+// values are |view values| over the step; for L13 they say how far the triangles of a certified
+// patch face the direction of the patch (case_facts.h).
 #pragma once
 
 #include <cstdint>
@@ -19,23 +20,23 @@ struct CaseChange;
 
 struct LawTally {
   std::uint64_t premise = 0;       // steps in which the premise held
-  std::uint64_t close = 0;         // steps of these that were close
-  std::uint64_t broken_steps = 0;  // steps of these that refute the law
+  std::uint64_t close = 0;         // steps with the premise that were close
+  std::uint64_t broken_steps = 0;  // steps with the premise that refute the law
   std::string first_broken;        // case id, step, finding; the least text of several tallies
 
   LawTally& operator+=(const LawTally& other);
   friend bool operator==(const LawTally&, const LawTally&) = default;
 };
 
-// The cullings under which a campaign has to meet the premise of a law. Each culling finds in its
-// own way which triangles are clean from step to step: view-point finds them after every step, and
-// view-auto may have done a step without views. So a law about clean triangles that is met under
-// one culling says nothing about the other cullings.
+// The cullings under which the premise of a law has to hold somewhere in a campaign. Each culling
+// finds in its own way which triangles are clean from step to step: Culling::view_point finds them
+// after every step, but Culling::view_auto does some steps without views. So if a law about clean
+// triangles holds under one culling, that says nothing about the other cullings.
 enum class PremiseScope : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
 
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
-  std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
+  std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for laws without a number
   std::string_view statement;  // the law in one or two sentences
   std::string_view needs;      // the law's demands on the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds its tally of this case

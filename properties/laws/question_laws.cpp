@@ -122,8 +122,8 @@ constexpr Law question_law_table[] = {
      "pairs, each at its time.",
      "what comes within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
-     "A limit allows a way that is free and, unless rounding prevents it, nine tenths or more of "
-     "what is possible; a free step is allowed whole; the state stays as it is.",
+     "The way that a limit allows is free and, unless rounding prevents it, at least nine tenths "
+     "of the possible way; a free step is allowed whole; the state stays as it is.",
      "contacts in the step, and on the allowed way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
      "A step that is stopped is undecided and cannot be committed; evaluated whole afterwards, it "

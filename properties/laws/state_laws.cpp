@@ -55,7 +55,7 @@ Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
     if (facts.known_from(next) != s || !facts.has_views(next)) continue;
     const auto dirty = dirty_triangles(facts, next);
     for (std::size_t t = 0; t < is_held.size(); ++t) {
-      if (is_held[t] && dirty[t]) return fmt::format("triangle {} became dirty for nothing", t);
+      if (is_held[t] && dirty[t]) return fmt::format("triangle {} became dirty without cause", t);
     }
   }
   return holds();
@@ -144,18 +144,18 @@ constexpr Law state_law_table[] = {
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
-     "At a verified new start the dirty triangles are those that touch something of S or are not "
-     "of the common layer of their component; under view-auto, which skips layers, at least these.",
+     "At a verified new start a triangle is dirty exactly if it touches S or is not of the common "
+     "layer of its component; `--culling view-auto` skips layers, so more can be dirty.",
      "layers", each_step<new_start_is_the_oracles_layers>, 1, PremiseScope::each_culling},
     {"L9_AllPositiveAtTheStartReleases", "L9",
-     "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
-     "is clean, whatever came before.",
+     "If all of S is positive at t=0 and has winding number 1 at the primitive, the component is "
+     "clean, whatever came before.",
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
      PremiseScope::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
      "After a step without views, a triangle is dirty if the step left it in doubt and it now "
-     "touches something or is not of the common layer. It leaves in doubt all triangles of "
-     "components with ghosts; as a first step, also those of closed ones that L9 calls dirty.",
+     "touches something or is not of the common layer. The step leaves in doubt all triangles of "
+     "components with ghosts; a first step, also triangles of closed components dirty by L9.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };
@@ -225,8 +225,8 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
 
 constexpr Law boundary_law_table[] = {
     {"L11_ViolatedIsWhatGhostsTouch", "L11",
-     "The violated triangles are exactly those that a ghost of their component touches at any time "
-     "of the step (at a new start also those that it pierces at t=0).",
+     "A triangle is violated exactly if a ghost of its component touches it at any time of the "
+     "step (at a new start, also if a ghost pierces it at t=0).",
      "triangles touched by ghosts", each_step<violated_is_what_ghosts_touch>},
     {"L11_VvHoldsWhatWasTouchedUntilClean", "L11",
      "A triangle that a ghost touched in a committed step is in Vv of the following ones until it "

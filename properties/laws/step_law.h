@@ -10,7 +10,7 @@
 
 namespace assay::properties {
 
-// The laws of each file, a few laws about one thing; law.cpp joins them.
+// Return the laws of each file, which are about one thing. law.cpp joins all lists.
 
 std::span<const Law> view_laws();            // L1, L2, sets
 std::span<const Law> first_contact_laws();   // L3, L6
@@ -27,7 +27,7 @@ std::span<const Law> question_laws();        // L16, L17, stops
 std::span<const Law> option_laws();          // pairs of options, states, sizes
 
 // The observation of a law in a step: nothing if its premise does not hold; else a text that says
-// how the law is broken, empty if it holds.
+// how the law is broken. The text is empty if the law holds.
 using Observation = std::optional<std::string>;
 
 inline Observation not_met() { return std::nullopt; }

@@ -161,8 +161,8 @@ constexpr Law view_law_table[] = {
      "three corners, each seen from its own nearest point.",
      "nothing: exact rationals at sampled times", each_step<inner_values_lie_between_corners>},
     {"L1_SignsHoldAtEveryPoint", "L1",
-     "Where the detector calls a triangle positive or negative, every view value of it has that "
-     "sign, at corners and inside.",
+     "If the detector calls a triangle positive or negative, every view value of the triangle has "
+     "that sign, at corners and inside.",
      "nothing: exact rationals at sampled times", each_step<signs_hold_inside>},
     {"L2_SignsAreTheOracles_Point", "L2",
      "Seen from a point, the sign of each triangle of the mesh over the whole step is the exact "
@@ -297,7 +297,7 @@ constexpr Law one_sign_law_table[] = {
      "(1,0).",
      "pair set, view signs, winding number, layers", each_step<all_positive_is_free<true>>},
     {"L5_AllPositiveAndWindingOneIsFree_Unclosed", "L5",
-     "Likewise a component with holes, if its ghosts are positive too; no ghost touches it.",
+     "The same holds with holes if all ghosts are positive; no ghost touches the component.",
      "pair set, view signs, winding number, layers, triangles touched by ghosts",
      each_step<all_positive_is_free<false>>},
     {"L5_TheFreePathIsTaken", "L5",

@@ -189,12 +189,12 @@ std::optional<std::string> not_as_known(const QueryTask& task) {
   for (const auto want : {Want::yes_no, Want::first_time}) {
     const auto answer = oracle_answer(task, want);
     if (answer.decision != truth->decision || (answer.first && answer.first != truth->first))
-      return fmt::format("`{}`: its answer or time is wrong", task.name);
+      return fmt::format("`{}`: the answer or the time is wrong", task.name);
     const auto name_of = [](int rung) {
       return method_of("oracle")->rungs[static_cast<std::size_t>(rung)];
     };
     if (answer.rung != truth->rung)
-      return fmt::format("`{}`: rung {} decided, {} must", task.name, name_of(answer.rung),
+      return fmt::format("`{}`: rung {} decided, but rung {} must", task.name, name_of(answer.rung),
                          name_of(truth->rung));
   }
   return {};
@@ -259,7 +259,7 @@ std::string exact_text(const QueryTask& task) {
   if (const auto& d = task.within)
     out += fmt::format("distance {:a} + {:a}\n", d->first, d->second);
   out += task.query.first_group == 1 ? "vertex-face: vertex, then three corners\n"
-                                     : "edge-edge: two ends, then two ends\n";
+                                     : "edge-edge: the ends of one edge, then of the other\n";
   for (const auto& path : task.query.points) out += "  " + exact_text(path) + "\n";
   return out;
 }

@@ -1,5 +1,5 @@
-// The questions of an elementary query, contact or distance; the methods that answer them, which
-// must all agree; and the check that they do.
+// Elementary queries, of contact or of distance; the methods that answer them; and the check that
+// all methods agree.
 #pragma once
 
 #include <array>
@@ -16,14 +16,15 @@
 
 namespace assay::properties {
 
-// A query in the order of both rooms: vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}.
+// A query, with its points in the order that detector and oracle use: vertex-face {0}|{1,2,3},
+// edge-edge {0,1}|{2,3}.
 using Query = FourPoints;
 
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
   std::optional<TimeEnclosure> first = {};                 // set if the method answers with a time
   int rung = 0;                                            // the rung of the method that decided
-  // Only from the distance referee: the times between which the first one lies.
+  // Set by the distance referee alone: the times between which the first time lies.
   std::optional<oracle::DistanceVerdict> proof = {};
 };
 
@@ -31,10 +32,10 @@ struct MethodAnswer {
 struct QueryTask {
   Query query;
   std::optional<double> met_at = {};  // a time at which the answer is yes, if known
-  // The question is whether, and when first, the features come within this distance. Absent:
-  // whether they meet.
+  // If set, the question is whether, and when first, the features come within this distance. If
+  // not, it is whether, and when first, they meet.
   std::optional<detector::Separation> within = {};
-  // For a listed query: its name, and the answer that the oracle must give by this rung.
+  // For a listed query: its name, and the answer and the rung that the oracle must have.
   std::string name = {};
   std::optional<MethodAnswer> truth = {};
 };
@@ -50,7 +51,7 @@ struct QueryMethod {
   bool is_referee = false;     // leaves open what it cannot prove
   const char* word = nullptr;  // a user's word for the method (method_of)
   bool knows_distance = false;
-  std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "" for none
+  std::array<const char*, 5> rungs = {"", "", "", "", ""};  // their names; "": no rung
   // The claims that the method makes, out of free-sound and no-spurious. Bounded arithmetic may
   // raise false alarms; plain doubles and floats promise nothing.
   Claims claims = {Claim::free_sound, Claim::no_spurious};
@@ -59,16 +60,17 @@ struct QueryMethod {
 // Returns the oracle's answer, with the first time if that is wanted.
 MethodAnswer oracle_answer(const QueryTask& task, Want want);
 
-// Returns all methods. The self-test compares these with the oracle's timed answer: the oracle
-// asked for yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder
-// (yes or no, and timed), the detector's integers alone, and the second referee. The second referee
-// has no times, and leaves touches open. For queries of distance it compares the distance referee,
-// the oracle's contacts if the distance is 0, and the oracle's least distance, which must be at
-// most the distance if the answer is yes.
+// Returns all methods. The self-test compares the following methods with the oracle's timed answer.
+// - Queries of contact: the oracle asked for yes or no, CGAL's algebraic kernel without the
+//   oracle's rungs, the detector's ladder (yes or no, and timed), the detector's integers alone,
+//   and the second referee. The second referee has no times, and leaves touches open.
+// - Queries of distance: the distance referee, the oracle's contacts if the distance is 0, and the
+//   oracle's least distance, which must be at most the query's distance if the answer is yes.
 std::span<const QueryMethod> query_methods();
 
-// Returns the method that a user may ask by this word, for yes or no: the oracle, its referee with
-// the greatest limits of work, or the detector's ladder in some arithmetic. Null if there is none.
+// Returns the method that a user names by this word, and that answers yes or no: the oracle, its
+// referee with the greatest limits of work, or the detector's ladder in some arithmetic. Null if
+// there is none.
 const QueryMethod* method_of(std::string_view word);
 
 // Puts one query to the methods, and tells their contradictions.
@@ -76,25 +78,25 @@ const QueryMethod* method_of(std::string_view word);
 // The results of a family of queries.
 struct QueryTally {
   std::uint64_t queries = 0;
-  std::uint64_t contacts = 0;  // or within the distance
+  std::uint64_t contacts = 0;  // or queries within the distance
   std::uint64_t contradictions = 0;
-  std::uint64_t open = 0;    // a referee could not tell
+  std::uint64_t open = 0;    // queries that a referee leaves open
   oracle::RungCounts rungs;  // the rungs of the oracle's timed answer
 
   static constexpr bool adds_up = true;
 };
 ASSAY_FIELDS(QueryTally, queries, contacts, contradictions, open, rungs)
 
-// Compares every method that checks such queries with the oracle's timed answer; `pick` chooses the
-// methods that get only some of the queries. Verdicts must be equal, times equal in every bit or
-// within the proved bounds, a known time must not be missed, and a listed query must have its known
-// answer by its rung. Returns the contradiction, or nothing. The slowest part is the algebraic
-// kernel.
+// Compares the oracle's timed answer to a query with the answer of every method for this kind of
+// query. `pick` decides whether a method that gets only some of the queries gets this one.
+// Decisions must be equal. Times must be equal in every bit, or lie within the proved bounds. A
+// known time must not be missed. A listed query must have its known answer, and the known rung must
+// decide it. Returns the contradiction, or nothing. The slowest part is the algebraic kernel.
 std::optional<std::string> check_query(const QueryTask& task, std::uint64_t pick, QueryTally& tally,
                                        std::span<const QueryMethod> methods = query_methods());
 
-// Returns whether the answer contradicts that of the oracle, or the known time. An open answer does
-// too if it proves that the first time is elsewhere.
+// Returns whether the answer contradicts the oracle's answer or the known time. An open answer is a
+// contradiction if it proves that the first time is elsewhere.
 bool contradicts(const MethodAnswer& answer, const MethodAnswer& of_oracle, const QueryTask& task);
 
 // Returns the question, the kind and all coordinates as hexadecimal doubles, one point a line.

@@ -1,5 +1,5 @@
-// Runs the oracle's own check: families of queries go through all methods, in several threads. The
-// small worlds among these families stand last.
+// Runs the self-test of the oracle: families of queries go through all methods, in several threads.
+// Some of these families are small worlds, which are declared last.
 #pragma once
 
 #include <array>
@@ -18,8 +18,9 @@ namespace assay::properties {
 // A family of cases of the self-test. Each case is made from its seed and index alone.
 struct SelfTestFamily {
   std::string name, about;
-  // All queries of a listed family are checked, if at least `from` random small-integer queries are
-  // asked for. A random family has one query for each `one_in` of these.
+  // A listed family has `list_size` queries. All of them are checked if at least `from` random
+  // small-integer queries are requested. A random family has one query for each `one_in` random
+  // small-integer queries.
   std::uint64_t list_size = 0, from = 0, one_in = 0;
   // Returns the query of a case; nothing for some indices of a small world, which hold no case.
   std::function<std::optional<QueryTask>(std::uint64_t seed, std::uint64_t index)> query;
@@ -47,7 +48,7 @@ Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::
 
 struct SelfTestOptions {
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;  // random small-integer queries; sets the size of the others too
+  std::uint64_t queries = 20'000;  // random small-integer queries; other families scale with it
   int jobs = 1;                    // threads; counts and failures do not depend on it
   std::function<bool()> stop;      // asked between cases, from any thread; may be empty
 };
@@ -64,7 +65,8 @@ struct FamilyResult {
   std::vector<SelfTestFailure> failures;  // the first few, ascending by index
 };
 
-// Checks a family. `progress` is told how many of its indices are done, from one thread at a time.
+// Checks a family. `progress` is called with the number of indices that are done, from one thread
+// at a time.
 FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
                         const std::function<void(std::uint64_t done_count)>& progress);
 
@@ -78,8 +80,8 @@ std::optional<SelfTestCase> self_test_case(const std::vector<SelfTestFamily>& fa
 
 // Small worlds of elementary queries, enumerated completely: all queries whose points lie on a tiny
 // grid at t=0 and t=1, one of each class under the symmetries that change neither the answer nor
-// the time. These are the order of the vertices in a group, the order of the two edges, axes
-// exchanged, and axes mirrored.
+// the time. The symmetries change the order of the vertices in a group or the order of the two
+// edges, exchange axes, or mirror axes.
 
 enum class WorldMotion : std::uint8_t { every_point_moves, one_point_moves };
 
@@ -89,8 +91,8 @@ class SmallWorld {
   // on the other axes are 0.
   SmallWorld(int side, int dimensions, WorldMotion motion);
 
-  // Returns the number of places of the enumeration. Most places hold no query, because an equal
-  // one stands at another place.
+  // Returns the number of places of the enumeration. Most places hold no query, because an
+  // equivalent query has another place.
   std::uint64_t places() const;
   // Returns the query at a place, or nothing. Takes 10 ns to 2 us.
   std::optional<Query> at(std::uint64_t place) const;
@@ -102,7 +104,7 @@ class SmallWorld {
   struct Arranged {
     Paths paths;
     int first_group;
-    bool mover_first;  // the order within the mover's group is fixed by the mover
+    bool mover_first;  // the mover fixes the order within its group
   };
 
   std::optional<Arranged> arranged_at(std::uint64_t place) const;
@@ -112,7 +114,7 @@ class SmallWorld {
   int side_, dimensions_;
   WorldMotion motion_;
   int grid_points_;
-  std::vector<std::vector<int>> symmetries_;  // grid point to grid point
+  std::vector<std::vector<int>> symmetries_;  // each maps grid points to grid points
 };
 
 }  // namespace assay::properties

@@ -40,8 +40,8 @@ inline std::array<std::int32_t, 3> as_set(std::array<std::int32_t, 3> corners) {
 Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep);
 
 // Returns the case in which vertex v becomes target[v]. Chains of targets are followed to their
-// end; REQUIRES that they have one. Triangles that then repeat an index are dropped, and so are
-// pairs of equal, oppositely oriented triangles, so that a cycle stays a cycle.
+// end; REQUIRES that every chain has an end. Triangles that then repeat an index are dropped, and
+// so are pairs of equal, oppositely oriented triangles, so that a closed mesh stays closed.
 Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target);
 
 // Closes each loop of unmatched edges with a fan from the loop's vertex number `corner` (modulo
@@ -51,24 +51,24 @@ Case close_loops(const Case& c, std::size_t corner);
 // Returns the case seen from a fixed point, the mean of all places of all vertices.
 Case seen_from_its_middle(const Case& c);
 
-// Returns the case with these steps only. The script is left out if its steps are just the
-// consecutive frames.
+// Returns the case with these steps only. The script is left out if each step goes from one frame
+// to the next.
 Case with_steps(const Case& c, const std::vector<CaseStep>& steps);
 
 // Carries the relation of a case, which says which pairs count (detector/mesh/counted_pairs.h),
 // over to a changed mesh.
 
-// The map from old to new vertices. Several old vertices may become one new one, which takes body
-// and place at rest from the old vertex that `was` names.
+// The map from old to new vertices. Several old vertices can become one new vertex. It gets its
+// body and its place at rest from the old vertex that `was` names.
 struct NewVertices {
   std::vector<std::int32_t> number;  // by old vertex: its new number, or -1 if it is gone
   std::vector<std::int32_t> was;     // by new vertex: the number of one old vertex
 };
 
 // Returns the relation for the triangles `after`, over new vertices; `before` are the old
-// triangles, over old vertices. A triangle stays the same if its three vertices do. Listed pairs
-// with a part that is gone are left out, and so are bodies without vertices; the others are
-// renumbered in their old order.
+// triangles, over old vertices. A triangle stays the same if its three vertices stay. Listed pairs
+// with a dropped part are left out, and bodies without vertices, too. All other pairs and bodies
+// are renumbered in their old order.
 CountedPairs carried_over(const CountedPairs& pairs, const Triangles& before,
                           const Triangles& after, const NewVertices& vertices);
 

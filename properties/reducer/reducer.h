@@ -1,9 +1,10 @@
 // Reduces a failing case to the smallest case that fails with the same signature.
 //
-// A list of passes (search.h) runs in a fixed order to a fixed point. A pass proposes cases; a case
-// is kept if it is smaller (MeshSize) and the judge finds the same signature in it. No proposal is
-// judged twice, only valid cases are judged (case_edits.h). The same case, judge and limit of calls
-// give the same bytes; a limit of time can only end the search earlier.
+// A list of passes (search.h) runs in a fixed order, again and again, until no pass finds a smaller
+// case. A pass proposes cases; a case is kept if it is smaller (MeshSize) and the judge finds the
+// same signature in it. No proposal is judged twice, only valid cases are judged (case_edits.h).
+// The same case, judge and limit of calls give the same bytes; a limit of time can only end the
+// search earlier.
 #pragma once
 
 #include <compare>
@@ -25,10 +26,10 @@ struct Finding {
   // Triangles of the reported pair, if any: triangles far from them are dropped first.
   std::vector<std::int32_t> focus;
   std::size_t step = 0;          // the step that fails: later steps are dropped
-  std::string explanation = {};  // one line for people, of this case
+  std::string explanation = {};  // one line about this case, for people
 };
 
-// Runs a case; returns nothing if it holds. Must be deterministic.
+// Runs a case, and returns what fails; nothing if the case holds. Must be deterministic.
 using Judge = std::function<std::optional<Finding>(const Case&)>;
 
 struct ReduceLimits {
@@ -60,8 +61,8 @@ std::string fails_from_text(std::size_t triangles);
 // Is called with each smaller case as soon as it is found, so that the case can be saved at once.
 using OnBetter = std::function<void(const Case&)>;
 
-// Returns the case with the view primitive that the detector chose by itself written into it;
-// nothing if it chose none. The mesh can then shrink without moving the primitive.
+// Writes the view primitive that the detector chose by itself into the case, and returns the case;
+// nothing if the detector chose none. The mesh can then shrink without moving the primitive.
 using MakeViewExplicit = std::function<std::optional<Case>(const Case&)>;
 
 // Reduces a failing case, and keeps its id, texts and options; expected facts are cleared.
@@ -103,13 +104,14 @@ std::string size_text(const Case& before, const Case& after);
 
 // Lists the coordinates of a case, and simpler values for one of them.
 
-// Coordinates that are changed together: those on one axis of one point (a vertex, an end of the
-// view primitive, an apex), in all frames in which they have the same value. So a point at rest
-// stays at rest.
+// Coordinates that are changed together: the coordinates of one point (a vertex, an end of the view
+// primitive, an apex) along one axis, in all frames in which they have the same value. So a point
+// at rest stays at rest.
 using NumberGroup = std::vector<double*>;
 
-// Returns all groups: those of vertex 0, 1, .. by axis and value, then those of the view, then
-// those of the apexes. The groups are valid as long as the shape of `c` is not changed.
+// Returns all groups: first the groups of vertex 0, 1, .. by axis and value, then the groups of the
+// view primitive, then those of the apexes. The groups are valid as long as the shape of `c` is not
+// changed.
 std::vector<NumberGroup> number_groups(Case& c);
 
 // Returns values of lower number_cost, simplest first: small integers, then `value` with fewer

@@ -1,5 +1,5 @@
-// The reducer's search: the best case so far, and the judge behind a cache and limits; and the
-// passes, which propose cases to it.
+// The reducer's search, which has the best case so far, and the judge behind a cache and limits;
+// and the passes, which propose cases to the search.
 #pragma once
 
 #include <array>
@@ -34,8 +34,9 @@ class ReductionSearch {
   // best case stays as it is.
   std::optional<Finding> ask(const Case& candidate);
 
-  // Sets which signatures match from now on: those of the same claim and kind, whatever feature and
-  // cause (`alone`), or only those equal to the best case's whole signature at that time.
+  // Sets which signatures match from now on. If `alone`, a signature matches if it has the claim
+  // and kind of the best case's signature, whatever its feature and cause. Otherwise it matches
+  // only if it equals the best case's signature.
   void match_kind_alone(bool alone) { kind_alone_ = alone; }
 
   // Returns whether a limit is reached. After that no case is judged.
@@ -72,14 +73,14 @@ class ReductionSearch {
 // The distances of the vertices of a mesh from the triangles of the reported pair.
 
 struct Rings {
-  // Both are by vertex. `distance` is in edges from the nearest vertex of the focus, or `unreached`
-  // if no path leads there. `parent` is a neighbour that is nearer by one edge, or the vertex
-  // itself if its distance is 0 or unreached.
+  // `distance` and `parent` are by vertex. `distance` counts the edges to the nearest vertex of the
+  // focus, and is `unreached` if no path leads there. `parent` is a neighbour that is nearer by one
+  // edge, or the vertex itself if its distance is 0 or unreached.
   std::vector<int> distance;
   std::vector<std::int32_t> parent;
   std::vector<std::vector<std::int32_t>> neighbours;  // ascending
   std::vector<std::int32_t> far_first;                // vertices: farthest first, then by number
-  int farthest = 0;                                   // greatest distance but `unreached`
+  int farthest = 0;                                   // greatest distance except `unreached`
 
   static constexpr int unreached = 1 << 30;
 };
@@ -93,8 +94,8 @@ Case within(const Case& c, const Rings& rings, int ring);
 
 // Offers to drop or change ranges [begin, end) of a list, halves first. `try_range` is called with
 // ever smaller ranges and returns whether it succeeded. After a success the list (`size`) is
-// shorter, and the same place is tried again. After a success elsewhere a range is not tried a
-// second time; only a later call of the pass does that.
+// shorter, and the same place is tried again. A range that failed is not tried again after a later
+// success; only a later call of the pass tries it again.
 template <class Size, class TryRange>
 void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
   for (std::size_t chunk = std::max<std::size_t>(1, (size() + 1) / 2);; chunk /= 2) {
@@ -106,23 +107,24 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 }
 
 // The passes of the reducer, in the order in which they run. Each pass proposes cases to the
-// search, which keeps the best one. A pass made progress if the size of that case is smaller.
+// search, which keeps the best one. A pass has made progress if the best case has become smaller.
 //
-// To add one: a function here, a row in reducer/reducer.cpp, a test in
+// To add a pass, write a function here, a row in reducer/reducer.cpp, and a test in
 // tests/properties/reducer/reducer_passes_test.
 
 // mesh_passes.cpp: cuts a mesh of more than 1,000 triangles, with which passes would take too long,
-// before any pass begins. It looks for the least number of triangles around the reported pair that
-// still fails, by doubling and then halving, and leaves out halves and quarters. A failure of the
-// same claim and kind counts as the same, because another contact may now come first. Returns the
-// number of triangles that are left if it is above 1,000: the failure then depends on size. Else,
-// or if a limit ended the search, returns 0.
+// before any pass begins. By doubling and then halving, it finds the least number of triangles
+// around the reported pair with which the case still fails; then it tries to leave out halves and
+// quarters of the triangles. A failure counts as the same if it has the same claim and kind,
+// because another contact may now come first. Returns the number of remaining triangles if it is
+// above 1,000: the failure then depends on size. Returns 0 if it is not, or if a limit ended the
+// search.
 std::size_t cut_large_mesh(ReductionSearch& search);
 
 // step_passes.cpp: passes that shorten the sequence.
-void drop_later_steps(ReductionSearch& search);  // those after the failing step
+void drop_later_steps(ReductionSearch& search);  // drops steps after the failing one
 void drop_steps(ReductionSearch& search);        // halves, then one by one
-void merge_steps(ReductionSearch& search);       // from the start of one step to the next one's end
+void merge_steps(ReductionSearch& search);       // one step in place of two consecutive ones
 
 // mesh_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
 // drop_components.
@@ -151,7 +153,8 @@ using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike;
 
 // Returns every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are
 // 1, 10, 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
-// listed apart). They are found, once, by edge flips, which connect them all (Wagner 1936).
+// listed apart). They are computed once, by edge flips, which lead from each triangulation to every
+// other one (Wagner 1936).
 const std::vector<SphereMesh>& sphere_meshes(int vertices);
 
 SphereMesh mirrored(SphereMesh mesh);
@@ -162,19 +165,19 @@ SphereMesh mirrored(SphereMesh mesh);
 SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 
 // step_passes.cpp: puts moving vertices to rest.
-void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
+void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at t=0 or t=1
 
 // step_passes.cpp: simplifies the relation.
-void simplify_relation(ReductionSearch& search);  // dropped, in part, or at rest in frame 0
+void simplify_relation(ReductionSearch& search);  // drops all or parts, or takes rest from frame 0
 
 // step_passes.cpp: passes on the view primitive that the case states.
-void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
-void drop_view(ReductionSearch& search);      // so that the detector uses its own
+void simplify_view(ReductionSearch& search);  // makes it fixed, a point, or puts it to the origin
+void drop_view(ReductionSearch& search);      // so that the detector chooses its own primitive
 
 // number_passes.cpp: passes that make coordinates simpler.
-void translate(ReductionSearch& search);          // along each axis, so that many become 0
-void round_all(ReductionSearch& search);          // all coordinates to a grid of few integers
-void round_vertices(ReductionSearch& search);     // one vertex at a time, fewer digits
+void translate(ReductionSearch& search);       // along each axis, so that many coordinates become 0
+void round_all(ReductionSearch& search);       // all coordinates to a grid of few integers
+void round_vertices(ReductionSearch& search);  // one vertex at a time, fewer digits
 void simplify_numbers(ReductionSearch& search);   // one coordinate at a time, towards 0
 void simplify_together(ReductionSearch& search);  // a few coordinates at once, at random
 

@@ -1,4 +1,4 @@
-// Measures how near a query is to each degeneracy, and moves it onto them.
+// Measures how near a query is to each degeneracy, and moves a query onto degeneracies.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Hardness : std::uint8_t {
   flat,         // F is 0 throughout
   no_area,      // the normal is 0 at a root: a face without area, or parallel edges
   bound,        // the least Bernstein coefficient of F lies at the error bound of a filter
-  distance,     // the least distance equals the query's, or is 0 without a contact
+  distance,     // the least distance is the query's distance, or is 0 without a contact
 };
 constexpr auto names_of(Hardness) {
   using enum Hardness;
@@ -32,9 +32,9 @@ constexpr auto names_of(Hardness) {
                                          {distance, "at the distance"}});
 }
 
-// The share of each kind, from 0 (exactly degenerate) to 1. At a root that is no double, a share
-// below 2^-53 may be given as 0. Zeros of F at an end, of its discriminant and of F itself are
-// exact.
+// For each kind, how far the query is from it: a share from 0 (exactly degenerate) to 1. At a root
+// that is no double, a share below 2^-53 can be rounded to 0. The zeros of F at t = 0 and 1, of its
+// discriminant and of F itself are found exactly.
 struct Gap {
   std::array<double, all_values<Hardness>.size()> share{};
   double& operator[](Hardness kind) { return share[static_cast<std::size_t>(kind)]; }
@@ -50,8 +50,8 @@ Gap gap_of(const FourPoints& query, double time, double separation = 0);
 double nearness(const Gap& gap);
 
 // Moves a query onto degeneracies by Newton steps: the points move as little as possible, until
-// polynomials of the query are 0 at a time. The steps are computed in doubles, so they come within
-// rounding of the degeneracy; lattice walks (moves.h) do the rest, and the oracle judges.
+// polynomials of the query are 0 at a given time. The steps are computed in doubles, so they come
+// within rounding of the degeneracy; lattice walks (moves.h) do the rest, and the oracle judges.
 
 enum class Degeneracy : std::uint8_t {
   coplanar,     // F(t) = 0: a root at t, which may be 0 or 1
@@ -68,13 +68,14 @@ struct DegeneracyAt {
 };
 
 // Returns the moved query; nothing if the steps do not come near the goals, or if a number
-// overflows on the way. The bits of `moving` name the ends that move: bit i is point i at t = 0,
+// overflows on the way. The bits of `moving` name the places that move: bit i is point i at t = 0,
 // bit 4 + i is point i at t = 1. About 20 us.
 inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);
 
-// Return F at a time, and the first root of F in [0, 1] in doubles; nothing if there is none.
+// `coplanarity_at` returns F at a time. `root_of` returns the first root of F in [0, 1], in
+// doubles; nothing if F has none.
 double coplanarity_at(const FourPoints& query, double time);
 std::optional<double> root_of(const FourPoints& query);
 

@@ -315,7 +315,7 @@ constexpr Move of_features[] = {
     {"walk", "a walk by ulps along which the gap shrinks", MoveKind::features, 2, in_focus<walk>},
     {"grid", "all coordinates are rounded to few bits", MoveKind::features, 2, grid},
     {"flatten", "the features lie in one plane", MoveKind::features, 3, in_focus<flatten>},
-    {"plane", "the features lie in one plane but for rounding", MoveKind::features, 3,
+    {"plane", "the features lie in one plane, except for rounding", MoveKind::features, 3,
      in_focus<near_a_plane>},
     {"graze", "vertex and face touch and part again: a double root", MoveKind::features, 2,
      in_focus<graze>},

@@ -120,7 +120,7 @@ constexpr Move of_meshes[] = {
      2, edit_mesh},
     {"unite", "another mesh beside this one", MoveKind::mesh, 2, unite},
     {"renumber", "triangles in another order", MoveKind::mesh, 1, renumber},
-    {"nest", "the mesh once more inside itself", MoveKind::mesh, 1, nest},
+    {"nest", "a copy of the mesh inside the mesh", MoveKind::mesh, 1, nest},
     {"bridge", "two triangles join the two in focus", MoveKind::mesh, 2, bridge},
 };
 

@@ -1,5 +1,6 @@
-// The moves of the search: small changes that bring a case nearer to a degeneracy, or make it
-// another case. All moves keep a case valid; whether the contract takes it is checked afterwards.
+// The moves of the search: small changes that bring a case nearer to a degeneracy, or make another
+// case of it. All moves keep a case valid; whether the case satisfies the contract is checked
+// afterwards.
 #pragma once
 
 #include <array>
@@ -15,14 +16,14 @@ namespace assay::properties {
 
 class Random;
 
-// The two features of a case on which the search works: those of its first contact, or, without a
-// contact, two that come near each other.
+// The two features of a case on which the search works: the features of its first contact or,
+// without a contact, two features that come near each other.
 
 struct Focus {
-  std::size_t step = 0;                    // of corpus::steps_of
+  std::size_t step = 0;                    // index into corpus::steps_of
   std::array<std::int32_t, 4> vertices{};  // in the order of FourPoints
   int first_group = 1;
-  double time = 0;  // of the contact, or the nearest of a few sampled times; in doubles
+  double time = 0;  // of the contact; without one, of the least sampled distance; in doubles
   std::optional<PairContact> contact;
   std::vector<TrianglePair> pairs;  // all pairs that meet first
 };
@@ -38,7 +39,7 @@ FourPoints query_at(const Case& c, const Focus& focus);
 // Puts the paths of the four points into the two frames of the step.
 void set_query(Case& c, const Focus& focus, const FourPoints& query);
 
-// Returns the pair in contact; without a contact, two triangles that hold one of the features each.
+// Returns the pair in contact; without a contact, two triangles, each with one of the features.
 TrianglePair pair_in_focus(const Case& c, const Focus& focus);
 
 // Returns whether the first contact is within one component, not between two.
@@ -46,16 +47,17 @@ bool is_within_a_component(const Case& c, const Focus& focus);
 
 // Returns how far a culling by views may leave out the first contacts.
 //
-// Two triangles of one component that are both seen from behind are left out, and so are two that
-// are both seen from the front. If all first contacts are of such pairs, a detector finds them only
-// by its knowledge of the start and of ghosts (L3, L11). If all are nearly such pairs, it needs an
-// exact view test. Example: two layers of a roll, seen from its axis; the inner one goes through
-// the outer one.
+// The culling leaves out two triangles of one component if both are seen from behind, or both from
+// the front. If all first contacts are between such triangles, a detector finds them only by its
+// knowledge of the start and of ghosts (L3, L11). If the triangles nearly have one sign, a detector
+// needs an exact view test. Example: two layers of a roll, seen from its axis, where the inner
+// layer goes through the outer one.
 //
 // The result says, from 0 to 1, how nearly the two triangles of a pair have the same sign, measured
 // at a few times in doubles; it is the least over the pairs of the first contacts. It is 1 if each
 // pair has one sign, and 0 without a contact or a view primitive. It is meaningless if two
-// components meet, because such pairs are never left out (L10). About 2 us for a pair.
+// components meet, because pairs of two components are never left out (L10). Takes about 2 us for
+// each pair.
 double seen_alike(const Case& c, const Focus& focus);
 
 // A case in the making. A move that changes which triangles or vertices are in focus drops the
@@ -75,9 +77,9 @@ struct MoveContext {
 enum class MoveKind : std::uint8_t {
   features,  // the four points in focus, or all coordinates alike
   steps,     // frames
-  past,      // which steps lead to the one in focus
+  past,      // which steps lead to the step in focus
   mesh,      // triangles
-  view,      // a view primitive, or the mesh to suit one
+  view,      // a view primitive, or a mesh that is adapted to one
 };
 
 struct Move {
@@ -98,9 +100,9 @@ std::span<const Move> mesh_moves();
 std::span<const Move> view_moves();
 
 // Lets a vertex go through a triangle along a ray of a view-point. Vertices move along rays or
-// rest, so no triangle changes its sign. The triangle and those of the vertex have the same sign.
-// In a clean closed mesh a triangle of the other sign is met before (L3). The view-point may become
-// a short line.
+// rest, so no triangle changes its sign. The triangle and the triangles of the vertex have the same
+// sign. In a clean closed mesh the vertex meets a triangle of the other sign earlier (L3). The
+// view-point may become a short line.
 void pass_by_ray(Random& random, Candidate& child, const MoveContext& context);
 
 // Puts a copy of the mesh inside the mesh, or around it. The two are joined at a corner or two, so

@@ -19,11 +19,11 @@
 
 namespace assay::properties {
 
-// Examines some cases, each as the contract has it.
+// Examines cases, each in the form that the contract asks for.
 using ExamineCases = std::function<std::vector<CaseResults>(std::vector<Case>)>;
 
-// A source of fresh cases. `draw` should make a case of at most most_triangles; a larger one is not
-// taken.
+// A source of fresh cases. `draw` should make a case of at most most_triangles; a larger case is
+// dropped.
 struct CaseSource {
   std::string name;
   int weight = 1;  // the relative frequency with which it is drawn from
@@ -35,18 +35,19 @@ struct SearchSpace {
   std::vector<CaseSource> sources;
   // Brings a case into a range of the contract; applied to fresh cases.
   std::function<Case(Case)> bring;
-  // Whether the detector is given the view primitives of cases; if not, none is moved.
+  // Whether the detector is given the view primitives of cases; if not, no primitive is moved.
   bool gives_views = true;
 };
 
-// A part of a search whose cases depend only on its name: it begins with an empty archive. A series
-// of its cases has a theme (Swarm), with its own size of meshes, because a theme that finds one
-// fault hides others. Some themes only draw fresh cases. Others move small meshes onto
-// degeneracies. For a detector that is given views, others seek contacts that no view finds: within
-// a sheet or between nested shells that are seen from one side, and after other past steps.
+// A lane is a part of a search. Its cases depend only on its id, because a lane begins with an
+// empty archive. Each series of its cases has a theme (Swarm), with its own size of meshes, because
+// a theme that finds one fault hides others. Some themes only draw fresh cases. Others move small
+// meshes onto degeneracies. If the detector is given views, further themes look for contacts that
+// no view finds: contacts within a sheet or between nested shells that are seen from one side, and
+// contacts after other past steps.
 struct SearchLane {
   std::string id;           // the ids of its cases begin with it
-  std::uint64_t cases = 0;  // the number of cases to ask
+  std::uint64_t cases = 0;  // the number of cases to examine
 };
 
 struct SearchDefect {
@@ -54,20 +55,20 @@ struct SearchDefect {
   std::size_t configuration = 0;
   Failure failure;
   CaseRun run;              // the run that failed
-  std::uint64_t after = 0;  // cases asked in the lane so far, with this one
+  std::uint64_t after = 0;  // cases examined in the lane so far, this one included
 };
 
 struct LaneResult {
   bool complete = false;            // it was not stopped
-  std::uint64_t cases = 0;          // the number of cases that were asked
+  std::uint64_t cases = 0;          // the number of cases that were examined
   std::uint64_t defects = 0;        // cases on which some configuration fails
   std::uint64_t open = 0;           // cases on which some configuration has no verdict
   std::vector<SearchDefect> finds;  // the first of each signature and configuration
   std::set<std::string> causes;     // the causes of the cases that the archive holds
 };
 
-// Searches in a lane. A lane from which the contract takes no case ends early. `stop` is asked
-// between batches of cases. The same lane gives the same result wherever it runs.
+// Searches in a lane. A lane ends early if none of its cases satisfies the contract. `stop` is
+// called between batches of cases. The same lane gives the same result wherever it runs.
 LaneResult search(const SearchLane& lane, const SearchSpace& space, const ExamineCases& examine,
                   const std::function<bool()>& stop);
 
@@ -85,8 +86,9 @@ enum class Theme : std::uint8_t {
 };
 constexpr bool is_of_culling(Theme theme) { return theme >= Theme::pasts; }
 
-// Which cases of the archive are moved: any; those with the first contact within a component; those
-// in which this contact is also of one sign (seen_alike).
+// Which cases of the archive are moved. `any`: all cases. `within_a_component`: cases whose first
+// contact is within a component. `alike`: of these, the cases whose first contact is between
+// triangles of one sign (seen_alike).
 enum class Parents : std::uint8_t { any, within_a_component, alike };
 
 struct Swarm {
@@ -98,19 +100,19 @@ struct Swarm {
   std::size_t most_frames = 0;
   int fresh_one_in = 1;
 
-  // Draws a swarm by the name of the lane and the number of the case with which the swarm begins. A
-  // detector that is given no views has no themes of culling.
+  // Draws a swarm by the id of the lane and the number of the case with which the swarm begins. If
+  // the detector is given no views, no theme of culling is drawn.
   Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t begin);
 };
 
-// Chooses the sources of fresh cases: the families of the strata, their queries as meshes of few
-// triangles and as queries, hard cases by construction, and the curated cases.
+// Chooses the sources of fresh cases: the families of the strata (those of queries give queries, or
+// meshes of few triangles), hard cases by construction, and the curated cases.
 
 struct SourceChoice {
   bool meshes = true, queries = false;
   std::filesystem::path curated{};  // folder of the curated cases; empty: none
-  // Returns whether to leave a curated case out, such as one that was made for the planted fault
-  // and finds it without any search.
+  // Returns whether a curated case is left out. For example, the case that was made for a planted
+  // fault shows the fault without any search.
   std::function<bool(const Case&)> leaves_out{};
 };
 
@@ -121,7 +123,8 @@ std::vector<CaseSource> case_sources(const SourceChoice& choice);
 // are a corner and the face opposite, or two opposite edges.
 Case tetrahedron(const FourPoints& query, std::string id);
 
-// Returns the two features of a query as a mesh of two triangles with other corners far from them.
+// Returns the two features of a query as a mesh of two triangles, whose other corners are far from
+// both features.
 Case two_triangles(const FourPoints& query, Random& random, std::string id);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// Moves of a view primitive, and of a mesh to suit one: which triangles have which sign.
+// Moves of a view primitive, or of a mesh, that change which triangles have which sign.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

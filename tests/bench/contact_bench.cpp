@@ -1,4 +1,5 @@
-// The elementary test: in each arithmetic, in lanes, and the slowest single queries that are known.
+// Times the elementary test: in each arithmetic, in lanes, and on the slowest single queries that
+// are known.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Whole steps and their parts: stages, cullings, sizes, growth, threads; marking of the vBVHs, the
-// counting of a node's children, and what it takes to judge a step.
+// Times whole steps and their parts: stages, cullings, sizes, growth, threads; the marking of the
+// vBVHs, the counting of the children of a node, and the judgement of a step.
 #include <numeric>
 
 #include "detector/assembly.h"

@@ -1,5 +1,5 @@
-// What the micro benches share: steps by name, and the parts of a step, each without those after
-// it.
+// Shared code of the micro benches: steps by name, and the parts of a step, each of which runs
+// without the later parts.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -16,34 +16,35 @@
 
 namespace assay::tests {
 
-// A size or a count, times what ASSAY_BENCH_SCALE says (default 1), but at least 320.
+// Returns a size or a count, multiplied by ASSAY_BENCH_SCALE (default 1), but at least 320.
 int sized(int full);
 
-// The settings of the product's benches: data of ASSAY_DATA, the same scale.
+// Returns the settings of `assay bench`, with the data of ASSAY_DATA and the scale of
+// ASSAY_BENCH_SCALE.
 reports::BenchSettings settings();
 
-// The caller vouches for the start, and all pairs are asked for.
+// Returns options with which the caller vouches for the start, and all pairs are reported.
 inline detector::Options bench_options(
     detector::Culling culling, detector::Arithmetic arithmetic = detector::Arithmetic::exact) {
   return {culling, detector::Start::clean, detector::Pairs::all, arithmetic};
 }
 
-// Two of the frames of a scene: the step from frame `step` on.
+// Returns the step of a scene that begins at frame `step`.
 corpus::Sequence bench_step(const std::string& name, int triangles, int frames, std::size_t step);
 
-// The steps that parts of a step are measured on: `rod-twist` of the public data, the same
-// shortened until hardly a vertex moves, and steps of scenes.
+// The steps whose parts are measured: `rod-twist` of the public data, this step shortened until
+// hardly a vertex moves, and steps of scenes.
 inline constexpr const char* step_names[] = {"rod-twist", "rod-twist-shortened", "folding-sheet",
                                              "layered-cloth", "crumpling-sphere"};
-// Made once. Nothing if its data is not there.
+// Returns the step of this name, which is made once; nothing if its data is absent.
 const std::optional<corpus::Sequence>& step_named(const std::string& name);
-// Why there is none: of the public data that is no fault.
+// Returns why a step is absent. If public data is missing, that is no error.
 const char* why_absent(const std::string& name);
 
-// Adds the time of each of `items` things to what is shown.
+// Also shows the time of a single thing, out of `items` things.
 void show_each(benchmark::State& state, std::size_t items);
 
-// Registers a benchmark of this name, which gets the arguments.
+// Registers a benchmark of this name, which calls `function` with the arguments.
 template <class Function, class... Arguments>
 benchmark::internal::Benchmark* add(const std::string& name, Function function,
                                     Arguments... arguments) {
@@ -55,7 +56,8 @@ benchmark::internal::Benchmark* add(const std::string& name, Function function,
 class StepParts {
  public:
   explicit StepParts(const corpus::Sequence& step);
-  // Of the step of this name, made once. Null, and the benchmark is skipped, if it is not there.
+  // Returns the parts of the step of this name, which are made once. If the step is absent, returns
+  // null and skips the benchmark.
   static StepParts* of(const std::string& name, benchmark::State& state);
 
   // Writes the boxes of nodes and features.
@@ -63,7 +65,7 @@ class StepParts {
   using Take = std::function<void(std::span<const detector::CandidatePair>)>;
   void search(const Take& take) const;
   std::size_t take_features(std::span<const detector::CandidatePair> pairs);
-  // Compares the boxes of every candidate, one after the other with nothing around it.
+  // Compares the boxes of every candidate in turn, and does nothing else.
   std::size_t compare_again() const;
 
   const detector::Topology& mesh() const { return mesh_; }

@@ -1,5 +1,5 @@
-// The view test beside the writing of swept boxes, which any method with bounding volumes begins
-// with; and free steps beside a plain pass over the same arrays and beside bvh.
+// Times the view test beside the writing of swept boxes, with which every method with bounding
+// volumes begins; and free steps beside a plain pass over the same arrays, and beside Culling::bvh.
 #include "detector/assembly.h"
 #include "detector/mesh/for_all.h"
 #include "detector/view/view_lanes.h"

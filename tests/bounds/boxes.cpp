@@ -1,4 +1,4 @@
-// Boxes in floats, of triangles and of features, with the margins of a distance.
+// Claims about boxes in floats: of triangles and of features, with the margins of a distance.
 #include "detector/boxes/box_lanes_kernel.h"
 #include "detector/search/feature_pairs.cpp"
 #include "tests/bounds/claims.h"

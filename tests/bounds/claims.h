@@ -1,22 +1,22 @@
-// What is claimed of what was recorded, as scripts in a folder.
+// Writes what is claimed of recorded numbers into scripts in a folder.
 #pragma once
 
 #include "tests/bounds/script.h"
 
 namespace assay::bounds {
 
-// Writes scripts for everything that is recorded to a folder, each text once, and begins anew.
+// Writes scripts for the present record to a folder, each text once, then clears the record.
 class Claims {
  public:
   explicit Claims(std::string folder) : folder_(std::move(folder)) {}
 
-  // Every obligation of the record. `name` says of which filter; it is the beginning of the files'
-  // names.
+  // Writes a script for every obligation of the record. `name` is the name of the filter, with
+  // which the names of the files begin.
   void write_obligations(const std::string& name);
-  // A script made by hand.
+  // Writes a script that was made by hand.
   void write(const std::string& name, const Script& script);
-  // Says how much of each bound is used. 1 if something was recorded of which no script can be
-  // made, else 0.
+  // Prints how much of each bound is used. Returns 1 if no script can be made of some recorded
+  // number, else 0.
   int finish() const;
 
  private:
@@ -36,7 +36,7 @@ class Claims {
   bool failed_ = false;
 };
 
-// A filter whose claims are written: each file of filters makes one of these.
+// A filter whose claims are written. Each file of filters has one object of this type.
 struct Filter {
   Filter(std::string name, void (*claim)(Claims&));
 };

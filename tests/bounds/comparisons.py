@@ -1,12 +1,12 @@
-"""The list of comparisons that rest on a bound, against the detector's sources."""
+"""Compares the list of comparisons that rest on a bound with the detector's sources."""
 import re
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
-# A line of code that calls a function that compares with a bound, compares with something that is
-# named like a bound or an end of a range, or makes a bound.
+# A line of code that calls a function which compares with a bound, that compares with a name of a
+# bound or of an end of a range, or that makes a bound.
 FOUND = [re.compile(p) for p in (
     r"\b(sign_beyond|sure_sign|same_side|sure_side|sure_sign_of_minor|sure|sure_value_sign|apart|apart_at_start"
     r"|is_surely_near|boxes_are_apart|misses|separated_along_an_axis)(<[^()]*>)?\(",
@@ -22,7 +22,7 @@ FOUND = [re.compile(p) for p in (
 
 
 def found_in(sources):
-    """(file, line) of all lines that look like one."""
+    """Yields (file, line) for each line that looks like a comparison with a bound."""
     for file, text in sources:
         for line in text.split("\n"):
             code = line.split("//")[0].strip()
@@ -37,7 +37,7 @@ def sources_of(root):
 
 
 def listed():
-    """{(file, line): what it rests on} of comparisons.txt."""
+    """Returns comparisons.txt as {(file, line): what the comparison rests on}."""
     lines, file = {}, None
     for line in (HERE / "comparisons.txt").read_text().split("\n"):
         if line.startswith("  "):
@@ -49,7 +49,7 @@ def listed():
 
 
 def faults(sources, claims):
-    """What is wrong with the list. `claims`: the names of what was proved."""
+    """Returns the errors of the list. `claims` are the names of the proved claims."""
     of_list, found = listed(), set(found_in(sources))
     lemmas = set(re.findall(r"^\*\*(\d+)\.", (HERE.parent / "README.md").read_text(), re.M))
     wrong = [f"not in comparisons.txt: {file}: {code}" for file, code in sorted(found - set(of_list))]

@@ -1,4 +1,5 @@
-// Normal cones and contours: which directions a triangle faces, turns and cosines in the plane.
+// Claims about normal cones and contours: the directions that a triangle faces, and turns and
+// cosines in the plane.
 #include "detector/traditional/moving_contour.cpp"
 #include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"

@@ -1,4 +1,4 @@
-// The filter of the elementary test: ContactPieces with proved bounds, as it is halved down to the
+// Claims about the filter of the elementary test: the bounds of ContactPieces, halved down to the
 // greatest depth, and the enclosure of a root.
 #include "detector/contact/contact_doubles.cpp"
 #include "tests/bounds/claims.h"

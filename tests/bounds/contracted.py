@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Looks for contracted operations (a product and a sum rounded once) in the detector's object code, and for
-functions that code for one instruction set shares with the rest."""
+functions that code for one instruction set shares with other code."""
 import argparse
 import json
 import re
@@ -10,13 +10,13 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-# Sources with filters. Compiled once more for a machine that has contracted operations.
+# Sources with filters, which are compiled once more for a machine that has contracted operations.
 FILTERS = ["contact/contact_doubles.cpp", "contact/contact_fixed.cpp", "lanes_avx2.cpp", "lanes_avx512.cpp",
            "distance/near_filter.cpp", "distance/nearness.cpp",
            "geometry/orientation.cpp", "geometry/winding.cpp", "boxes/moving_box.cpp",
            "search/feature_pairs.cpp", "traditional/moving_contour.cpp", "view/view_bounds.cpp",
            "view/view_filter.cpp"]
-# Of x86-64 (vfmadd213pd, vfnmsub...) and of 64-bit ARM (fmadd, fmla, fmls...).
+# Contracted operations of x86-64 (vfmadd213pd, vfnmsub...) and of 64-bit ARM (fmadd, fmla, fmls...).
 CONTRACTED = re.compile(r"\t(vf(n?m(add|sub)|maddsub|msubadd)\w*|fn?m(add|sub|la|ls)\w*)\b")
 
 
@@ -36,7 +36,7 @@ def contracted(options, file):
 
 
 def compile_command(options, source, extra, out):
-    """The command of the build, for a machine with contracted operations."""
+    """Returns the command of the build, changed to compile for a machine with contracted operations."""
     for entry in json.loads((Path(options.build) / "compile_commands.json").read_text()):
         if not entry["file"].endswith(f"/detector/{source}"):
             continue
@@ -69,8 +69,8 @@ def main():
             if count:
                 print(f"{source}: {count} contracted operations where the machine has them")
             failed += count
-    # A linker keeps one of all copies of an inline function. That of a file for one instruction set would
-    # end the program on a machine without it.
+    # A linker keeps one of all copies of an inline function. If this copy is compiled for one instruction
+    # set, the program crashes on a machine without this set.
     for source in sorted(Path(__file__).resolve().parents[2].glob("detector/*/**/*_avx*.cpp")):
         out = work / (source.stem + ".O0.o")
         name = str(source).split("/detector/")[1]
@@ -79,7 +79,7 @@ def main():
         for line in re.findall(r" [WVu] .*", symbols.stdout):
             failed += 1
             print(f"{name}: holds what other files may hold, too:{line}")
-    # That it would be seen.
+    # This checks that a contracted operation is found.
     if not compiled("contact/contact_doubles.cpp", ["-ffp-contract=fast"]):
         sys.exit("contact_doubles.cpp: nothing is contracted where it may be; what is looked for here?")
     print("red: contact_doubles.cpp with contraction allowed")

@@ -1,4 +1,4 @@
-// The filter of a distance: gaps along a vector, and places of the features.
+// Claims about the filter of a distance: gaps along a vector, and places of the features.
 #include "detector/distance/near_filter.cpp"
 #include "tests/bounds/claims.h"
 

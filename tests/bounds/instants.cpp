@@ -1,4 +1,5 @@
-// The signs of one instant: orientation, projections, and how a ray crosses a triangle.
+// Claims about the signs at one instant: orientation, projections, and the way in which a ray
+// crosses a triangle.
 #include "detector/geometry/orientation.cpp"
 #include "detector/geometry/winding.cpp"
 #include "tests/bounds/claims.h"

@@ -1,4 +1,4 @@
-// The view test in lanes, of points and lines, with the bounds of a whole component.
+// Claims about the view test in lanes: of points and lines, with bounds for a whole component.
 #include "detector/view/view_bounds.cpp"
 #define ASSAY_LANES 2
 #include "detector/view/view_lanes_kernel.h"

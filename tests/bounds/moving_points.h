@@ -1,4 +1,4 @@
-// Moving points of recorded coordinates.
+// Moving points whose coordinates are recorded numbers.
 #pragma once
 
 #include "detector/mesh/step_types.h"
@@ -6,8 +6,8 @@
 
 namespace assay::bounds {
 
-// A point whose coordinates bear this name and number. In numbers it moves along one line, whatever
-// it is called, so that nothing that is computed of such points has a sign.
+// Returns a point whose coordinates have this name and number. All such points have their values on
+// one line, so that the values computed from them have no sign.
 inline detector::MovingPoint moving_point(const std::string& name, int number) {
   detector::MovingPoint p;
   for (int k = 0; k < 3; ++k) {
@@ -18,7 +18,7 @@ inline detector::MovingPoint moving_point(const std::string& name, int number) {
   return p;
 }
 
-// The vertices 0, 1, ... of a mesh, at both ends of a step.
+// Returns the positions of the vertices 0, 1, ... of a mesh at t=0 and t=1.
 inline std::array<detector::Positions, 2> moving_vertices(const std::string& name, int count) {
   std::array<detector::Positions, 2> x = {detector::Positions(count, 3),
                                           detector::Positions(count, 3)};

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Has Gappa prove the error bounds of the detector's filters (tests/README.md)."""
+"""Proves the error bounds of the detector's filters by Gappa (tests/README.md)."""
 import argparse
 import json
 import os
@@ -16,27 +16,27 @@ import comparisons
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-# What each of them reads of the detector: it is built again for a folder where that has changed.
+# By program: the files of the detector that it reads. If one has changed, the program is built again.
 READ = {"claims": ["exact/bernstein.h", "mesh/step_types.h", "mesh/types.h"], "graph": [], "script": []}
-BUILT, COPIED = {}, set()  # COPIED: what is there without a change
-BASE = [*READ]  # the others are filters
+BUILT, COPIED = {}, set()  # COPIED: the unchanged files of the copy
+BASE = [*READ]  # all other sources are filters
 FILTERS = sorted(p.stem for p in HERE.glob("*.cpp") if p.stem not in BASE)
 
-# What the copy of a source has in place of what the detector has.
+# Patterns in the sources of the detector, and their replacements in the copy.
 RULES = [
     (re.compile(r"\bdouble\b"), "bounds::Recorded"),
     (re.compile(r'(?<![\w."/])(\d+\.\d+)(?![\w.])'), r"bounds::Recorded(\1)"),
     (re.compile(r"\bstd::(abs|sqrt|isfinite|ilogb|scalbn|ldexp|frexp|bit_cast)\b"), r"bounds::math::\1"),
     (re.compile(r"\bprivate:"), "public:"),
 ]
-# In the floats of boxes, too.
+# More replacements in the sources of boxes, which compute in floats.
 FLOAT_RULES = [
     (re.compile(r"\bfloat\b"), "bounds::Float"),
     (re.compile(r"bounds::Float __attribute__\(\(vector_size\(16\)\)\)"), "bounds::FloatLanes"),
     (re.compile(r"\bint __attribute__\(\(vector_size\(16\)\)\)"), "bounds::LaneTruth"),
     (re.compile(r"#ifdef __SSE__"), "#if 0"),
 ]
-# Lines that stand once in a file, and what stands there in the copy.
+# Lines that occur once in a file, and their replacements in the copy.
 LINES = {
     "distance/near_filter.cpp": [
         ("double share(double part, double whole) {",
@@ -79,7 +79,7 @@ def arguments():
 
 
 def copy(target, change):
-    """Copies the detector with recorded numbers in place of doubles, and one line changed."""
+    """Copies the detector with recorded numbers in place of doubles. `change` changes one line."""
     for source in (ROOT / "detector").rglob("*"):
         is_changed = bool(change) and source == ROOT / change["file"]
         place = target / source.relative_to(ROOT)
@@ -110,7 +110,7 @@ def changed(text, change):
 
 
 def write_scripts(options, work, filters, pool):
-    """Compiles the filters and writes their scripts. The program's exit code and output."""
+    """Compiles the filters and writes their scripts. Returns the program's exit code and output."""
     compile_ = [options.compiler, "-std=c++20", "-O0", "-w", f"-I{work}", f"-I{ROOT}",
                 *[f"-isystem{i}" for i in options.include]]
 
@@ -132,7 +132,7 @@ def write_scripts(options, work, filters, pool):
         if done.returncode:
             return 1, f"{name} does not compile:\n{done.stderr[:2000]}"
     BUILT.update({(work, name): read_now[name] for name in BASE})
-    # What the filters do not call, such as integers, stays unresolved.
+    # Functions that the filters do not call, such as those of integers, stay unresolved.
     subprocess.run([options.compiler, "-no-pie", "-Wl,--unresolved-symbols=ignore-all",
                     *[f"{work}/{name}.o" for name in objects], "-o", f"{work}/write_scripts"],
                    check=True)
@@ -149,7 +149,7 @@ def proof_of(script):
 
 
 def is_contradictory(script):
-    """Whether the hypotheses alone prove anything at all: then the proof says nothing."""
+    """Returns whether the hypotheses contradict each other, so that the proof says nothing."""
     hypotheses, rest = script.read_text().split(" ->", 1)
     claim_of_nothing = script.with_suffix(".contradiction")
     claim_of_nothing.write_text(hypotheses + " -> 0 in [1,2]" + rest[rest.index(" }"):])
@@ -157,7 +157,7 @@ def is_contradictory(script):
 
 
 def open_scripts(work, pool, all_of_them=True):
-    """The scripts that Gappa does not prove, or only the first of them."""
+    """Returns all scripts that Gappa does not prove, or the first of them, and the number of scripts."""
     found = []
     scripts = sorted((work / "scripts").glob("*.g"), key=lambda s: (len(s.name), s.name))
     step = len(scripts) if all_of_them else 2
@@ -181,7 +181,7 @@ def prove(options, pool):
     by_claim = {}
     for script in sorted((work / "scripts").glob("*.g")):
         by_claim.setdefault(re.sub(r"-\d+\.g$", "", script.name), []).append(script)
-    # The scripts of one claim are made by one piece of code, so a few of each are enough.
+    # One piece of code makes all scripts of a claim, so a few scripts of each claim are enough.
     some = [script for scripts in by_claim.values() for script in scripts[:4]]
     empty = [s.name for s, holds in zip(some, pool.map(is_contradictory, some)) if holds]
     empty += [] if is_contradictory(HERE / "contradiction.g") else ["contradiction.g is not seen"]
@@ -194,7 +194,7 @@ def prove(options, pool):
 
 
 def seen_in_list(change):
-    """What the list of comparisons has against a changed source."""
+    """Returns the errors that a change of a source causes in the list of comparisons."""
     claims = {name for parts in comparisons.listed().values() for name in parts}
     sources = [(file, changed(text, change) if f"detector/{file}" == change["file"] else text)
                for file, text in comparisons.sources_of(ROOT)]
@@ -202,7 +202,7 @@ def seen_in_list(change):
 
 
 def seen_by_proofs(options, change, pool):
-    """What is not proved of a changed source."""
+    """Returns what Gappa does not prove of a changed source."""
     work = Path(options.work) / "changed"
     copy(work, change)
     code, output = write_scripts(options, work, change["filters"], pool)

@@ -1,6 +1,5 @@
-// The first rungs of the elementary test in lanes, of vertex and face, of two edges, and of
-// piercing. They compute what one query alone computes, so they add no script that is not there
-// already.
+// Claims about the first rungs of the elementary test in lanes: for vertex and face, for two edges,
+// and for piercing. A lane computes the same as a single query, so these claims add no new script.
 #include "detector/contact/lanes/query_lanes.cpp"
 #define ASSAY_LANES 2
 #include "detector/contact/lanes/query_lanes_kernel.h"

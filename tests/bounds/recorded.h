@@ -1,12 +1,12 @@
-// A number that computes as a double does and writes down what was computed.
+// A number that computes as a double does, and records each operation.
 //
 // prove.py compiles a copy of the detector's filters in which this number stands in place of
-// `double`. So the filters run as they are written, operation by operation, and what they did lies
-// in a graph. script.h turns the graph into questions for Gappa.
+// `double`. So the filters run as they are written, and their operations are recorded as a graph.
+// script.h turns the graph into questions for Gappa.
 //
-// What is compared with an error bound is an obligation: the number compared must be off by at most
-// the bound from what exact arithmetic makes of the same inputs. A bound is whatever was computed
-// from the constant 2^-53.
+// If a number is compared with an error bound, the pair is an obligation: the number must differ
+// from the result of exact arithmetic on the same inputs by at most the bound. Every number that
+// was computed from the constant 2^-53 is a bound.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +40,7 @@ enum class Op {
   halved
 };
 
-// plain: a number. bound: an error bound. range: a number less or plus its bound.
+// plain: a number. bound: an error bound. range: a number minus or plus its bound.
 enum class Kind { plain, bound, range };
 
 struct Recorded {
@@ -65,12 +65,12 @@ struct Recorded {
 
 struct Node {
   Op op;
-  int a = -1, b = -1;  // operands; of what was halved the array and the depth
-  double value = 0;    // a constant's, or the one that the run goes on with
+  int a = -1, b = -1;  // operands; of Op::halved the array and the depth
+  double value = 0;    // value of a constant, or value with which the run continues
   Kind kind = Kind::plain;
-  std::string name;       // of an input: what it is a coordinate of, and its axis
-  double lo = 0, hi = 0;  // of a free number
-  int index = 0;          // of what was halved
+  std::string name;       // of an input: the name of the point, and the axis
+  double lo = 0, hi = 0;  // range of a free number
+  int index = 0;          // of Op::halved: index of the coefficient
   bool is_float = false;  // rounded to a float
 };
 
@@ -79,17 +79,17 @@ struct Halved {
   std::vector<int> nodes;
 };
 
-// What a run has written down.
+// The record of a run.
 struct Record {
   std::vector<Node> nodes;
   std::map<std::tuple<Op, int, int, double, std::string, int, bool>, int> known;
   std::vector<Halved> halved;
   std::map<std::vector<int>, int> known_halved;
-  std::map<int, std::set<int>> above;         // by node those that are at least it
-  std::map<int, std::set<int>> together;      // by node those that were compared with it
+  std::map<int, std::set<int>> above;         // by node, the nodes that are at least as large
+  std::map<int, std::set<int>> together;      // by node, the nodes that were compared with it
   std::set<std::pair<int, int>> obligations;  // a number and its bound
-  std::set<std::pair<int, int>> of_ranges;    // comparisons of which another claim speaks
-  std::map<std::string, double> errors;       // of the entries of a group, if not 1 u
+  std::set<std::pair<int, int>> of_ranges;    // comparisons that another claim is about
+  std::map<std::string, double> errors;       // error of the entries of a group, if not 1 u
 
   int add(Node node) {
     const auto key = std::tuple(node.op, node.a, node.b, node.op == Op::constant ? node.value : 0.0,
@@ -114,7 +114,8 @@ inline Recorded made(Op op, int a, int b, double value, Kind kind) {
   return out;
 }
 
-// A coordinate of something. `what` names it; the axis is the last letter.
+// Returns a coordinate of the thing that is named `what`. The last letter of the name of the
+// coordinate is the axis.
 inline Recorded coordinate(const std::string& what, int number, int axis, double value) {
   Recorded out;
   out.value = value;
@@ -123,7 +124,7 @@ inline Recorded coordinate(const std::string& what, int number, int axis, double
   return out;
 }
 
-// A number of which only its range is known, taken as exact.
+// Returns an exact number of which only the range is known.
 inline Recorded free_number(const std::string& name, double lo, double hi, double value,
                             Kind kind = Kind::plain) {
   Recorded out;
@@ -146,7 +147,8 @@ constexpr Recorded constant(double value, Kind kind) {
 }
 constexpr bool is_zero(const Recorded& x) { return x.is_constant() && x.value == 0; }
 
-// Where a number and a bound are put together, the bound is believed.
+// If an operation has a number and a bound as operands, records the obligation that the bound holds
+// for the number.
 inline void believe(const Recorded& a, const Recorded& b) {
   if (a.kind != Kind::plain || b.kind != Kind::bound || a.is_constant()) return;
   const int bound = node_of(b);
@@ -190,7 +192,8 @@ constexpr Recorded& Recorded::operator-=(const Recorded& b) { return *this = *th
 constexpr Recorded& Recorded::operator*=(const Recorded& b) { return *this = *this * b; }
 constexpr Recorded& Recorded::operator/=(const Recorded& b) { return *this = *this / b; }
 
-// A comparison goes as the numbers of this run do. Of two plain numbers the order is noted.
+// Records a comparison, whose result is that of the values of this run. If both numbers are plain,
+// their order is recorded.
 inline void compared(const Recorded& a, const Recorded& b, bool less_or_equal) {
   if (a.kind == Kind::range || b.kind == Kind::range) {
     record.of_ranges.insert({node_of(a), node_of(b)});
@@ -200,7 +203,8 @@ inline void compared(const Recorded& a, const Recorded& b, bool less_or_equal) {
   } else if (!a.is_constant() && !b.is_constant()) {
     const int low = less_or_equal ? a.node : b.node, high = less_or_equal ? b.node : a.node;
     record.above[low].insert(high);
-    // Of two products with one positive constant the other factors are in the same order.
+    // If two products have the same positive constant as a factor, the other factors have the same
+    // order as the products.
     const Node& l = record.nodes.at(static_cast<std::size_t>(low));
     const Node& h = record.nodes.at(static_cast<std::size_t>(high));
     if (l.op == Op::multiply && h.op == Op::multiply && l.a == h.a &&
@@ -270,7 +274,7 @@ struct Float {
   friend bool operator>(const Float& a, const Float& b) { return b < a; }
 };
 
-// In place of vectors of four.
+// LaneTruth and FloatLanes replace vectors of four lanes.
 struct LaneTruth {
   int lanes[4];
   int operator[](std::size_t i) const { return lanes[i]; }
@@ -297,7 +301,7 @@ struct FloatLanes {
   friend LaneTruth operator>(const FloatLanes& a, const FloatLanes& b) { return b < a; }
 };
 
-// One lane, in place of a vector of lanes.
+// One lane, which replaces a vector of lanes.
 struct RecordedLanes : Recorded {
   RecordedLanes() = default;
   RecordedLanes(const Recorded& x) : Recorded(x) {}
@@ -316,13 +320,14 @@ inline RecordedMask operator<(const RecordedLanes& a, const RecordedLanes& b) {
 }
 inline RecordedMask operator>(const RecordedLanes& a, const RecordedLanes& b) { return b < a; }
 
-// A share in [0,1] that was computed and clamped goes on as a number of which no more is known.
+// Replaces a share in [0,1], which was computed and clamped, by a number of which only this range
+// is known.
 inline bool cut(Recorded& share) {
   share = free_number("share" + std::to_string(node_of(share)), 0, 1, 0.5);
   return true;
 }
 
-// The names that copies of sources call these by, for every number.
+// The names by which the copied sources call these functions, for every type of number.
 namespace math {
 using bounds::abs, bounds::sqrt, bounds::isfinite, bounds::ilogb, bounds::scalbn, bounds::ldexp,
     bounds::frexp;
@@ -340,7 +345,8 @@ using std::abs, std::sqrt, std::isfinite, std::ilogb, std::scalbn, std::ldexp, s
 }  // namespace math
 
 // Takes the place of detector::halve for recorded numbers: the coefficients over a half are new
-// numbers, the same ones for each piece of a depth. A claim of its own speaks of one halving.
+// numbers, which are the same for all pieces of one depth. A separate claim is about a single
+// halving.
 template <std::size_t n>
 void halve(const std::array<Recorded, n>& b, std::array<Recorded, n>& left,
            std::array<Recorded, n>& right) {

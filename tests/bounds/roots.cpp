@@ -1,4 +1,4 @@
-// The signs at a root: sums of products in doubles, and balls.
+// Claims about the signs at a root: sums of products in doubles, and balls.
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/ball.h"
 #include "tests/bounds/claims.h"

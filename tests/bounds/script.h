@@ -1,4 +1,4 @@
-// Questions for Gappa, made of what was recorded.
+// Questions for Gappa, made from the recorded operations.
 //
 // A script has a variable for each rounded operation and an exact twin of it. tests/README.md says
 // which lemmas lead from a script to the bound that the detector uses.
@@ -14,33 +14,37 @@ namespace assay::bounds {
 class Script {
  public:
   Script(const Case& which, int bound) : case_(which), bound_(bound) {}
-  // Of positive numbers that are known up to a factor: entries are off by u of themselves.
+  // Returns a script about positive numbers that are known up to a factor: an entry is off by at
+  // most u times itself.
   static Script of_factors() { return {{}, factors}; }
-  // Of coordinates in a grid: entries are at most 2 in size.
+  // Returns a script about coordinates in a grid: entries are at most 2 in size.
   static Script of_boxes() { return {{}, boxes}; }
 
-  // The variable or number that stands for a node as computed, and for its exact twin.
+  // Return the variable or number for a computed node, for the exact twin of a node, and for the
+  // computed bound.
   std::string computed(int node);
   std::string exact(int node);
   std::string computed_bound();
 
-  // A number of which only this is known: it is off by at most `error` from its exact twin, which
-  // is at most `size`.
+  // Adds a number of which only this is known: it differs by at most `error` from its exact twin,
+  // and the twin is at most `size`.
   void give(int node, const std::string& error, const std::string& size);
 
-  // Has Gappa look at shares in small pieces.
+  // Makes Gappa split the range of a share into small pieces.
   void split(int share) { hint("$ " + computed(share) + " in 32"); }
 
-  // Of a sum of terms: this one is 1 as computed, and its twin up to a factor in 1 +- `factor`. It
-  // is 0 if no factor is given.
+  // Adds a term of a sum. As computed the term is 1, and its exact twin differs by a factor in 1 +-
+  // `factor`. If `factor` is empty, the term is 0.
   void give_term(int node, const std::string& factor);
 
   void assume(const std::string& hypothesis) { hypotheses_.push_back(hypothesis); }
   void hint(const std::string& hint) { hints_.push_back(hint); }
   void want(const std::string& goal) { goals_.push_back(goal); }
-  // The bound is at least `least` more than the part of it that the operands' errors are.
+  // Adds the goal that the bound exceeds the part of it that covers the operands' errors by at
+  // least `least`.
   void want_bound_beyond(int operands, int more, const std::string& least);
-  // The number is its twin up to a factor in 1 +- most, and the constant factor in it covers that.
+  // Adds the goal that the number is its twin times a factor in 1 +- `most`, and that the constant
+  // factor of the number covers this.
   void want_factor(int node, const std::string& most, double factor);
   std::string text() const;
 
@@ -56,7 +60,7 @@ class Script {
   std::string as_float(const std::string& value);
   std::string next(char letter) { return letter + std::to_string(++count_); }
 
-  static constexpr int factors = -1, boxes = -2;  // in place of a bound
+  static constexpr int factors = -1, boxes = -2;  // used in place of a bound
   Case case_;
   int bound_, count_ = 0;
   bool is_bound_ = false;

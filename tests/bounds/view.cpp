@@ -1,4 +1,4 @@
-// The view test in doubles, of one triangle at a time.
+// Claims about the view test in doubles, for one triangle at a time.
 #include "detector/view/view_filter.cpp"
 #include "tests/bounds/claims.h"
 #include "tests/bounds/moving_points.h"

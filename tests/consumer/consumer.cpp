@@ -1,4 +1,5 @@
-// A tetrahedron whose top goes through its base: a collision at t = 1/2.
+// Uses the installed detector on a tetrahedron whose top goes through its base: a collision at
+// t=1/2.
 #include <cstdio>
 
 #include "detector/detector.h"

@@ -1,4 +1,4 @@
-// What stands around the examples of the public headers: examples.py makes a test of each header.
+// The code around the examples of the public headers. examples.py makes a test of each header.
 #include <gtest/gtest.h>
 
 #include <cstdio>

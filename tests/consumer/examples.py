@@ -1,8 +1,8 @@
-"""examples.py FOLDER OUTPUT: makes a test of the examples that stand in the headers below FOLDER.
+"""examples.py FOLDER OUTPUT: makes a test of the examples in the headers below FOLDER.
 
-An example is a paragraph of a comment, indented by three blanks, behind a sentence that ends with a colon. Each header
-has one or more; each header is one test, and what it needs around its examples is in examples.cpp. An example that
-defines a type stands outside of functions.
+An example is a paragraph of a comment that is indented by three blanks and follows a sentence with a colon at its end.
+Each header has one or more examples and gives one test. examples.cpp has the code around the examples. An example that
+defines a type is put outside of functions.
 """
 import re
 import sys
@@ -15,7 +15,7 @@ CALL = re.compile(r"\b(use|respond)\(")
 
 
 def examples_of(header):
-    """Where each example begins, counted from 1, and its lines."""
+    """Returns the number of the first line of each example, counted from 1, and its lines."""
     lines = [match[1] if (match := COMMENT.fullmatch(line)) else None
              for line in header.read_text().splitlines()]
     for i, line in enumerate(lines):

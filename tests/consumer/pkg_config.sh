@@ -1,6 +1,7 @@
 #!/bin/sh
-# pkg_config.sh PREFIX CXX CC FLAGS FOLDER: programs and a plug-in built outside of this project by
-# what pkg-config says of the detector that is installed in PREFIX, wherever that was moved to.
+# pkg_config.sh PREFIX CXX CC FLAGS FOLDER: builds programs and a plug-in outside of this project
+# with the flags that pkg-config gives for the detector installed in PREFIX, even if PREFIX was
+# moved.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cxx=$2 cc=$3 flags=$4

@@ -1,4 +1,4 @@
-// Files: their digests, how they are written, what may be wrong with them before they are read, and
+// Files: their digests, how they are written, which problems are found before they are read, and
 // their order.
 #include "corpus/files.h"
 

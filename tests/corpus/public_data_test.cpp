@@ -1,4 +1,5 @@
-// Reads the public data sets whose folder ASSAY_DATA names; skipped where it is absent.
+// Reads the public data sets in the folder that ASSAY_DATA names; skipped if there is no such
+// folder.
 #include "tests/public_data.h"
 
 #include "corpus/formats/sequences.h"

@@ -35,12 +35,12 @@ class Scratch : public testing::Test {
     return path;
   }
 
-  // What reading `bytes` as a mesh gives, which is to be a problem.
+  // Returns the result of reading `bytes` as a mesh, which should be a problem.
   Expected<Mesh> mesh_problem(const std::string& name, std::string_view bytes) const {
     return read_mesh(write(name, bytes));
   }
 
-  // It names its file and says these words, in one line.
+  // Expects a problem of one line that says these words and names the file and the place.
   void expect_mesh_problem(const std::string& name, std::string_view bytes, std::string_view words,
                            std::string_view place) const {
     const auto mesh = mesh_problem(name, bytes);
@@ -76,7 +76,7 @@ inline std::string gzip(std::string_view plain) {
   return packed;
 }
 
-// Bytes of a number in a binary PLY.
+// Returns the bytes of a number in a binary PLY file.
 template <class T>
 std::string bytes_of(T value, bool big_endian) {
   std::string bytes(sizeof(T), '\0');
@@ -96,7 +96,7 @@ inline constexpr std::string_view ply_tetrahedron =
     "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
-// Triangles as a text: "0 1 2, 0 2 3".
+// Expects these triangles, written as "0 1 2, 0 2 3".
 inline void expect_triangles(const Expected<Mesh>& mesh, const std::string& triangles) {
   EXPECT_EQ(value_of(mesh).triangles, tests::triangles_of(triangles));
 }

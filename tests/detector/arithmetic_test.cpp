@@ -1,5 +1,6 @@
-// What the arithmetics without integers promise, stage by stage, against exact arithmetic: bounded
-// is silent rather than wrong, double and float are wrong where they are known to be.
+// The promises of the arithmetics without integers, stage by stage, compared with exact arithmetic.
+// Arithmetic::bounded leaves a question open rather than answer it wrongly; `double` and `float`
+// are wrong where that is known.
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/boxes/moving_box.h"
 #include "detector/contact/rungs.h"

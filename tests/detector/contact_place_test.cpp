@@ -1,4 +1,4 @@
-// Places of contacts that the detector reports, held against rational arithmetic.
+// Places of contacts that the detector reports, compared with rational arithmetic.
 #include "detector/contact_place.h"
 
 #include "detector/detector.h"

@@ -1,4 +1,4 @@
-// Steps of a detector: answers, states and refusals, on small meshes.
+// Steps of a detector on small meshes: answers, states and refusals.
 #include "detector/detector.h"
 
 #include "detector/mesh/mesh_checks.h"

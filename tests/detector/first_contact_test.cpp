@@ -1,5 +1,5 @@
-// Pairs::first and Detector::first_contact: what is bounded by the earliest contact found so far
-// gives the first time and the pairs at it, as all pairs have them.
+// Pairs::first and Detector::first_contact: a search that is bounded by the earliest contact found
+// so far gives the same first time, and the same pairs at this time, as a search for all pairs.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "tests/asked.h"

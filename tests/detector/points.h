@@ -17,15 +17,15 @@ inline detector::Positions octahedron_positions(double r) {
   return positions({{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}});
 }
 
-// The octahedron of radius 2 whose apex is pulled out through its side.
+// Returns the octahedron of radius 2 whose vertex 4 is pulled out through a side.
 inline detector::Positions pushed_octahedron() {
   detector::Positions x = octahedron_positions(2);
   x.row(4) << 3, .5, -.25;
   return x;
 }
 
-// The octahedron of radius 2 whose tip at -z, vertex 5, is elsewhere. At (s, s, s) it is outside of
-// the triangle at +x +y +z where s is above 2/3.
+// Returns the octahedron of radius 2 with its tip at -z, vertex 5, moved to p. The tip (s, s, s) is
+// outside of the triangle at +x +y +z if s is above 2/3.
 inline detector::Positions tip_at(const Point& p) {
   detector::Positions x = octahedron_positions(2);
   x.row(5) << p[0], p[1], p[2];
@@ -33,7 +33,8 @@ inline detector::Positions tip_at(const Point& p) {
 }
 inline detector::Positions tip_at(double s) { return tip_at({s, s, s}); }
 
-// Two octahedra: their triangles, and the positions of both, the second `apart` along x.
+// Return the triangles of two octahedra, and their positions; the second one is moved by `apart`
+// along x.
 inline detector::Triangles two_octahedra() {
   detector::Triangles t(16, 3);
   t << octahedron(), octahedron().array() + 6;
@@ -46,8 +47,8 @@ inline detector::Positions side_by_side(const detector::Positions& a, const dete
   return x;
 }
 
-// Two triangles in each of n x m squares, whose first and last vertex both have; numbered row by
-// row, as their (n+1) x (m+1) vertices are.
+// Returns two triangles for each of n x m squares. Both triangles have the first and the last
+// vertex of the square. Triangles and the (n+1) x (m+1) vertices are numbered row by row.
 inline detector::Triangles squares(std::int32_t n, std::int32_t m) {
   detector::Triangles t(2 * n * m, 3);
   for (std::int32_t s = 0; s < n * m; ++s) {
@@ -57,21 +58,21 @@ inline detector::Triangles squares(std::int32_t n, std::int32_t m) {
   }
   return t;
 }
-// The vertices of n x n unit squares.
+// Returns the vertices of n x n unit squares.
 inline detector::Positions flat_squares(std::int32_t n) {
   detector::Positions x((n + 1) * (n + 1), 3);
   for (std::int32_t v = 0; v < x.rows(); ++v) x.row(v) << v / (n + 1), v % (n + 1), 0;
   return x;
 }
 
-// Of a test that is run with each of several cullings.
+// Returns the name of a test that runs with each of several cullings.
 inline std::string culling_of_test(const testing::TestParamInfo<detector::Culling>& tested) {
   std::string name = name_of(tested.param);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-// The same pairs are in contact at the same times.
+// Expects the same answer, and the same pairs in contact at the same times.
 inline void expect_same_contacts(const detector::StepResult& a, const detector::StepResult& b) {
   EXPECT_EQ(a.answer, b.answer);
   EXPECT_EQ(a.first, b.first);
@@ -82,7 +83,7 @@ inline void expect_same_contacts(const detector::StepResult& a, const detector::
   }
 }
 
-// And were found by the same work.
+// Expects the same contacts, and the same counts of work.
 inline void expect_same_work(const detector::StepResult& a, const detector::StepResult& b) {
   expect_same_contacts(a, b);
   EXPECT_EQ(a.signs, b.signs);

@@ -1,5 +1,5 @@
-// Runs what a test calls in a thread whose stack is small, and says how much of it was used: a
-// detector is called from threads that its user made, and no depth of calls may depend on numbers.
+// Runs a function in a thread with a small stack, and measures how much stack it used. A detector
+// runs in threads that its user made, so no depth of calls may depend on the input.
 #pragma once
 
 #include <pthread.h>
@@ -22,8 +22,8 @@ inline constexpr std::size_t given_stack_bytes = small_stack_bytes;
 
 namespace small_stack {
 
-// The thread's own data lies above its first frame, on the same block, and is not the body's: a
-// thread of the thread sanitizer has nearly a megabyte of it.
+// The thread's own data lies in the same block, above its first frame, and does not count as stack
+// of the body. Under the thread sanitizer it is nearly a megabyte.
 #if defined(__SANITIZE_THREAD__)
 inline constexpr std::size_t threads_own_bytes = 2 * 1024 * 1024;
 #else
@@ -38,8 +38,8 @@ struct Run {
   std::size_t used = 0;
 };
 
-// Counts from this frame downwards. The page below what the body is given cannot be written: a body
-// that uses more crashes.
+// Counts the stack from this frame downwards. The page below the stack of the body is protected, so
+// a body that uses more stack crashes.
 inline void* run(void* data) {
   Run& run = *static_cast<Run*>(data);
   std::byte here{};
@@ -58,7 +58,8 @@ inline void* run(void* data) {
 
 }  // namespace small_stack
 
-// Bytes of stack that `body` used, between its caller's frame and the deepest byte that it wrote.
+// Returns how many bytes of stack `body` used, from its caller's frame to the deepest byte that
+// `body` wrote.
 inline std::size_t on_small_stack(const std::function<void()>& body) {
   constexpr std::size_t bytes = small_stack::threads_own_bytes + given_stack_bytes;
   void* block =
@@ -81,7 +82,7 @@ inline std::size_t on_small_stack(const std::function<void()>& body) {
   return run.used;
 }
 
-// Fails when `body` uses more than half of the stack: the other half is for whoever calls.
+// Fails if `body` uses more than half of the stack. The other half is left to the caller.
 inline void expect_enough_stack(const char* measured, const std::function<void()>& body) {
   const std::size_t used = on_small_stack(body);
   std::printf("%s: %zu KB of stack\n", measured, used / 1024);

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Plants faults into the harness and asks whether the frozen rows, or a named test, show each of them.
+"""Plants faults into the harness, and checks that the frozen rows or a named test show each fault.
 
 usage: faults.py TREE [FAULT...]    # TREE: a built copy of the sources, which is changed
-       faults.py --fit SOURCES      # only whether each fault has its place in the sources
+       faults.py --fit SOURCES      # only checks that the sources have the line of each fault
 
 A fault is a file of faults/. Its line `+` takes the place of the line `-` in a source, and the word
-PLANTED in it is true if the fault is there. All faults go into one build, and the environment variable
-ASSAY_PLANTED names the one that is there. A line `test: PROGRAM FILTER` names the GoogleTest tests
-that show it, where no frozen row does. Exit code 0: each fault shows, and nothing does without one.
+PLANTED in it is true if the fault is active. All faults go into one build, and the environment variable
+ASSAY_PLANTED names the active fault. A line `test: PROGRAM FILTER` names GoogleTest tests that show
+the fault, if no frozen row does. Exit code 0: each fault shows, and no test fails without a fault.
 """
 import os
 import subprocess
@@ -41,7 +41,7 @@ def read(path):
 
 
 def planted(source, fault):
-    """The source with the fault. Ends the script where its line is not there exactly once."""
+    """Returns the source with the fault. Ends the script unless the source has the line exactly once."""
     if source.count(f"\n{fault.right}\n") != 1:
         sys.exit(f"{fault.name}: not exactly once in {fault.file}: {fault.right}")
     head = "" if source.startswith(HEAD) else HEAD

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Writes what the harness says of fixed subjects, as rows of text.
+"""Writes the verdicts of the harness on fixed subjects, as rows of text.
 
 usage: frozen.py [BUILD] [--whole] [--out FILE | --renew]
 
-A change of how the harness works inside has to leave each row as it is. A subject is a detector that
-answers the same each time. A row holds, between tabs: the subject, the seed, the part of the verdict,
-and its value as JSON, without what depends on the clock, the machine or the build. Each subject has a
-twentieth of the cases of campaign smoke, of one seed (a minute on two cores); with --whole, all cases
-of three seeds (half an hour). The rows are compared with rows.txt, where a long value stands as its
-digest, and those that differ are printed; --out writes all of them, to compare two whole forms.
-Exit code 0: all rows are as they were, and each claim and outcome occurs.
+If only the inside of the harness changes, each row must stay the same. A subject is a detector that gives
+the same answers each time. A row holds, separated by tabs: the subject, the seed, the part of the verdict,
+and its value as JSON, without parts that depend on the clock, the machine or the build. Each subject runs
+on a twentieth of the cases of campaign smoke, of one seed (a minute on two cores); with --whole, on all
+cases of three seeds (half an hour). The rows are compared with rows.txt, which has digests of long values,
+and differing rows are printed. --out writes all rows, so that two runs can be compared.
+Exit code 0: all rows are the same, and each claim and outcome occurs.
 """
 import argparse
 import hashlib
@@ -23,16 +23,16 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-STRATA = {  # of smoke
+STRATA = {  # of campaign smoke
     "closed-generic": 600, "closed-near-degenerate": 200, "closed-degenerate": 200,
     "closed-far-large-step": 200, "unclosed-generic": 600, "unclosed-degenerate": 200,
     "unclosed-near-degenerate": 200, "closed-everyday": 200, "unclosed-everyday": 200, "broken": 200,
     "counted": 200, "limits": 200, "within": 200,
 }
-# Of the module `assay`.
+# The Python for which the module `assay` is built.
 PYTHON = os.environ.get("ASSAY_PYTHON", "/usr/bin/python3")
-# By name: the library, below BUILD, and what it is told by its environment. `built-in`, `limiter`
-# and `distance` are right.
+# By name: the library below BUILD, and its environment variables. `built-in`, `limiter` and `distance`
+# are right.
 PLUGIN = "tests/plugins/plugin_{}.so".format
 SUBJECTS = {
     "built-in": ("", {}),
@@ -55,13 +55,13 @@ SUBJECTS = {
     "cubic": ("peers/cubic_double.so", {}),
     "fcl": ("peers/fcl_elementary.so", {}),
 }
-# Of a certificate; where a list is, the member that names its items.
+# Parts of a certificate that are lists, and the member that names the items of each list.
 LISTS = {"gates": "gate", "strata": "family", "failures": "signature", "judged_up_to": "claim",
          "not_judged": "claim", "laws": "law", "faults": "fault", "repeated": "input"}
 PARTS = ["verdict", "exit_code", "failed_gate", "gates", "detector", "not_judged", "judged_up_to",
          "tried", "left_out_families", "strata", "laws", "power", "harness_problems", "self_test",
          "corpus", "repeated", "search", "failures"]
-# These hang on the clock, the machine, the build or the folder.
+# Members that depend on the clock, the machine, the build or the folder.
 LEFT_OUT = {"version", "file", "sha256", "replay", "isolation", "taken_from", "by_clock", "seconds",
             "after", "before", "flaky", "not_so_deep", "shrunk", "times_ms", "peak_memory_bytes"}
 
@@ -83,7 +83,7 @@ def run(words, folder, env=None):
 
 
 def plan(whole, name):
-    """Nothing is shrunk, because a clock ends that: its share of the time is next to nothing."""
+    """Returns the plan. Shrinking depends on the clock, so its share of the time is almost 0."""
     part = 1 if whole else 20
     strata = [{"family": f, "cases": n // part, "bound": 0.9} for f, n in STRATA.items()]
     policy = {"power": 0.01, "self_test_queries": 10000 // part,
@@ -94,7 +94,7 @@ def plan(whole, name):
 
 
 def campaign_rows(build, name, seed, folder, whole, proof=None):
-    """What a run of a subject says. `proof` is the folder of the built-in's run of this seed."""
+    """Returns the rows of a run. `proof` is the folder of the run of the built-in detector with this seed."""
     folder.mkdir()
     (folder / "plan.json").write_text(json.dumps(plan(whole, name)))
     words = [build / "assay", "run", "--campaign", "plan.json", "--seed", seed, "--out", "run",
@@ -111,7 +111,7 @@ def campaign_rows(build, name, seed, folder, whole, proof=None):
         said = json.loads(read.stdout)
     except ValueError:
         return rows + [row(name, seed, "says", ended.stdout.splitlines()[-1:])]
-    # `drawn` answers other intervals each time, so what is measured of its trials differs.
+    # `drawn` answers with other intervals each time, so the measures of its trials differ.
     left = {"power"} if library else set()
     left |= {"strata", "tried"} if name == "drawn" else set()
     for part in [p for p in PARTS if p not in left]:
@@ -122,7 +122,7 @@ def campaign_rows(build, name, seed, folder, whole, proof=None):
 
 
 def rows_of(words, value):
-    """A row for each item that has a name, and else for each member of what holds such items."""
+    """Returns a row for each named item of a list, or for each member of an object, or for the value."""
     if isinstance(value, dict):
         return [r for key, of in value.items() if key not in LEFT_OUT for r in rows_of([*words, key], of)]
     member = LISTS.get(words[-1])
@@ -132,7 +132,7 @@ def rows_of(words, value):
 
 
 def checked(build, words, folder, name):
-    """What check or another verb says of one input."""
+    """Returns the rows of `check` or another verb on one input."""
     report = folder / (re.sub(r"\W", "-", name) + ".json")
     ended = run([build / "assay", *words, "--json", report], folder)
     said = json.loads(report.read_text()) if report.exists() else {}
@@ -144,7 +144,7 @@ def checked(build, words, folder, name):
 
 
 def input_rows(build, folder):
-    """Curated cases, scenes, a log, a table, queries, relations, a separation, and the self-test."""
+    """Returns the rows of curated cases, scenes, a log, a table, queries, relations and the self-test."""
     tasks = [(f"case {f.stem}", ["check", f]) for f in sorted((ROOT / "corpus/curated").glob("*.json"))]
     for scene in ("two-spheres", "dented-sphere", "folding-sheet"):
         run([build / "assay", "scene", scene, "--size", 300, "--frames", 4, "--out", scene], folder)
@@ -177,7 +177,7 @@ def input_rows(build, folder):
 
 
 def states(rows):
-    """Which claims are broken, held and not judged anywhere; which outcomes occur."""
+    """Returns which claims are broken, judged or not judged somewhere, and which outcomes occur."""
     found = set()
     for line in rows:
         fields = line.split("\t")
@@ -197,22 +197,22 @@ def states(rows):
 
 
 CLAIMS = json.loads((ROOT / "reports/schemas/certificate.schema.json").read_text())["$defs"]["claim"]["enum"]
-# What no subject here causes: that a claim other than these is not judged; an undecided step, because
-# what is undecided hangs until a time is over.
+# No subject causes these: an undecided step, because it takes until a limit of time; and that a claim is
+# not judged, except for the five claims below.
 NEVER = {("outcome", "undecided")} | {("not judged", claim) for claim in CLAIMS if claim not in (
     "free-sound", "not-late", "first-time", "first-pairs", "all-pairs")}
 OUTCOMES = ["holds", "defects", "undecided", "errors", "refused"]
 
 
 def shortened(line):
-    """A row of rows.txt: long values by their digests."""
+    """Returns the row as rows.txt has it, with the digest of a long value."""
     *words, value = line.split("\t")
     is_long = len(value) > 160
     return "\t".join([*words, hashlib.sha256(value.encode()).hexdigest()[:16] if is_long else value])
 
 
 def compared(rows):
-    """Prints what differs from rows.txt, as far as the subjects are here. Returns whether all is as it was."""
+    """Compares rows with rows.txt for the present subjects, prints differences. Returns whether none differs."""
     subject = lambda line: line.split("\t")[0]
     here = {subject(line) for line in rows}
     before = [line for line in (ROOT / "tests/frozen/rows.txt").read_text().splitlines()
@@ -235,7 +235,7 @@ def main():
     parser.add_argument("--renew", action="store_true", help="write rows.txt")
     given = parser.parse_args()
     build = given.build.resolve()
-    # Detectors of others are built where their libraries are.
+    # A detector of others is built only if its library is installed.
     subjects = [name for name, (library, _) in SUBJECTS.items()
                 if not library.startswith("peers/") or (build / library).exists()]
     with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(2) as pool:

@@ -1,4 +1,5 @@
-// No room grows: each has a budget of lines, which falls with what goes; and what lines are for.
+// No room grows: each room has a budget of lines, which falls if lines are removed. Also which
+// capability the lines of each inner room serve.
 #include <iomanip>
 #include <iostream>
 

@@ -1,10 +1,10 @@
-// Every file that a comment or a README cites is there.
+// Every file that a comment or a README cites exists.
 //
 // A citation is a word that looks like a path: it ends like a file of the project (".h", ".md"), or
-// its first part is a folder. It is looked for from the citing file's own folder, from its room and
-// from the top. In its own room a file may be cited by the end of its path ("house_test.cpp" for
-// tests/house/house_test.cpp), and a test may do so in the room that it tests. A pattern
-// ("house/*_test.cpp") has to fit some file.
+// its first part is a folder. The test looks for the cited file from the citing file's folder, from
+// its room and from the top. In its own room a file may be cited by the end of its path
+// ("house_test.cpp" for tests/house/house_test.cpp), and a test may do so in the room that it
+// tests. A pattern ("house/*_test.cpp") has to fit some file.
 #include <fnmatch.h>
 
 #include <cctype>

@@ -1,6 +1,6 @@
 // Comments keep the lines that their authors gave them. A formatter that folds long comment lines
-// turns tables of error bounds and listings of code into nonsense, so it must not touch comments,
-// and no comment may look as if one had folded it.
+// turns tables of error bounds and listings of code into nonsense, so the formatter must not touch
+// comments, and no comment may look as if it had been folded.
 #include <regex>
 
 #include "tests/house/tree.h"

@@ -1,5 +1,6 @@
-// The house keeps its own rules: arrows between rooms, no arithmetic shared by oracle and detector,
-// CGAL out of all headers and only its LGPL part, the fixed top level.
+// The project keeps its own rules: which rooms may include which, no arithmetic is shared by oracle
+// and detector, no header includes CGAL, only the LGPL part of CGAL is used, and the top level is
+// fixed.
 #include <regex>
 
 #include "tests/house/tree.h"

@@ -1,5 +1,6 @@
-// No room is crowded, nothing but a test is named like one, no test is left out of the build, the
-// tree is built in any folder, tests of public data say so, and constants are named in one style.
+// No folder has too many files, only tests are named like tests, every test is in the build, the
+// tree builds in any folder, tests of public data have names that say so, and constants are named
+// in one style.
 #include <regex>
 
 #include "tests/house/tree.h"

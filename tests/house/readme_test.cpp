@@ -1,5 +1,5 @@
-// The README of a room says in one line for each folder what belongs there, in the table whose
-// first column is `place`. What a file holds is told by the file's own first comment.
+// The README of a room has one line for each folder, which says what belongs there, in the table
+// whose first column is `place`. The first comment of a file says what the file holds.
 #include "tests/house/tree.h"
 
 namespace assay::tests {

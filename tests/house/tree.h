@@ -10,12 +10,12 @@ inline const std::filesystem::path root = ASSAY_SOURCE_DIR;
 inline constexpr const char* rooms[] = {"detector",   "oracle",  "corpus",
                                         "properties", "reports", "tests"};
 
-// What builds, installs and tools leave beside the sources.
+// Returns whether a build, an install or a tool left this file beside the sources.
 inline bool is_left_behind(const std::string& name) {
   return name.front() == '.' || name == "build" || name == "node_modules" || name == "__pycache__";
 }
 
-// In order. `folder` may be empty: the top.
+// Returns the files in ascending order. An empty `folder` is the top.
 inline std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files;
   const std::filesystem::recursive_directory_iterator end;
@@ -30,12 +30,12 @@ inline std::vector<std::string> files_below(const std::string& folder) {
   return files;
 }
 
-// "" of a file at the top.
+// Returns the folder of a file; "" if the file is at the top.
 inline std::string folder_of(const std::string& path) {
   return std::filesystem::path(path).parent_path().generic_string();
 }
 
-// Those that hold files, or folders with files; not the top.
+// Returns all folders that hold files, or folders with files, except the top.
 inline std::set<std::string> folders_of(const std::vector<std::string>& files) {
   std::set<std::string> folders;
   for (const auto& file : files) {
@@ -44,7 +44,7 @@ inline std::set<std::string> folders_of(const std::vector<std::string>& files) {
   return folders;
 }
 
-// The first part of a path: "" of a file at the top.
+// Returns the first part of a path; "" if the file is at the top.
 inline std::string room_of_file(const std::string& path) {
   const auto end = path.find('/');
   return end == std::string::npos ? "" : path.substr(0, end);

@@ -1,5 +1,5 @@
-// What the oracle knows of a set of cases, as plain data in a file: a detector is judged by it
-// without the oracle. Written by mutation_facts, read by mutant_judge.
+// What the oracle knows of a set of cases, as plain data in a file. mutation_facts writes the file;
+// mutant_judge reads it and judges a detector without the oracle.
 #pragma once
 
 #include <optional>
@@ -14,41 +14,42 @@ namespace assay::mutation {
 struct QueryFact {
   detector::FourPoints query;
   bool contact = false;
-  detector::TimeEnclosure first;  // when there is a contact
+  detector::TimeEnclosure first;  // set if there is a contact
 };
 
-// A pair of the oracle's complete set. part: of the contact graph at the first time (triangles as
-// nodes, pairs that have this time as edges); -1 where the pair is later.
+// A pair of the oracle's complete pair set. `part` is the connected part of the contact graph at
+// the first time (its nodes are triangles, its edges the pairs that have this time); -1 if the pair
+// is later.
 struct PairFact {
   detector::TrianglePair pair;
   detector::TimeEnclosure time;
   std::int32_t part = -1;
 };
 
-// View sets of one step in one setting. They hold for these primitives and apexes alone.
+// View sets of one step in one setting. The sets are right only for these primitives and apexes.
 struct ViewFact {
   bool known = false;
   std::vector<detector::ViewPrimitive> primitives;
   std::vector<detector::MovingPoint> apexes;
-  std::vector<detector::ViewSign> signs;  // mesh, then ghosts (L2)
+  std::vector<detector::ViewSign> signs;  // of the mesh, then of the ghosts (L2)
   std::vector<std::uint8_t> doubts;       // violated (L11) and dirty (L8, L9)
 };
 
 struct StepFact {
   std::int32_t from = 0, to = 0;  // frames
   bool commit = true;
-  std::optional<detector::ViewPrimitive> view;  // of the case, where it states one
+  std::optional<detector::ViewPrimitive> view;  // the primitive that the case states, if any
   std::vector<PairFact> pairs;
   std::optional<detector::TimeEnclosure> first;  // none: the step is free
-  std::vector<ViewFact> views;                   // by setting; not known where it has no views
+  std::vector<ViewFact> views;                   // by setting; `known` is false without views
 };
 
 struct CaseFact {
   std::string id;
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;
-  bool starts_clean = false;    // what Start::clean vouches for is true
-  std::vector<StepFact> steps;  // none where the mesh must be refused
+  bool starts_clean = false;    // Start::clean would be right
+  std::vector<StepFact> steps;  // none if the detector must refuse the mesh
 };
 
 struct Facts {
@@ -57,7 +58,7 @@ struct Facts {
 };
 
 void write_facts(const std::string& path, const Facts& facts);
-// Throws std::runtime_error where the file is not one of facts.
+// Throws std::runtime_error if the file does not hold facts.
 Facts read_facts(const std::string& path);
 
 }  // namespace assay::mutation

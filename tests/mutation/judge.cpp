@@ -1,5 +1,5 @@
-// mutant_judge FACTS: the detector that is linked here against the oracle's facts. Ends with 1 and
-// one line at the first contradiction. Knows no CGAL.
+// mutant_judge FACTS: compares the detector that is linked here with the facts of the oracle. Ends
+// with 1 and one line at the first contradiction. It does not use CGAL.
 #include <algorithm>
 #include <cstdio>
 #include <set>

@@ -1,7 +1,7 @@
-"""Mutants of C++ sources: one small change of one line each.
+"""Makes mutants of C++ sources, each of which has one small change in one line.
 
 The sources are clang-formatted, so binary operators have spaces around them and brackets of
-templates have none. A change that does not compile is found out by the compiler.
+templates have none. If a change does not compile, the compiler finds it out.
 """
 import hashlib
 import re
@@ -13,7 +13,7 @@ from pathlib import Path
 class Mutant:
     file: str  # relative to the root
     number: int  # of the line, from 1
-    line: str  # as it is, without the indent
+    line: str  # the unchanged line, without the indent
     mutated: str
     kind: str
 
@@ -35,7 +35,7 @@ FUNCTION = re.compile(r"^(?:static |inline |constexpr )*(void|bool) [\w:]+\(.*\{
 
 
 def without_comments(text):
-    """The same text with comments and strings blanked out, line by line."""
+    """Returns the text with comments and strings replaced by blanks, line by line."""
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group())
     return re.sub(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", blank, text,
@@ -43,7 +43,7 @@ def without_comments(text):
 
 
 def closing(text, start):
-    """Index of the bracket that closes the one at `start`, or -1."""
+    """Returns the index of the bracket that closes the bracket at `start`, or -1."""
     depth = 0
     for i in range(start, len(text)):
         depth += (text[i] == "(") - (text[i] == ")")
@@ -53,7 +53,7 @@ def closing(text, start):
 
 
 def changes(code):
-    """(kind, from, to, replacement) of one line of code."""
+    """Yields each change of one line of code, as (kind, from, to, replacement)."""
     for m in OPERATOR.finditer(code):
         yield "operator", m.start(), m.end(), OPERATORS[m.group()]
     for m in NUMBER.finditer(code):
@@ -103,20 +103,20 @@ def mutants_of(root, file):
 
 
 def area_weight(file):
-    """How often lines of a file are drawn: the core of the detector most."""
+    """Returns how often lines of a file are drawn: most often those of the core of the detector."""
     core = ("view/", "contact/", "boundary/", "search/", "state/", "step/", "geometry/")
     weight = 2.0 if file.removeprefix("detector/").startswith(core) else 1.0
     return weight * (0.25 if file.endswith(".h") else 1.0)
 
 
 def drawn(seed, mutant, nth):
-    """A number that depends on the mutant's text alone: edits elsewhere draw no others."""
+    """Returns a number that depends only on the mutant's text, so that other edits keep the drawn mutants."""
     text = "\0".join([str(seed), *mutant.key(), str(nth)])
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def in_random_order(seed, mutants):
-    """By kind in turn, so that frequent kinds do not crowd out the others."""
+    """Returns the mutants in random order, mixed by kind, so that rare kinds come early, too."""
     seen, by_kind = {}, {}
     for mutant in mutants:
         nth = seen[mutant.key()] = seen.get(mutant.key(), 0) + 1
@@ -124,15 +124,15 @@ def in_random_order(seed, mutants):
     ranked = []
     for of_kind in by_kind.values():
         of_kind.sort(key=lambda entry: entry[0])
-        # The n-th of a kind of k stands at about n of 1 + sqrt(k).
+        # The n-th of k mutants of a kind is put at about n / (1 + sqrt(k)).
         ranked += [((n + int(d[:8], 16) / 2**32) / (1 + len(of_kind)**0.5), d, mutant)
                    for n, (d, mutant) in enumerate(of_kind)]
     return [mutant for _, _, mutant in sorted(ranked, key=lambda entry: entry[:2])]
 
 
 def quotas(weights, total):
-    """How many of each file: of a source one at least, the rest in proportion (by the largest
-    remainders). A mutated header costs more and declares more than it does."""
+    """Returns the number of mutants of each file: at least one of a source, the others in proportion (by the
+    largest remainders). A mutated header costs more, and has fewer statements."""
     least = {f: int(f.endswith(".cpp")) for f in weights}
     rest = max(0, total - sum(least.values()))
     whole = sum(weights.values())

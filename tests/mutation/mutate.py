@@ -16,11 +16,11 @@ import workbench
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-WANTED = 0.95  # of the mutants not named equivalent
+WANTED = 0.95  # share to be killed of the mutants that are not named equivalent
 CLOCK = "detector/search/stopwatch.h"  # times that are no part of the result
 # Programs that judge beside mutant_judge, and which of their tests are about the detector alone.
 TESTS = {"detector_tests": "*", "properties_detector_tests": "ViewAnchor.*"}
-MOST_USERS = 12  # a header that more sources include costs too much a mutant
+MOST_USERS = 12  # if more sources include a header, each mutant of it takes too long
 
 
 def arguments():
@@ -69,7 +69,7 @@ def time_judges(judges, build, memory):
 
 
 def by_hand(entry):
-    """A mutant that no rule makes: its line must stand once, or its `occurrence` be named."""
+    """Returns a mutant that no rule makes. Its line must occur once, or the entry names the `occurrence`."""
     lines = [line.strip() for line in (ROOT / entry["file"]).read_text().split("\n")]
     places = [n for n, line in enumerate(lines, 1) if line == entry["line"]]
     nth = entry.get("occurrence", 1)
@@ -80,7 +80,7 @@ def by_hand(entry):
 
 
 def named_mutants(path):
-    """Those of a list, where they stand now; and those that are not met any more."""
+    """Returns the mutants of a list at their present lines, and the entries that no mutant fits any more."""
     met, gone = [], []
     for entry in json.loads(Path(path).read_text()):
         file = ROOT / entry["file"]
@@ -96,7 +96,7 @@ def named_mutants(path):
 
 
 def work_of(options, build):
-    """By file: mutants in random order, and how many of them are wanted."""
+    """Returns by file its mutants in random order, and how many of them are wanted."""
     if options.these:
         met, gone = named_mutants(options.these)
         for entry in gone:
@@ -120,7 +120,7 @@ def work_of(options, build):
 
 
 def judge_file(benches, memory, list_, wanted, show):
-    """Until so many mutants of the file are judged that compile to other code."""
+    """Judges mutants of a file until `wanted` mutants that compile to other code are judged."""
     bench = benches.get()
     out, valid = [], 0
     try:

@@ -1,4 +1,4 @@
-"""Outcomes of earlier runs: a run that was ended goes on, and a new test is put to survivors only."""
+"""Keeps outcomes of runs, so that an ended run continues, and a new test runs on survivors only."""
 import hashlib
 import json
 import threading
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def digest_of(program, arguments):
-    """Of a judge: its program (the detector is in it) and the files that it reads."""
+    """Returns the digest of a judge: of its program, with the detector in it, and of the files that it reads."""
     sha = hashlib.sha256(Path(program).read_bytes())
     for argument in arguments:
         sha.update(Path(argument).read_bytes() if Path(argument).is_file() else argument.encode())
@@ -15,12 +15,12 @@ def digest_of(program, arguments):
 
 class Remembered:
     def __init__(self, path, digests):
-        """digests: by judge, in their order."""
+        """`digests` has the digest of each judge, in the order of the judges."""
         self.path, self.digests, self.known = Path(path), digests, {}
         self.lock = threading.Lock()
         lines = self.path.read_text().splitlines() if self.path.exists() else []
-        self.passed = {}  # by survivor: the judges that it survived, as they are now
-        self.seconds = {}  # of judges, for the detector as it is
+        self.passed = {}  # by survivor: the judges, unchanged since then, that it survived
+        self.seconds = {}  # by judge: its time for the unchanged detector
         for entry in map(json.loads, lines):
             if "judge" in entry:
                 if digests.get(entry["judge"]) == entry["digest"]:

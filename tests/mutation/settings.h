@@ -13,21 +13,21 @@ namespace assay::mutation {
 struct Setting {
   std::string_view name;
   detector::Options options;
-  bool own_primitives = false;  // also where the case states some
+  bool own_primitives = false;  // the detector's primitives, even if the case states others
   bool view_facts = false;      // the oracle's view sets are known
-  bool saved = false;           // each step in a new detector that goes on from the saved state
+  bool saved = false;           // each step runs in a new detector, from the saved state
   int most_triangles = 1000;
 };
 
 std::span<const Setting> settings();
 
-// Options of the setting are right for the case: nothing is vouched for that is false.
+// Returns whether the options of the setting suit the case: what the caller vouches for is true.
 bool applies(const Setting& setting, const CaseFact& c);
 
-// The primitive that the step is given, if any.
+// Returns the primitive that the step is given; empty if there is none.
 std::vector<detector::ViewPrimitive> primitive_of(const Setting& setting, const StepFact& step);
 
-// One result for each step.
+// Runs the case, and returns one result for each step.
 std::vector<detector::StepResult> run(const CaseFact& c, const Setting& setting,
                                       detector::Detector& detector);
 

@@ -1,6 +1,6 @@
 """Compiles and judges mutants in a copy of the detector; the sources themselves stay untouched.
 
-A mutated object is linked before the build's own library, whose object then stays out.
+A mutated object is linked before the build's own library, so that it replaces the object of the library.
 """
 import json
 import resource
@@ -9,22 +9,22 @@ import shutil
 import subprocess
 from pathlib import Path
 
-MEMORY = 4 << 30  # bytes of a judge: what asks for more is wrong
+MEMORY = 4 << 30  # bytes of a judge; a mutant that needs more is killed
 PRECOMPILED = ["Eigen/Core", "algorithm", "functional", "memory", "optional", "span", "vector",
                "boost/outcome/basic_result.hpp", "boost/multiprecision/cpp_int.hpp"]
-FACTOR, SLACK = 3, 5  # a judge hangs after FACTOR times what it needs, and SLACK seconds
+FACTOR, SLACK = 3, 5  # a judge hangs after FACTOR times its usual time, plus SLACK seconds
 
 
 class Judge:
-    """A program that ends with 0 when the detector in it is right."""
+    """A program that ends with 0 if the detector in it is right."""
 
     def __init__(self, name, link, arguments):
         self.name, self.link, self.arguments = name, link, arguments
-        self.seconds = 0.0  # of the detector as it is
+        self.seconds = 0.0  # for the unchanged detector
 
 
 class Build:
-    """What the build tree knows: how files are compiled, what includes them, how to link."""
+    """What the build tree knows: how files are compiled, which sources include them, how to link."""
 
     def __init__(self, root, build):
         self.root, self.build = Path(root).resolve(), Path(build).resolve()
@@ -43,7 +43,7 @@ class Build:
         return run.stdout
 
     def _users(self):
-        """By file of the detector: the sources of the detector that include it, and itself."""
+        """Returns by file of the detector: the sources of the detector that include it, and the file itself."""
         users = {file: {file} for file in self.commands}
         objects = {self._option(c, "-o"): file for file, c in self.commands.items()}
         source = None
@@ -61,7 +61,7 @@ class Build:
         return command[command.index(name) + 1]
 
     def precompile(self, folder):
-        """What takes the compiler longest in every source, once: compiling is half of the work."""
+        """Compiles once the headers on which every source spends most time: compiling is half of the work."""
         header = Path(folder).resolve() / "precompiled.h"
         header.write_text("".join(f"#include <{name}>\n" for name in PRECOMPILED))
         source = next(file for file in sorted(self.commands) if "lanes" not in file)
@@ -71,9 +71,9 @@ class Build:
         self.precompiled = header
 
     def compile_command(self, source, copy, output):
-        """For the copy of the detector in `copy`; optimised a little only, warnings allowed.
+        """Returns the command for a source of the copy in `copy`, with little optimisation and no warnings.
 
-        Bounds of containers are checked: a mutant that reads past an end is found under asan.
+        It checks the bounds of containers, because asan would find a mutant that reads past an end.
         """
         drop_next, out = False, ["-D_GLIBCXX_ASSERTIONS"]
         if self.precompiled and not any(w.startswith("-m") for w in self.commands[source]):
@@ -93,7 +93,7 @@ class Build:
 
     def link_command(self, program):
         command = self._ninja("-t", "commands", program).splitlines()[-1]
-        # Between others: ninja's own, and tests that are listed after linking.
+        # The command is one of several: others are ninja's own, or list the tests after linking.
         steps = " ".join(":" if w == "&&" else shlex.quote(w) for w in shlex.split(command)).split(" : ")
         words = next(words for words in map(shlex.split, steps) if "-o" in words)
         faster = ["-fuse-ld=lld"] if shutil.which("ld.lld") else []
@@ -101,7 +101,7 @@ class Build:
 
 
 class Workbench:
-    """One copy of the detector; one mutant at a time."""
+    """A copy of the detector, which has one mutant at a time."""
 
     def __init__(self, build, folder, judges):
         self.build, self.folder, self.judges = build, Path(folder), judges
@@ -121,7 +121,7 @@ class Workbench:
         return objects
 
     def outcome(self, mutant, passed):
-        """passed: judges that need not be asked again. killed, survives, does not compile, same code; and the judge that killed it, how."""
+        """Returns killed, survives, does not compile, or same code; the killing judge; how. Skips `passed` judges."""
         path = self.folder / mutant.file
         text = path.read_text()
         lines = text.split("\n")
@@ -150,7 +150,7 @@ class Workbench:
         return [o.read_bytes() for o in objects] == self.originals[file]
 
     def judged(self, judge, objects):
-        """How the judge found the objects wrong, or None."""
+        """Returns how the judge found the objects to be wrong, or None."""
         program = (self.folder / judge.name.replace(" ", "_")).resolve()
         link = list(judge.link)
         link[link.index("-o") + 1] = str(program)
@@ -171,7 +171,7 @@ class Workbench:
 
 
 def run_limited(command, seconds):
-    """Exit code (negative: a signal), output, and the processor time that it took."""
+    """Returns the exit code (negative: a signal), the output and the processor time of a command."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 1, int(seconds) + 2))
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -184,6 +184,6 @@ def run_limited(command, seconds):
                              timeout=30 * seconds)
         code, output = run.returncode, run.stdout
     except subprocess.TimeoutExpired:
-        code, output = -24, ""  # as SIGXCPU: it waits for nothing that will come
+        code, output = -24, ""  # counts as SIGXCPU: the program waits forever
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return code, output, after.ru_utime - before.ru_utime

@@ -1,6 +1,6 @@
-// mutation_facts OUT [SMALL FAMILY QUERIES]: the curated cases, SMALL small steps, FAMILY cases of
-// each family and QUERIES elementary queries, with what the oracle knows of them. Ends with 1 when
-// the detector as it is does not agree.
+// mutation_facts OUT [SMALL FAMILY QUERIES]: writes what the oracle knows of the curated cases, of
+// SMALL small steps, of FAMILY cases of each family, and of QUERIES elementary queries. Ends with 1
+// if the unchanged detector contradicts these facts.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

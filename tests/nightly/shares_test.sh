@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The lines of reports/README.md that run a campaign in shares, by GNU parallel or as a Slurm
-# array: with a small campaign, and one share killed while it runs.
-# usage: shares_test.sh ASSAY parallel|slurm      77: what it needs is not installed
+# Runs the lines of reports/README.md that run a campaign in shares, by GNU parallel or as a Slurm
+# array, with a small campaign in which one share is killed.
+# usage: shares_test.sh ASSAY parallel|slurm      77: a needed program is missing
 # shellcheck disable=SC2317  # functions called by trap and expect
 set -uo pipefail
 by=$2
 here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
-# Stores of another build would be refused: this one stays while the test runs.
+# This build must stay while the test runs, because stores of another build would be refused.
 mkdir "$scratch/bin" "$scratch/run"
 cp "$1" "$(dirname "$1")/assay-worker" "$scratch/bin/"
 ln -s "$(dirname "$1")/share" "$scratch/share"
@@ -48,8 +48,8 @@ cat >"$scratch/run/tiny.json" <<'JSON'
   {"family": "broken", "cases": 80}]}
 JSON
 
-# An assay before the other in the PATH, whose share of seed 3 is killed the first time, as soon as it
-# has stored something.
+# A program `assay` that comes first in the PATH. It kills the share of seed 3 once, as soon as the
+# share has stored something.
 mkdir "$scratch/first"
 cat >"$scratch/first/assay" <<FAKE
 #!/usr/bin/env bash

@@ -1,6 +1,6 @@
-# Sourced by shares_test.sh: a Slurm of one machine (controller, two node daemons, munge with its
-# own socket) that lives in one folder. Needs slurm-wlm and munge, and root: slurmd starts jobs as
-# their user.
+# Sourced by shares_test.sh: a Slurm cluster on one machine (controller, two node daemons, munge
+# with its own socket) in one folder. Needs slurm-wlm, munge, and root, because slurmd starts each
+# job as its user.
 # shellcheck shell=bash
 
 PATH=$PATH:/usr/sbin
@@ -19,14 +19,14 @@ slurm_is_here() {
   }
 }
 
-# A port that nobody listens on, from $1 on.
+# Prints the first port from $1 on to which nobody listens.
 free_port() {
   local port=$1
   while (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; do port=$((port + 1)); done
   echo "$port"
 }
 
-# start_slurm DIR: DIR gets slurm.conf; SLURM_CONF is exported.
+# start_slurm DIR: starts Slurm, writes slurm.conf into DIR, and exports SLURM_CONF.
 start_slurm() {
   local dir=$1 host base
   host=$(hostname -s)

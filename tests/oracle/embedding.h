@@ -11,10 +11,10 @@
 
 namespace assay::oracle {
 
-// All pairs in contact at the instant, ascending. Contact is defined in detector/LAWS.md: two
-// closed faces of the two triangles that share no vertex meet. So triangles that share a vertex or
-// an edge are in contact when they meet beyond it, and triangles with the same three vertices
-// always are. REQUIRES indices in range.
+// Returns all pairs in contact at the instant, ascending. detector/LAWS.md defines contact: two
+// closed faces of the two triangles meet, and these faces share no vertex. So triangles that share
+// a vertex or an edge are in contact if they also meet elsewhere, and triangles with the same three
+// vertices are always in contact. REQUIRES indices in range.
 inline std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
                                                        const detector::TrianglesView& triangles,
                                                        int jobs = 1) {
@@ -37,26 +37,27 @@ inline std::vector<detector::TrianglePair> contacts_at(const Instant& instant,
   return all;
 }
 
-// True when no two triangles are in contact, as detector/LAWS.md defines it: pairs that share a
-// vertex or an edge meet nowhere beyond it, and no two triangles have the same three vertices.
-// REQUIRES indices in range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
+// Returns whether no two triangles are in contact, as detector/LAWS.md defines contact. So
+// triangles that share a vertex or an edge meet nowhere else, and no two triangles have the same
+// three vertices. REQUIRES indices in range, finite positions. Takes 0.1 to 0.4 s for 20,000
+// triangles.
 inline bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
                      int jobs = 1) {
   return contacts_at(Instant(x), triangles, jobs).empty();
 }
 
-// The same question at time t of the step.
+// Returns whether the mesh is embedded at time t of the step.
 inline bool embedded_at(const detector::SteppedMesh& motion,
                         const detector::TrianglesView& triangles, const RationalTime& t,
                         int jobs = 1) {
   return contacts_at(Instant(motion, t), triangles, jobs).empty();
 }
 
-// True when some triangle meets the view primitive at some t in [0,1]; touching counts. A
-// view-point is tested against the triangles. Of a segment the two ends are tested against the
-// triangles, the segment itself against the edges, and at t=0 also whether it pierces a triangle.
-// That is enough, because a segment that passes through the inside of a triangle at some time did
-// so at t=0 already or came in by one of the other contacts.
+// Returns whether some triangle meets the view primitive at some t in [0,1]; touching counts. A
+// view-point is tested against the triangles. If the primitive is a segment, its two ends are
+// tested against the triangles, the segment is tested against the edges, and at t=0 it is tested
+// whether the segment pierces a triangle. This is enough: if a segment passes through the inside of
+// a triangle at some time, it did so at t=0, or began to do so with one of the other contacts.
 // Uses no tree, because the axis rung of contact.h ends a query as fast as a tree would find it.
 inline bool meets_primitive(const detector::SteppedMesh& motion,
                             const detector::TrianglesView& triangles,

@@ -1,4 +1,5 @@
-// Own integer-only random numbers: the standard distributions differ between libraries.
+// Random numbers that are made from integers alone, because the standard distributions differ
+// between libraries.
 #pragma once
 
 #include "detector/mesh/step_types.h"
@@ -7,7 +8,7 @@
 
 namespace assay::oracle::test {
 
-// splitmix64.
+// The generator splitmix64.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -18,18 +19,18 @@ class Random {
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
     return x ^ (x >> 31);
   }
-  // In [0, n); n is far below 2^64, so the bias is of no matter.
+  // Returns an integer in [0, n). The bias does not matter, because n is far below 2^64.
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
-  // In [-n, n], integers.
+  // Returns an integer in [-n, n].
   double integer(int n) { return below(2 * n + 1) - n; }
-  // In [-1, 1), multiples of 2^-52.
+  // Returns a multiple of 2^-52 in [-1, 1).
   double unit() { return std::ldexp(static_cast<double>(next() >> 11), -52) - 1; }
 
  private:
   std::uint64_t state_;
 };
 
-// A menu of coordinates that are generic, degenerate, or just beside degenerate.
+// Kinds of coordinates: generic, degenerate, or nearly degenerate.
 enum class Coordinates { generic, tiny_grid, grid_and_noise, ulp_neighbours, far, mixed_scales };
 constexpr int coordinate_kinds = 6;
 
@@ -60,14 +61,14 @@ inline detector::MovingPoint random_point(Random& random, Coordinates kind) {
   return p;
 }
 
-// Places at rest.
+// Returns the positions of points at rest.
 inline detector::Positions random_rows(Random& random, Coordinates kind, Eigen::Index count) {
   detector::Positions x(count, 3);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = random_coordinate(random, kind);
   return x;
 }
 
-// The ends of a step.
+// Draws the positions at the start and at the end of a step.
 inline void place_randomly(Random& random, Coordinates kind, Eigen::Index vertices,
                            detector::Positions& x_t0, detector::Positions& x_t1) {
   x_t0.resize(vertices, 3);
@@ -78,7 +79,8 @@ inline void place_randomly(Random& random, Coordinates kind, Eigen::Index vertic
   }
 }
 
-// Triangles of any vertices, which may name one twice, and such as name three.
+// `any_triangles` draws each corner alone, so a triangle can have one vertex twice.
+// `random_triangles` returns only triangles with three different vertices.
 inline detector::Triangles any_triangles(Random& random, int vertices, int count) {
   detector::Triangles f(count, 3);
   for (Eigen::Index i = 0; i < f.size(); ++i) f.data()[i] = random.below(vertices);
@@ -96,7 +98,7 @@ inline detector::Triangles random_triangles(Random& random, int vertices, int co
 
 inline detector::MovingPoint rest(const detector::Point& p) { return {p, p}; }
 
-// In the plane z = 0.
+// A triangle at rest in the plane z = 0.
 inline const std::array<detector::MovingPoint, 3> resting_face = {rest({0, 0, 0}), rest({4, 0, 0}),
                                                                   rest({0, 4, 0})};
 

@@ -10,7 +10,7 @@ using Rows = std::initializer_list<detector::Point>;
 using Corners = std::initializer_list<tests::Corners>;
 using tests::positions, tests::triangles;
 
-// Outward, of the vertices 0 to 3.
+// A tetrahedron of the vertices 0 to 3 whose normals point outward.
 inline const detector::Triangles tetrahedron_triangles =
     triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 
@@ -19,7 +19,7 @@ struct Step {
   detector::Triangles f;
 };
 
-// Whether these are the same contacts, to the byte.
+// Returns whether both lists hold the same contacts, to the last bit.
 inline bool same(const std::vector<detector::PairContact>& a,
                  const std::vector<detector::PairContact>& b) {
   const auto key = [](const detector::PairContact& c) {
@@ -28,14 +28,15 @@ inline bool same(const std::vector<detector::PairContact>& a,
   return std::ranges::equal(a, b, {}, key, key);
 }
 
-// A tetrahedron whose vertices cross each other's faces; two contacts in turn.
+// Returns a tetrahedron whose vertices pass through its faces, with two contacts one after the
+// other.
 inline Step turning_tetrahedron() {
   return {positions({{3, 2, 4}, {3, -2, -2}, {-2, 2, -2}, {-1, -2, 4}}),
           positions({{-3, -1, 3}, {-4, 3, -8}, {2, -6, 3}, {1, 1, -1}}),
           triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})};
 }
 
-// An octahedron that collapses through itself; later contacts follow the first.
+// Returns an octahedron that collapses through itself, with later contacts after the first one.
 inline Step collapsing_octahedron() {
   return {
       positions({{4, 0, 0}, {-3, 0, 0}, {1, 4, 1}, {0, -4, -1}, {0, -1, 3}, {0, 0, -2}}),
@@ -43,15 +44,15 @@ inline Step collapsing_octahedron() {
       tests::octahedron()};
 }
 
-// An octahedron that intersects itself at the start, where an edge pierces three faces.
+// Returns an octahedron that intersects itself at the start: an edge pierces three faces.
 inline Step intersecting_octahedron() {
   return {positions({{1, -2, 0}, {-2, 1, 1}, {-2, 5, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
           positions({{1, -2, 0}, {-2, 1, 1}, {0, 6, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
           tests::octahedron()};
 }
 
-// Seven vertices seen from a segment: one triangle has no sign, though each of its vertices alone
-// seems to.
+// Returns seven vertices that are seen from a segment. One triangle has no sign, although each of
+// its vertices alone has one.
 inline Step seven_vertices_about_a_line() {
   return {
       positions(

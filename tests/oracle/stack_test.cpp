@@ -1,6 +1,6 @@
-// Every way of the oracle to an answer, in a thread with a small stack, over the numbers that need
-// most of it: threads of some systems have half a megabyte, and no depth of calls may depend on how
-// many bits tell two times apart.
+// Each rung of the oracle runs in a thread with a small stack, on the numbers that need most stack.
+// Threads of some systems have half a megabyte, and no depth of calls may depend on how many bits
+// two times have in common.
 #include "oracle/query/contact.h"
 #include "oracle/referee/referee.h"
 #include "oracle/view/view_sign.h"

@@ -1,4 +1,4 @@
-# Whether the committed page was built from the committed sources: reports/page/digest.mjs in CMake.
+# Checks that the committed page is built from the committed sources, like reports/page/digest.mjs.
 # usage: cmake -DPAGE=reports/page -P fresh.cmake
 file(GLOB_RECURSE sources RELATIVE ${PAGE} ${PAGE}/src/*)
 list(APPEND sources build.mjs digest.mjs package.json package-lock.json tsconfig.json)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Each planted fault, as somebody's own detector: certify says defect, names a claim, and the page
-# shows a smallest mesh.
+# Runs certify on each planted fault, as on somebody's own detector: certify must say defect and
+# name a claim, and the page must show a smallest mesh.
 # usage: certify_faults_test.sh ASSAY PLUGIN.so...
 set -uo pipefail
 assay=$1
@@ -24,7 +24,7 @@ for plugin in "$@"; do
   "$assay" verify "$out/certificate.json" >"$scratch/verify" 2>&1
   [ $? -eq 1 ] && grep -q '^verified: .* verdict defect' "$scratch/verify" || wrong="$wrong verify"
   "$assay" report "$out" --out "$scratch/page.html" >/dev/null 2>&1 || wrong="$wrong report"
-  # A failure of a trial, or a curated case: the first line that names a claim and the triangles.
+  # The first line that names a claim and the triangles, of a failed trial or of a curated case.
   shown=$(grep -m 1 '^DEFECT' "$log")
   mesh=$(grep -m 1 -- ' -> [0-9]* triangles' "$log" | sed 's/.* -> //')
   [ -n "$shown" ] || wrong="$wrong claim"

@@ -1,5 +1,5 @@
-// Planted faults of the detector: each is found by its curated case, which the right detector
-// passes; the equivalent ones are never found.
+// Planted faults of the detector: the curated case of each fault shows it, and the right detector
+// passes this case; equivalent faults never show.
 #include "properties/campaign/phases/phases.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/asked.h"

@@ -1,9 +1,9 @@
 # cmake -DFAULT=file -DROOT=folder -DOUTPUT=file -P plant.cmake
-# Copies the source file that the fault names with its line `-` replaced by its line `+`. Fails when
-# that line is not in the source exactly once: then the fault has to follow the source.
+# Copies the source file that the fault names, with the line `-` of the fault replaced by its line
+# `+`. Fails unless the source has that line exactly once: the fault must then be adapted.
 file(READ "${FAULT}" fault)
 
-# Takes the next line of the fault, which has to begin so, and puts the rest of it into a variable.
+# Reads the next line of the fault, which has to start with `beginning`; `variable` gets the rest.
 function(take_line beginning variable)
   string(FIND "${fault}" "${beginning}" begin)
   string(FIND "${fault}" "\n" end)

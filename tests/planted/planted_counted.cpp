@@ -1,7 +1,8 @@
-// The agreement of a plain loop, the oracle and the detector on what counts (L19), and on what
-// comes within a distance, up to their first disagreement. Linked with the detector and the oracle
-// as they are, and with one of them in which one line is wrong (counted_*.fault, and those that
-// forget what pierces). An argument is the number of cases. Exit code 0, or 4 on a disagreement.
+// Compares a plain loop, the oracle and the detector on which contacts count (L19), and on what
+// comes within a distance, up to their first disagreement. The program is linked with the detector
+// and the oracle as they are, or with one of them in which one line is wrong (counted_*.fault, and
+// the faults that forget what pierces). Its argument is the number of cases. Exit code 0, or 4 on a
+// disagreement.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
-// The self-test up to its first contradiction, in one thread so that the count is always the same.
-// Linked with the oracle as it is, and with an oracle in which one line is wrong (*.fault).
-// An argument is how the names of the families to run begin. Exit code as of `assay self-test`: 0,
-// or 4 on a contradiction.
+// Runs the self-test up to its first contradiction, in one thread so that the count is always the
+// same. The program is linked with the oracle as it is, or with an oracle in which one line is
+// wrong (*.fault). Its argument is the beginning of the names of the families to run. The exit code
+// is that of `assay self-test`: 0, or 4 on a contradiction.
 #include <fmt/format.h>
 
 #include "properties/queries/self_check.h"

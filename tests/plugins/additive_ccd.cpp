@@ -1,6 +1,6 @@
-// A CCD as many people have it: additive steps. While two features are apart, they may go on for
-// the time in which they cannot meet, and are then measured again. It is the detector of
-// reports/check/TEN_MINUTES.md, with the fault that is mended there.
+// An additive CCD, as many people have it: while two features are apart, time advances by an
+// interval in which they cannot meet, and then their distance is measured again. It is the detector
+// of reports/check/TEN_MINUTES.md, with the fault that is mended there.
 #include <algorithm>
 #include <array>
 #include <cmath>

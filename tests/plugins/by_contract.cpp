@@ -1,24 +1,24 @@
-// A detector by brute force whose contract and faults are words of the environment variable
-// ASSAY_BY_CONTRACT, such as "start=free miss-at-start": faults that the contract excuses, others.
+// A detector by brute force. Its contract and its faults are words of the environment variable
+// ASSAY_BY_CONTRACT, such as "start=free miss-at-start". The contract excuses some of the faults.
 //
 //   (those of told.h)                        its description
 //   strangers                                the same as adjacency=2
-//   miss-at-start, miss-inside               answers free when the first contact is at 0, above 0
+//   miss-at-start, miss-inside               answers free if the first contact is at 0, above 0
 //   miss=vertex-face, miss=edge-edge         does not test these
-//   late=S, early=S                          its first time, and those of its pairs, off by S
+//   late=S, early=S                          first time and times of pairs are off by S
 //   alarm=N                                  answers collision in one of N free steps
-//   alarm-share=P                            the same in a share of them, by the coordinates
-//   burn=S                                   S seconds where the first time is a double above 0
-//   abort-outside                            aborts when a step of the wrong contract is put to it
+//   alarm-share=P                            the same in a share P of them, by the coordinates
+//   burn=S                                   uses S seconds if the first time is a double above 0
+//   abort-outside                            aborts if it gets a step outside of its contract
 //   abort                                    aborts in every step
 //   whenever                                 collision at [0, 1] in every step
-//   with-pairs                               gives pairs, whatever it says
+//   with-pairs                               gives pairs, even if it claims to give none
 //   drop-last                                does not report its last pair
-//   no-interval                              its first time is none
+//   no-interval                              its first time is no interval
 //   changing                                 the interval of every second first time ends at 1
 //   rounds-end                               rounds the end of a displacement to float32
-//   refuse-from=N                            refuses meshes of N triangles or more for its capacity
-//   refuse-pairs-from=N                      the same of steps with N pairs in contact or more
+//   refuse-from=N                            refuses meshes of N triangles or more (capacity)
+//   refuse-pairs-from=N                      refuses steps with N pairs in contact or more
 //   print=N                                  prints N lines a step, with an escape character
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,11 +1,11 @@
-/* A broad phase and nothing else: pairs of triangles whose boxes meet, over their whole paths. What
- * is wrong with it is a word of the environment variable ASSAY_CANDIDATES:
+/* A plug-in with a broad phase alone: pairs of triangles whose boxes around their whole paths meet.
+ * A word of the environment variable ASSAY_CANDIDATES names its fault:
  *
- *   ends-only        boxes of the two ends of the step, not of the way between
+ *   ends-only        boxes of the places at t=0 and t=1, not of the paths between
  *   every-second     leaves out every second pair
  *   changing         adds the pair of the first two triangles in every second call
  *   no-such-triangle, no-list, fail, no-memory, abort
- *   threads=N        fails unless it was told that it may use N threads */
+ *   threads=N        fails unless the host allows it exactly N threads */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* Plug-ins that do not look at the mesh. Compiled with ANSWER (collision or free) and, for the
- * tests of what the host must withstand, with one of the things that a plug-in must not do. */
+/* Plug-ins that do not look at the mesh. They are compiled with ANSWER (collision or free) or, for
+ * tests of what a host must survive, with one of the acts that are forbidden to plug-ins. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@
 #ifndef MISSES_ON
 #define MISSES_ON 0
 #define CLAIMS ((1u << 8) - 1)
-#else /* of so many triangles it misses every contact, and else it answers as it claims */
+#else /* with this many triangles it misses every contact; otherwise its claims hold */
 #define CLAIMS (ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_TOTAL)
 #endif
 

@@ -1,5 +1,5 @@
-/* A detector by boxes: two triangles collide when the boxes around their paths meet. It never
- * misses a contact, often reports one where there is none, and claims just that. */
+/* A detector by boxes: two triangles collide if the boxes around their paths meet. It never misses
+ * a contact, and claims this alone; it often reports a contact falsely. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-// A detector by spheres: two triangles collide when the spheres around their paths meet. It never
-// misses a contact, often reports one where there is none, and claims just that.
+// A detector by spheres: two triangles collide if the spheres around their paths meet. It never
+// misses a contact, and claims this alone; it often reports a contact falsely.
 #include <cmath>
 
 #include "detector/plugin/assay_detector.hpp"

@@ -1,6 +1,6 @@
-// Brute force in plain doubles, compiled with the flags that forget what a double is, and all
-// claims made: what many a detector is. It rounds, it takes no care of motion in a plane, and the
-// library switches denormal numbers off for the thread that loads it.
+// Brute force in plain doubles, compiled with the flags that relax the rules of floating point, and
+// with all claims made: many detectors are like this. It rounds, it does not handle motion in a
+// plane, and its library switches denormal numbers off for the thread that loads it.
 #include <algorithm>
 
 #include "detector/plugin/assay_detector.hpp"

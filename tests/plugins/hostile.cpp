@@ -1,7 +1,7 @@
-// A detector that answers nothing, claims everything, and in which all goes wrong that can: it
-// crashes, hangs, fills memory, starts processes, prints, and writes where it should not. What it
-// does is named by the variable ASSAY_HOSTILE (the tables below); ASSAY_VICTIM names a file
-// that is not its own, ASSAY_BYSTANDER a process.
+// A detector that answers nothing, claims everything, and misbehaves in every possible way: it
+// crashes, hangs, fills memory, starts processes, prints, and writes where it should not. The
+// variable ASSAY_HOSTILE names what it does (the tables below). ASSAY_VICTIM names a file that does
+// not belong to the plug-in, and ASSAY_BYSTANDER a process.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>

@@ -1,13 +1,13 @@
-// A detector of what comes within a distance, by the oracle's own answers, and such detectors with
-// a fault. ASSAY_KEEPS_DISTANCE holds words (told.h), and
+// A detector of pairs that come within a distance. It takes its answers from the oracle, and can
+// have a fault. ASSAY_KEEPS_DISTANCE holds words of told.h, and
 //
 //   separation=D
 //   ours           the steps are answered by the built-in detector
 //   or one of these faults:
-//   ignores-it     asks what touches
-//   squares-it     takes d for d^2
-//   half-boxes     grows the boxes of triangles by a quarter of d each, in place of half of it
-//   no-edges       forgets feet of the perpendicular on edges and at vertices
+//   ignores-it     looks for contacts alone
+//   squares-it     uses d in place of d^2
+//   half-boxes     grows the box of each triangle by d/4 in place of d/2
+//   no-edges       ignores feet of the perpendicular on edges and at vertices
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

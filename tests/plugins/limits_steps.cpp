@@ -1,20 +1,20 @@
-// A limiter, by the built-in detector: how far a step may be taken. And limiters with a fault.
+// A limiter, which says how far a step may go, by the built-in detector; and limiters with a fault.
 // ASSAY_LIMITS_STEPS holds words of told.h, and
 //
 //   separation=D
-//   share-alone    gives a share, and no positions; it claims nothing of the positions
-//   positions      gives positions, and no share
+//   share-alone    gives a share and no positions, and claims nothing about positions
+//   positions      gives positions and no share
 //   or one of these faults:
-//   rounds-up      takes the upper end of the first contact time for the share
-//   nearest-vertex stops the first vertex of the first contact alone
+//   rounds-up      gives the upper end of the first contact time as share
+//   nearest-vertex stops only the first vertex of the first contact
 //   forgets-one    lets the last vertex go on to the end
-//   ignores-it     asks what touches, whatever the separation is
-//   last-pair      takes the time of the last pair in the list
+//   ignores-it     looks for contacts alone, whatever the separation is
+//   last-pair      uses the time of the last pair in the list
 //   float-end      rounds the positions to float32
-//   stale-start    goes from where the step before began
-//   at-contact     stops where the contact is
-//   parallel-zero  stays where the edges of the first contact are parallel
-//   by-order       tests vertices of the triangle with the lower number alone
+//   stale-start    goes on from the start of the previous step
+//   at-contact     stops at the place of the contact
+//   parallel-zero  does not move if the edges of the first contact are parallel
+//   by-order       tests only vertices of the triangle with the lower number
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// The built-in detector with stages of a test in place of its own, as a plug-in.
+// The built-in detector as a plug-in, with stages of a test in place of its own stages.
 #pragma once
 
 #include "detector/assembly.h"
@@ -7,8 +7,8 @@
 
 namespace assay::tests {
 
-// It claims what the built-in one claims. `Parts` has a `name`, and `stages(mesh, x, options)`,
-// which returns the stages and sets the options that they are for.
+// The plug-in claims what the built-in detector claims. `Parts` has a `name`, and a function
+// `stages(mesh, x, options)`, which returns the stages and sets their options.
 template <class Parts>
 const assay_detector_api* builtin_of_other_stages() {
   return changed_builtin([](assay_detector_api& table) {

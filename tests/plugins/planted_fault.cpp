@@ -1,5 +1,5 @@
-// A planted fault (properties/faults) as a plug-in that claims what the built-in claims: certify
-// has to find it as it would find one in somebody's own detector.
+// A planted fault (properties/faults) as a plug-in that claims what the built-in detector claims.
+// certify has to find the fault as it would in somebody's own detector.
 #include "properties/faults/fault.h"
 #include "tests/plugins/other_stages.h"
 

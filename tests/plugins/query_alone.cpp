@@ -1,26 +1,26 @@
-// An elementary query and nothing else: the built-in one, of distance if it has a separation.
-// Compiled with WITH_STEPS, it stands beside the built-in detector of whole steps. Its contract and
-// faults are words of the environment variable ASSAY_QUERY, such as "features=vertex-face
-// miss=edge-edge":
+// A plug-in with an elementary query alone: the built-in one, or the query of distance if it has a
+// separation. Compiled with WITH_STEPS, the query stands beside the built-in detector of whole
+// steps. The contract and the faults are words of the environment variable ASSAY_QUERY, such as
+// "features=vertex-face miss=edge-edge":
 //
 //   (those of told.h)                        its description
-//   miss=vertex-face, miss=edge-edge         answers free
+//   miss=vertex-face, miss=edge-edge         answers free to these queries
 //   miss-at-start, miss-inside               answers free when the first contact is at 0, above 0
-//   miss-coplanar                            answers free where F is zero throughout
-//   late=S, early=S                          its first time off by S
+//   miss-coplanar                            answers free if F is zero throughout
+//   late=S, early=S                          its first time is off by S
 //   alarm                                    answers collision to every query
-//   undecided, error, refuse, no-memory      to every query that has a contact
-//   changing                                 every third answer is another
+//   undecided, error, refuse, no-memory      answers so to every query with a contact
+//   changing                                 every third answer differs
 //   abort-at-start, burn-at-start=S          aborts, or first uses S seconds of processor time (60
-//                                            at most), where the first contact is at 0
-//   no-interval, no-answer, nan              what is no result
-//   abort-outside                            aborts when a query out of the contract is put to it
-//   free-above=N, undecided-above=N          how the steps of larger meshes are answered
-//   up-to=N, from-pairs=N                    ... but not of meshes above N, or with fewer pairs
-//   free-after-commits=N                     free once a handle has committed more steps
-//   free-after-calls=N                       free once the process was asked more steps or queries
-//   free-again                               free when a step is evaluated a second time
-//   free-threaded                            free when it may use several threads
+//                                            at most), if the first contact is at 0
+//   no-interval, no-answer, nan              gives what is no result
+//   abort-outside                            aborts if it gets a query outside of its contract
+//   free-above=N, undecided-above=N          answers so to steps of meshes above N triangles
+//   up-to=N, from-pairs=N                    ... except above N triangles, or below N pairs
+//   free-after-commits=N                     free after a handle has committed more than N steps
+//   free-after-calls=N                       free after more than N steps or queries
+//   free-again                               free if a step is evaluated a second time
+//   free-threaded                            free if it may use several threads
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The built-in detector behind a wrapper that rounds on the way in, as engines do that are exact in
-// their own eyes: ASSAY_TEST_ROUNDING says in which way. It claims what such an engine claims, that
-// nothing is missed from starts that are free, and leaves its times some room.
+// The built-in detector behind a wrapper that rounds its input, as some engines do that count as
+// exact. ASSAY_TEST_ROUNDING says in which way. It claims what such an engine claims: it misses
+// nothing from starts that are free, and its times have some tolerance.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// A detector by the header in C++ in which a call fails and says why: the one that the environment
-// variable ASSAY_SAYS_WHY names, in every step. evaluate counts its steps.
+// A detector by the header in C++ in which one call fails in every step and says why. The
+// environment variable ASSAY_SAYS_WHY names the call. evaluate counts its steps.
 #include <cstdlib>
 #include <cstring>
 

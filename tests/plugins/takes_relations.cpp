@@ -1,11 +1,11 @@
-// The built-in detector as a plug-in that is told which pairs count. The environment variable
+// The built-in detector as a plug-in that can be told which pairs count. The environment variable
 // ASSAY_TAKES_RELATIONS holds words:
 //
-//   rings=N, rest=D    it leaves these out by itself, and says so in its contract
-//   features           these are of features
-//   silent             its contract says nothing of what it leaves out
-//   ignores            it is told which pairs count, and goes on as if all did
-//   refuses            it takes no relation with bodies
+//   rings=N, rest=D    leaves such pairs out by itself, and says so in its contract
+//   features           the relation is about features
+//   silent             does not say in its contract what it leaves out
+//   ignores            is told which pairs count, and goes on as if all pairs did
+//   refuses            refuses a relation with bodies
 #include "detector/detector.h"
 #include "detector/plugin/assay_detector.hpp"
 #include "detector/step_result.h"

@@ -1,9 +1,10 @@
-/* Boxes around the paths of triangles: collision at some time where two of them meet. On meshes of
- * more than 1,000 triangles the time that it states is another one when it may use several threads,
- * though it claims to be deterministic. The environment variable ASSAY_THREADS_MATTER:
+/* A detector by boxes: two triangles collide if the boxes around their paths meet. On meshes of
+ * more than 1,000 triangles its first time changes if it may use several threads, although it
+ * claims to be deterministic. A word of the environment variable ASSAY_THREADS_MATTER can change
+ * this:
  *
- *   harmless         it is the same with any number of threads
- *   at-random        another one in every second call, whatever the number of threads */
+ *   harmless         the time is the same with any number of threads
+ *   at-random        the time changes in every second call, whatever the number of threads */
 #include <stdlib.h>
 #include <string.h>
 

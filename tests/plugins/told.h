@@ -1,5 +1,5 @@
-// What a test tells a plug-in by an environment variable: words such as "start=free late=1e-9".
-// Those that describe a detector are the same for all plug-ins:
+// A test configures a plug-in by words in an environment variable, such as "start=free late=1e-9".
+// The words that describe a detector are the same for all plug-ins:
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
 //   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32,
@@ -22,7 +22,7 @@ class Told {
     if (const char* given = std::getenv(variable)) words_ = words(given);
   }
 
-  // The word's value, or nothing; "" for a word without one.
+  // Returns the value of a word; "" if the word has no value, null if the variable lacks the word.
   const char* value_of(const std::string& name) const {
     for (const auto& word : words_) {
       if (word == name) return "";
@@ -76,7 +76,7 @@ class Told {
   std::vector<std::string> words_;
 };
 
-// Uses so many seconds of processor time. Never more than a minute, should nobody end it.
+// Uses this many seconds of processor time, but at most a minute, in case nobody ends the process.
 inline void burn(double seconds) {
   const double until = std::clock() + std::min(seconds, 60.) * CLOCKS_PER_SEC;
   while (std::clock() < until) {

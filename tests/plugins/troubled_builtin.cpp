@@ -1,6 +1,6 @@
-// The built-in detector, which is in trouble before each step: compiled with TROUBLE, the function
-// below that is called then, and with SIGNAL, the signal that it sends itself. Compiled with
-// WHEN_LOADED, that function is also called before the detector has been asked for anything.
+// The built-in detector, with trouble before each step. Compiled with TROUBLE, it then calls the
+// function below of that name; with SIGNAL, it sends itself that signal. Compiled with WHEN_LOADED,
+// it also calls the function when the library is loaded.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>

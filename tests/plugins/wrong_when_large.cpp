@@ -1,5 +1,6 @@
-// The built-in detector, right on small meshes: what a buffer, a product or a stack of fixed size
-// does to a large one. WRONG says what is wrong, and it claims what the built-in claims.
+// The built-in detector, which is right on small meshes and wrong on large ones, as with a buffer,
+// a product or a stack of fixed size. WRONG names the mistake. It claims what the built-in detector
+// claims.
 #include <algorithm>
 #include <limits>
 

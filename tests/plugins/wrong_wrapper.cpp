@@ -1,6 +1,7 @@
-// The built-in detector wrapped, wrong in one of twelve ways: ASSAY_TEST_WRONG says in which. All
-// but the last are in Python, too, tests/reports/python/wrong_detectors.py: what finds the ones has
-// to find the others.
+// The built-in detector behind a wrapper that is wrong in one of twelve ways, which
+// ASSAY_TEST_WRONG names. All but the last way exist in Python, too
+// (tests/reports/python/wrong_detectors.py): a campaign that finds a wrong wrapper in C++ has to
+// find the same wrapper in Python.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

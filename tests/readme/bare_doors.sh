@@ -1,6 +1,6 @@
 #!/bin/sh
-# bare_doors.sh SOURCES: from a clone in a bare Debian 12 to the gates of a detector in C++, one in
-# Python and a recorded log, by what the page says alone, build included.
+# bare_doors.sh SOURCES: follows the page alone, from a clone in a bare Debian 12 to the gates of a
+# detector in C++, a detector in Python and a recorded log, build included.
 set -eu
 sources=$1
 # shellcheck source=tests/consumer/installed/bare.sh

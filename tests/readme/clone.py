@@ -1,4 +1,4 @@
-"""A folder laid out like a fresh clone with the program built, in which commands of READMEs are run."""
+"""Makes a folder like a fresh clone with the program built, and runs commands of READMEs in it."""
 import os
 import re
 import shutil
@@ -6,16 +6,16 @@ import signal
 import subprocess
 from pathlib import Path
 
-# Of the build tree: with these a command could build into it, or two runs of ctest would share a log.
+# Files of the build tree that a clone lacks: a command could build with them, or two ctests share a log.
 NOT_LENT = {"Testing", "CMakeCache.txt", "build.ninja", ".ninja_log", ".ninja_deps"}
 
 CAMPAIGN = re.compile(r"(assay run --campaign \w+ --out )(\S+)")
 
 
 class Clone:
-    """The sources are copied, so that nothing a command writes gets into them; the build is lent."""
+    """Holds a copy of the sources, so that commands do not change the sources, and links to the build."""
 
-    campaigns = {}  # By command: where it wrote, a copy of that, what it printed. It comes to the same again.
+    campaigns = {}  # by command: its folder, a copy of this folder, its output; a second run is the same
 
     def __init__(self, place, sources, build):
         self.place = Path(place)
@@ -30,13 +30,13 @@ class Clone:
                 (release / entry.name).symlink_to(entry)
 
     def run(self, command, seconds):
-        """The exit code, or "over SECONDS s", and what the command printed."""
+        """Runs a command. Returns its exit code, or "over SECONDS s", and its output."""
         campaign = CAMPAIGN.fullmatch(command)
         if campaign and campaign[1] in self.campaigns:
             out, kept, printed = self.campaigns[campaign[1]]
             shutil.copytree(kept, self.place / campaign[2])
             return 0, printed.replace(out, campaign[2])
-        # The READMEs say `assay` where any build of it may be meant.
+        # The READMEs write `assay` for the program of any build.
         path = f"{self.place / 'build/release'}:{os.environ['PATH']}"
         job = subprocess.Popen(["bash", "-c", command], cwd=self.place,
                                env={**os.environ, "PATH": path}, text=True, errors="replace",

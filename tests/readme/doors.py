@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Types the lines of reports/check/TEN_MINUTES.md into a shell, and nothing else: for a detector in C++,
-one in Python and a recorded log, until a gate has failed and, what was wrong being mended, another has
-passed. It starts from nothing, or from the installed program.
+"""Types the lines of reports/check/TEN_MINUTES.md into a shell, and nothing else. There are three doors: a
+detector in C++, one in Python, and a recorded log. At each door a gate must fail and, after the fault is
+mended, a gate must pass. The script starts in a bare system, or with the installed program.
 
 usage: doors.py --chroot BARE --at CLONE     all lines, in a bare system; CLONE is a folder in it
-       doors.py --build BUILD                on what `cmake --install` takes of BUILD; without those of BUILT
+       doors.py --build BUILD                with the program of BUILD, installed by cmake; without the lines in BUILT
 
-Each line has to end with its code of plan.ENDS, and what the page shows of its output has to be printed.
+Each line must end with its exit code in plan.ENDS, and must print the output that the page shows.
 """
 import argparse
 import contextlib
@@ -25,21 +25,21 @@ from blocks import chunks_of, not_printed
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = "reports/check/TEN_MINUTES.md"
 WANTED_MINUTES = 30
-# A line is evaluated where those before it were, so that folders and variables stay. Whoever is asked
-# something answers yes.
+# Each line is evaluated in the same shell as the lines before, so that folders and variables stay. Every
+# question is answered by yes.
 TYPIST = r"""while IFS= read -r line; do eval "$line" <<<y 2>&1; printf '\n\1%d\n' $?; done"""
 
 
 @dataclass
 class Door:
-    sections: tuple  # the beginnings of their headings
+    sections: tuple  # the beginnings of the headings of its sections
     fails: str  # the line of the gate that finds the fault
-    passes: str  # and of the one that finds none
+    passes: str  # the line of the gate that finds no fault
 
 
 # The lines that build and install.
 BUILT = ["reports/package/pack", "apt-get install -y ./build/assay_*.deb"]
-# The C++ comes last, so that no other door has its folder `cases`.
+# C++ comes last, because it makes the folder `cases`, which the other doors must not have.
 DOORS = {
     "a recorded log": Door(("6.",), "assay check steps.log --keep build/judged", "assay check steps.log"),
     "a detector in Python": Door(("5.",), "SEED=3 sh detector/plugin/ci/job.sh",
@@ -56,7 +56,7 @@ class Shell:
                                     stdin=subprocess.PIPE, stdout=subprocess.PIPE, **place)
 
     def type(self, line):
-        """Its exit code and what it printed; None for the code of a line that ended the shell."""
+        """Types a line. Returns its exit code, or None if the line ended the shell, and its output."""
         print(line, file=self.job.stdin, flush=True)
         printed = []
         for text in self.job.stdout:
@@ -76,7 +76,7 @@ class Page:
         self.shown, self.wrongs, self.chunks = {**shown}, [], chunks_of(text)
         headings = {number: line[3:] for number, line in enumerate(text.splitlines(), 1)
                     if line.startswith("## ")}
-        self.lines = []  # (number, heading, line) of all that is to be typed
+        self.lines = []  # (number, heading, line) of all lines to type
         for chunk in self.chunks:
             lines = chunk.commands()
             if any(line.startswith(entry) for _, line in lines for entry in no_command):
@@ -89,7 +89,7 @@ class Page:
         print(f"  WRONG {self.wrongs[-1]}", flush=True)
 
     def type(self, shell, lines):
-        """The lines in their order, up to the first that is wrong, and the codes of all typed."""
+        """Types the lines in order, up to the first wrong one. Returns the exit codes of the typed lines."""
         codes = {}
         for number, line in lines:
             started, before = time.monotonic(), len(self.wrongs)
@@ -98,7 +98,7 @@ class Page:
             wanted = self.ends[line].pop(0) if self.ends.get(line) else 0
             if codes[line] != wanted:
                 self.wrong(number, f"ends with {codes[line]}, not {wanted}: {line}\n{printed[-2000:]}")
-            elif entry := self.shown.pop(line, None):  # of a line that stands twice, the first is meant
+            elif entry := self.shown.pop(line, None):  # if a line occurs twice, the first one
                 for place, text in not_printed(self.chunks, entry, printed):
                     self.wrong(place, f"is shown, and not printed: {text}")
             if len(self.wrongs) > before:
@@ -106,7 +106,7 @@ class Page:
         return codes
 
     def go_through(self, shell, doors, built, is_built):
-        """Types all lines, and returns the seconds of the build and of each door."""
+        """Types all lines, and returns how many seconds the build and each door took."""
         for line in {*built} - {line for _, _, line in self.lines}:
             self.wrong(0, f"the page has no such line: {line}")
         started, seconds = time.monotonic(), {}
@@ -133,7 +133,7 @@ class Page:
 
 
 def shell_of_the_installed(build):
-    """In a folder with the sources alone, with the program installed somewhere else."""
+    """Returns a shell in a folder with the sources alone; the program is installed in another folder."""
     place = build / "doors"
     shutil.rmtree(place, ignore_errors=True)
     shutil.copytree(ROOT, place / "clone", ignore=lambda folder, names: {

@@ -1,4 +1,4 @@
-"""Whether doors.py sees what is wrong with a page, on a small one."""
+"""Tests that doors.py finds the errors of a page, on a small page."""
 import contextlib
 import io
 import sys

@@ -1,4 +1,4 @@
-"""Checks of a command that is not run: what it names has to exist."""
+"""Checks a command that is not run: files, options and targets that it names must exist."""
 import re
 import shlex
 
@@ -8,16 +8,16 @@ PLACEHOLDER = re.compile(r"\[-|[a-z]\|[a-z]|(?<!\w)[A-Z]{2,}(?![\w=])")
 
 
 def is_synopsis(command):
-    """`assay report DIR... --out FILE`: it has places to fill in."""
+    """Returns whether the command has places to fill in, as `assay report DIR... --out FILE` has."""
     return PLACEHOLDER.search(command) is not None
 
 
 def wrong_names(command, clone, build):
-    """What is wrong with the names in a command, a line each."""
+    """Returns one line for each wrong name in a command."""
     words = shlex.split(command)
     while "=" in words[0]:
         words.pop(0)
-    # tests/mutation/smoke.json: a file of the sources, not one that a command is to write
+    # A file of the sources, as tests/mutation/smoke.json is, and not a file that the command writes.
     missing = [f"there is no {word}" for word in words
                if "/" in word and word.split("/")[0] in ROOMS and not (clone.place / word).exists()]
     if missing:
@@ -40,7 +40,7 @@ def no_target(target, clone, build):
 
 
 def not_in_help(words, clone):
-    # python3 SCRIPT, assay VERB, and scripts that are a program by themselves
+    # The program is python3 SCRIPT, assay VERB, or a script.
     program = words[:2] if words[0] == "python3" or words[0].endswith("assay") else words[:1]
     code, help_text = clone.run(shlex.join([*program, "--help"]), SECONDS)
     if code != 0:

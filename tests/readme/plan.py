@@ -1,17 +1,17 @@
-"""What the test does with every chunk of every README and every other page (*.md).
+"""Says what the test does with every chunk of every README and every other page (*.md).
 
-A command is run as it stands, in the order of the README, in a folder laid out like a fresh clone with
-the program built. It has to end with 0.
+Commands are run as they are written, in the order of the README, in a folder like a fresh clone with
+the program built. Each command must end with 0.
 
     QUICK     the command is run each time.
-    SLOW      it takes minutes, so only `ctest --preset slow` runs it (and those of QUICK before it).
-    NOT_RUN   it cannot be run here, for the reason given. What it names is checked instead: the
-              program's own --help has to know all of its options and words, ctest its preset, Ninja
+    SLOW      the command takes minutes, so only `ctest --preset slow` runs it (after those of QUICK).
+    NOT_RUN   the command cannot be run here, for the stated reason. Its names are checked instead: the
+              program's own --help must know all of its options and words, ctest its preset, Ninja
               its targets.
-    NO_COMMAND  the chunk is no command, but what the value says. It is known by how it begins.
+    NO_COMMAND  the chunk is no command; the value says what it is. The entry is the beginning of the chunk.
 
-A synopsis has places to fill in (DIR, [--seed N], a|b), so it is never run; it needs no entry here,
-for run.py knows one when it sees it, and checks it as it does those of NOT_RUN.
+A synopsis has places to fill in (DIR, [--seed N], a|b), so it is never run. It needs no entry here:
+run.py recognises it, and checks its names as for NOT_RUN.
 
     TYPED     doors.py types the whole page, from nothing to a gate.
 
@@ -28,7 +28,7 @@ MISSES = "ends with 1, for the textbook test misses contacts; tests/corpus/vecto
 SET_TESTS = "wants the Python module; tests/corpus/vectors and tests/reports/python run such lines"
 BOUNDS = "the tests bounds, bounds_changes and bounds_contracted run it"
 
-# What the reader is to have at hand: made before the first command of that README.
+# Commands that make what the reader should have, run before the first command of the README.
 GIVEN = {
     "detector/plugin/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
@@ -37,8 +37,8 @@ GIVEN = {
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
     ],
 }
-# And before the first of those that take minutes, what a page takes from one that was read before. A
-# run proves as much as a certificate does, in less time.
+# Commands run before the first slow command: they make what a page needs from an earlier page. A run
+# proves as much as a certificate, in less time.
 GIVEN_SLOW = {
     "README.md": ["assay run --campaign smoke --out build/certify"],
     "reports/certificate/README.md": ["assay certify --campaign smoke --out build/certify"],
@@ -117,8 +117,8 @@ SLOW = {
     ],
 }
 
-# Commands that find what is wrong with a detector, and end so: the codes in their order, where a page
-# has the same command twice.
+# Commands that find a fault of a detector, and their exit codes: several codes, in order, if a page has
+# the same command several times.
 ENDS = {
     "README.md": {
         "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic": [1],
@@ -132,8 +132,8 @@ ENDS = {
     },
 }
 
-# What a README shows of what a command prints: the entry of NO_COMMAND that begins the chunk. Each
-# line of it, but for times, has to be a line that the command prints now.
+# Output that a README shows, by command: the entry of NO_COMMAND with which the chunk begins. The
+# command must print each line of the chunk now; times may differ.
 SHOWN = {
     "README.md": {
         "assay run --campaign smoke --part steps --detector build/release/peers/cubic_double.so --power build/certify --out build/cubic":
@@ -205,7 +205,7 @@ NOT_RUN = {
     },
 }
 
-# Pages whose every line doors.py types.
+# Pages of which doors.py types every line.
 TYPED = {"reports/check/TEN_MINUTES.md"}
 
 PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"

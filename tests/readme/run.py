@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the commands of all READMEs and other pages as they stand, and looks up their links. plan.py says
-which are run, and how the others are checked.
+"""Runs the commands of all READMEs and other pages as they are written, and checks their links. plan.py
+says which commands are run, and how the others are checked.
 
 usage: run.py --build BUILD [--slow|--shown]      BUILD: the build tree of preset release
 """
@@ -17,12 +17,12 @@ from clone import Clone
 from named import is_synopsis, wrong_names
 
 ROOT = Path(__file__).resolve().parents[2]
-# What begins like this is a command, whatever stands around it.
+# A line that begins like this is a command, whatever the text around it is.
 COMMAND = re.compile(
     r"(\w+=\S+ +)*(build/release/|reports/|tests/|assay |ctest |cmake |ninja |python3 |cc )")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 WORKFLOW_STEP = re.compile(r"(?:- )?run: (build/release/assay .*)")
-QUICK_SECONDS, SLOW_SECONDS = 60, 3600  # of one command
+QUICK_SECONDS, SLOW_SECONDS = 60, 3600  # the most that one command may take
 
 
 def readmes():
@@ -31,7 +31,7 @@ def readmes():
 
 
 class ReadmeTest:
-    """The plan for one README, and what came of it."""
+    """The plan for one README, and its results."""
 
     def __init__(self, name, options, wrongs):
         self.name, self.options, self.wrongs = name, options, wrongs
@@ -39,7 +39,7 @@ class ReadmeTest:
         self.slow = plan.SLOW.get(name, [])
         self.not_run = plan.NOT_RUN.get(name, {})
         self.no_command = plan.NO_COMMAND.get(name, {})
-        self.met = set()  # entries of the plan
+        self.met = set()  # entries of the plan that the README has
         self.ends = {c: [*codes] for c, codes in plan.ENDS.get(name, {}).items()}
         self.chunks = chunks_of((ROOT / name).read_text())
         self.clone = None  # made for the first command
@@ -71,7 +71,7 @@ class ReadmeTest:
                     self.wrong(number, f"there is no {target}, and a link to it")
 
     def no_command_of(self, chunk):
-        """The entry of plan.NO_COMMAND that one of the chunk's lines begins with."""
+        """Returns the entry of plan.NO_COMMAND with which a line of the chunk begins, or None."""
         for entry in self.no_command:
             if any(command.startswith(entry) for _, command in chunk.commands()):
                 self.met.add(entry)
@@ -111,7 +111,7 @@ class ReadmeTest:
             self.compare_shown(entry, printed)
 
     def compare_shown(self, entry, printed):
-        """Wants each line of the chunk among those printed: what they count, not how long it took."""
+        """Checks that each line of the shown chunk was printed; times may differ."""
         for line, text in not_printed(self.chunks, entry, printed):
             self.wrong(line, f"is not printed (reports/pictures/renew writes it anew): {text}")
 

@@ -1,10 +1,11 @@
-// A simulator of somebody else: a sheet of springs falls on a floor and folds over itself. Its own
-// detector is the cubic of textbooks. Each step is recorded with what that answered.
+// An example of an outside simulator: a sheet of springs falls on a floor and folds over itself.
+// Its own detector solves the cubic of textbooks. Each step is recorded with the answer of this
+// detector.
 //
 //   cloth PATH [slip]
 //
-// PATH is replaced. With the word `slip` the detector forgets edges of odd numbers, so that the
-// sheet is let through itself.
+// The file PATH is replaced. With the word `slip` the detector ignores edges with odd numbers, so
+// that the sheet passes through itself.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,10 +1,10 @@
-/* Records steps of a waving sheet in C99, with nothing but the recorder's header, and compares the
- * processor time with that of a plain fwrite of the same arrays.
+/* Records steps of a waving sheet in C99, with the recorder's header alone, and compares the
+ * processor time with the processor time of a plain fwrite of the same arrays.
  *
  *   record_in_c PATH [LIMIT]
  *
- * PATH and PATH.plain are replaced. With a LIMIT it fails if recording takes more than so many
- * times the plain writing: the median of 15 steps in turn. */
+ * The files PATH and PATH.plain are replaced. With a LIMIT, the program fails if recording takes
+ * more than LIMIT times as long as plain writing: the median of 15 steps, measured in turn. */
 #include <math.h>
 #include <time.h>
 

@@ -1,4 +1,4 @@
-// A plug-in in which all goes wrong (tests/plugins/hostile.cpp), put to the verbs that judge.
+// Runs a hostile plug-in (tests/plugins/hostile.cpp) through the verbs that judge detectors.
 #pragma once
 
 #include <signal.h>
@@ -8,9 +8,9 @@
 
 namespace assay::tests {
 
-// What it does, and the exit code that a campaign of it ends with: 1 where it answers, crashes or
-// is caught, 2 where it cannot even be loaded, 3 where it hangs. How long starting hundreds of
-// processes takes decides whether that one hangs.
+// What the plug-in does, and the exit codes with which a campaign can end: 1 if the plug-in
+// answers, crashes or is caught, 2 if it cannot be loaded, 3 if it hangs. The mode many-processes
+// has two codes: it hangs if starting hundreds of processes takes too long.
 struct HostileMode {
   std::string name;
   std::vector<int> exit_codes;
@@ -22,7 +22,7 @@ inline std::vector<HostileMode> modes_of(const std::string& names, const std::ve
   return modes;
 }
 
-// Those that end at once.
+// Returns the modes that end at once.
 inline const std::vector<HostileMode>& quick_modes() {
   static const std::vector<HostileMode> modes = [] {
     auto all = modes_of(
@@ -38,7 +38,7 @@ inline const std::vector<HostileMode>& quick_modes() {
   return modes;
 }
 
-// Those that hang until a limit ends them.
+// Returns the modes that hang until a limit ends them.
 inline const std::vector<HostileMode>& hanging_modes() {
   static const auto modes = modes_of(
       "spin hang-at-create hang-at-evaluate hang-at-commit hang-at-result hang-at-destroy", {3});
@@ -47,10 +47,11 @@ inline const std::vector<HostileMode>& hanging_modes() {
 
 class HostilePlugin : public testing::Test {
  protected:
-  // With limits alone some deeds reach this process, and files beside it.
+  // Returns whether bubblewrap does not work here. The plug-in then runs under limits alone, and
+  // some modes reach this process and files beside it.
   static bool is_let_loose() { return !properties::fault_of_bubblewrap().empty(); }
 
-  // In the environment of the program: what hostile.cpp does.
+  // Tells hostile.cpp, by the environment of the program, what to do.
   static void does(const std::string& mode) { setenv("ASSAY_HOSTILE", mode.c_str(), 1); }
 
   static void SetUpTestSuite() {
@@ -82,12 +83,13 @@ class HostilePlugin : public testing::Test {
                      prefix);
   }
 
-  // Under a limit that is an option of prlimit. The exit code, which is never one of a verdict that
-  // holds, of a crash or of a doubt of the program about itself.
+  // Judges the plug-in under a limit, which is an option of prlimit, and returns the exit code.
+  // Expects that the code means neither that all holds, nor a crash, nor that the program failed
+  // its own check.
   int expect_no_excuse(const std::string& verb, const std::string& mode, const std::string& limit,
                        const std::string& prefix = "") {
     const auto ended = judge(verb, mode, "", prefix + "prlimit " + limit + " ");
-    // The system has not even started the program.
+    // The system could not start the program.
     if (contains(ended.err, "error while loading shared libraries")) return ended.exit_code;
     EXPECT_TRUE(ended.exit_code == 1 || ended.exit_code == 2 || ended.exit_code == 3)
         << verb << " " << mode << " " << limit << ": " << ended.exit_code << "\n"
@@ -100,14 +102,15 @@ class HostilePlugin : public testing::Test {
     return ended.exit_code;
   }
 
-  // Another run's files, and a process, are as they were.
+  // Expects that the files of another run, and another process, are as they were.
   void expect_unharmed(const std::string& mode) const {
     EXPECT_EQ(files_of_the_other(), before_) << mode;
     const auto status = read_text("/proc/" + std::to_string(bystander_) + "/stat");
     EXPECT_TRUE(contains(status, ") S ")) << mode << ": " << status;
   }
 
-  // What is left of a run or a certificate that was judged.
+  // Expects one of the exit codes of the mode, and that no file of the run or the certificate says
+  // that the plug-in holds.
   void expect_no_verdict_bought(const std::string& verb, const HostileMode& mode,
                                 const Outcome& ended) const {
     const auto is_expected =
@@ -132,7 +135,7 @@ class HostilePlugin : public testing::Test {
     EXPECT_EQ(run_assay("verify " + certificate).exit_code, ended.exit_code) << mode.name;
   }
 
-  // Each mode through a verb.
+  // Judges the plug-in in each mode by a verb, and expects that nothing holds.
   void expect_none_holds(const std::string& verb, std::vector<HostileMode> modes) {
     for (const auto* more : {&quick_modes(), &hanging_modes()})
       modes.insert(modes.end(), more->begin(), more->end());
@@ -146,7 +149,8 @@ class HostilePlugin : public testing::Test {
                                  R"( "seconds": 60, "case_seconds": 0.1, "shrink_share": 0.001,)"
                                  R"( "strata": [{"family": "closed-generic", "cases": 3}]})");
   const std::string hostile = plugin("hostile");
-  // A bwrap that is installed and forbidden, as in some containers.
+  // A prefix for commands. It puts into the PATH a bwrap that is not permitted to run, as in some
+  // containers.
   const std::string forbidden_bwrap = [&] {
     namespace fs = std::filesystem;
     const auto file =

@@ -25,8 +25,8 @@ inline SchemaJson schema_named(const std::string& name) {
   return SchemaJson::parse(file);
 }
 
-// One line for each place where `value` is not what `schema` says. References are looked up in
-// `whole`, the schema that this is a part of, or in that of certificates, whose id has no number:
+// Fails with one line for each place where `value` does not satisfy `schema`. References are looked
+// up in `whole`, which contains `schema`, or in the schema of certificates, whose id has no number:
 // "urn:assay:certificate#/...".
 inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, const SchemaJson& value,
                          const std::string& place, std::vector<std::string>& wrong) {
@@ -98,7 +98,7 @@ inline void check_schema(const SchemaJson& whole, const SchemaJson& schema, cons
   }
 }
 
-// Holds a value to the schema of this name.
+// Expects that a value satisfies the schema of this name.
 inline void expect_schema(const std::string& name, const SchemaJson& value) {
   const auto schema = schema_named(name);
   std::vector<std::string> wrong;

@@ -1,4 +1,4 @@
-// A run's folder as a killed `assay run` leaves it, made without running one.
+// Makes the folder that a killed `assay run` leaves, without running a campaign.
 #pragma once
 
 #include "corpus/cases/case_file.h"
@@ -14,8 +14,9 @@
 
 namespace assay::tests {
 
-// Two triangles, each a body. The lowest corner of the upper one is above the inside of the other,
-// as high as is said at t = 0 and at t = 1; another one is 0.1 higher.
+// Returns a case of two bodies, each a triangle. The lowest corner of the upper triangle is above
+// the inside of the lower triangle, at height `height_t0` and then `height_t1`. Another corner is
+// 0.1 higher.
 inline corpus::Case one_above_another(double height_t0, double height_t1) {
   corpus::Case c;
   c.id = "one_above_another";
@@ -34,9 +35,10 @@ struct RunToStore {
   std::vector<properties::TrialRecord> trials;
   std::vector<properties::FailureRecord> failures;
   std::vector<properties::Row> evidence;
-  std::string begun;  // empty: not stored
+  std::string begun;  // when the run began; empty: not stored
 
-  // Of the built-in detector, two families of ten cases, a bound wanted of the first.
+  // Requests a run of the built-in detector on two families of ten cases; a bound is required for
+  // the first family.
   RunToStore() {
     request.plan.name = "tiny";
     request.plan.seconds = 60;
@@ -44,7 +46,7 @@ struct RunToStore {
     request.detector = properties::built_in_detector();
     request.worker = properties::worker_program();
   }
-  // `letter`: of every configuration.
+  // Adds trials with the outcome `letter` in every configuration.
   RunToStore& judge(const std::string& family, int cases, char letter) {
     for (int i = 0; i < cases; ++i) {
       properties::TrialRecord record;
@@ -68,7 +70,7 @@ struct RunToStore {
     }
     return *this;
   }
-  // A failure whose mesh is a curated case.
+  // Adds a failure whose mesh is a curated case.
   RunToStore& fail(const std::string& name, const std::string& signature,
                    const std::string& explanation) {
     return fail(curated_case(name), signature, explanation);
@@ -87,7 +89,7 @@ struct RunToStore {
     evidence.push_back(to_row(properties::Canary{"pair/zero-zero-dropped", found_after}));
     return *this;
   }
-  // With a name, beside the stores of other runs.
+  // Writes the store. Runs with different names can lie in one folder.
   std::string store(const std::string& folder, const std::string& name = "run") const {
     std::filesystem::create_directories(folder);
     auto made = value_of(properties::Store::open(std::filesystem::path(folder) / (name + ".sqlite"),
@@ -95,7 +97,7 @@ struct RunToStore {
     if (request.plugin) properties::note_library(made, *request.plugin);
     if (!begun.empty()) made.set_note("begun", begun);
     for (const auto& found : evidence) made.set(found);
-    // Every defect was met as the first failure.
+    // Every defect has the signature of the first failure.
     auto first = failures.empty() ? properties::test::failure("all-pairs: missing") : failures[0];
     first.mesh.clear();
     for (const auto& trial : trials) {

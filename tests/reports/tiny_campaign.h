@@ -1,4 +1,4 @@
-// Small campaigns through the program, and what is left of them.
+// Runs small campaigns by the program, and reads their files.
 #pragma once
 
 #include "corpus/cases/case_file.h"
@@ -7,16 +7,17 @@
 
 namespace assay::tests {
 
-// How what is told to readers of other machines names the folder of the plug-ins: as it goes from
-// the run's folder, or not at all where it goes through the root.
+// Returns how texts for readers on other machines name the folder of the plug-ins: by its path
+// relative to the run's folder, or not at all if that path leads through the root.
 inline std::string told_plugins(const std::string& out) {
   const std::filesystem::path folder = ASSAY_PLUGIN_DIR, from = out;
   const bool shares_a_folder = *std::next(folder.begin()) == *std::next(from.begin());
   return shares_a_folder ? folder.lexically_relative(from).string() + "/" : "";
 }
 
-// A few dozen cases, nothing planted. `more`: further fields, each behind a comma. It has time
-// without end, but for one that states a share of it to shrink in.
+// Returns a plan of a few dozen cases without planted faults. `more` has further fields, each
+// behind a comma. The plan has no limit of time, except if `more` states the share of the time for
+// shrinking.
 inline std::string plan_text(int cases, const std::string& more = "") {
   const std::string n = std::to_string(cases), half = std::to_string(cases / 2);
   const std::string seconds = more.find("shrink_share") == std::string::npos ? "null" : "600";
@@ -26,7 +27,7 @@ inline std::string plan_text(int cases, const std::string& more = "") {
          R"(}, {"family": "broken", "cases": )" + half + "}]" + more + "}";
 }
 
-// A folder, a tiny campaign, and `assay run` of it.
+// A folder with the plan of a tiny campaign, which run() runs with `assay run`.
 class RunFixture : public testing::Test {
  protected:
   const Scratch scratch;
@@ -37,12 +38,12 @@ class RunFixture : public testing::Test {
   }
 };
 
-// What a certificate states.
+// Returns what the certificate in a folder states.
 inline nlohmann::ordered_json predicate_in(const std::string& folder) {
   return read_json(folder + "/certificate.json")["predicate"];
 }
 
-// Each trial of the run in a line, without its times.
+// Returns one line for each trial of the run, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,
                                           const std::string& store_name = "run") {
   const auto store = value_of(properties::Store::read(out + "/" + store_name + ".sqlite"));
@@ -61,7 +62,7 @@ inline properties::Counts signatures_of(const std::string& out,
   return value_of(properties::Store::read(out + "/" + store_name + ".sqlite")).signatures();
 }
 
-// The shrunk case of each failure of the run.
+// Returns the shrunk case of each failure of the run.
 inline std::vector<corpus::Case> smallest_cases(const std::string& out) {
   std::vector<corpus::Case> cases;
   for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
@@ -76,7 +77,7 @@ inline Eigen::Index triangles_of_smallest(const std::string& out) {
   return least;
 }
 
-// What stands behind "replay: PATH/assay " in each such line.
+// Returns, from each line with "replay: PATH/assay ", the text behind these words.
 inline std::vector<std::string> replay_lines(const std::string& text) {
   std::vector<std::string> found;
   std::istringstream in(text);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over the sources, and with them over the headers that they include.
+"""Runs clang-tidy on the sources, and so on the headers that they include.
 
 usage: run.py --build BUILD [--all] [--jobs N] [FILE...]
 
-Without --all it looks at the two rooms in which a bug is a wrong verdict, detector and oracle, and asks
-for the checks that cost little more than reading the file. With --all it asks for all checks of
-.clang-tidy, in all rooms but tests.
+Without --all it checks detector and oracle, the two rooms in which a bug is a wrong verdict, with the
+checks that take little more time than reading the file. With --all it runs all checks of .clang-tidy, in
+all rooms except tests.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ CHEAP = ("bugprone-use-after-move", "bugprone-dangling-handle", "bugprone-unused
          "performance-for-range-copy", "performance-unnecessary-copy-initialization",
          "performance-move-const-arg", "performance-unnecessary-value-param",
          "misc-unused-parameters", "modernize-use-override")
-# The flags are g++'s: clang does not know all of its warnings, and cannot read its precompiled headers.
+# Flags of g++ that clang does not accept: clang cannot read the precompiled headers of g++.
 PRECOMPILED = re.compile(r" -Winvalid-pch -include \S+/cmake_pch\.hxx| -fpch-preprocess"
                          r"| --param ggc-min-heapsize=\d+")
 FOR_CLANG = ["--extra-arg=-Wno-unknown-warning-option"]
@@ -33,8 +33,8 @@ FINDING = re.compile(r"^/\S+?:\d+:\d+: (?:error|warning): .*$", re.M)
 
 
 def compile_commands(build, rooms):
-    """How each source of the rooms is compiled, as clang can read it."""
-    # Of some rooms a whole folder is compiled as one source, which CMake wrote (ASSAY_UNITY).
+    """Returns the command that compiles each source of the rooms, in a form that clang accepts."""
+    # In some rooms a whole folder is compiled as one source, which CMake has written (ASSAY_UNITY).
     places = tuple(f"{folder}/{room}/" for folder in (ROOT, build) for room in rooms)
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
@@ -44,10 +44,10 @@ def compile_commands(build, rooms):
     return commands
 
 
-# Sources that use a name for something else than another source of their folder.
+# Sources that give another meaning to a name than another source of their folder.
 NOT_JOINED = tuple(f"{ROOT}/{file}" for file in (
     "detector/view/view_signs.cpp", "oracle/referee/referee.cpp", "oracle/referee/static_check.cpp"))
-# Folders that no name keeps apart are read as one.
+# Folders without conflicting names are read as one.
 TOGETHER = {folder: number for number, folders in enumerate((
     "detector detector/boundary detector/boxes detector/mesh detector/parallel detector/plugin "
     "detector/view", "detector/contact detector/distance detector/exact detector/geometry",
@@ -56,10 +56,10 @@ TOGETHER = {folder: number for number, folders in enumerate((
 
 
 def by_folder(commands, folder):
-    """The sources of a few folders as one, which reads the headers of others once: a quarter of the time."""
+    """Joins the sources of a few folders to one, so that headers are read once: a quarter of the time."""
     groups, joined = {}, {}
     for file, command in commands.items():
-        # Sources with flags of their own stay by themselves.
+        # Sources with other flags are not joined.
         flags = re.sub(r"-o \S+ -c \S+", "", command)
         if file in NOT_JOINED:
             joined[file] = command
@@ -98,7 +98,7 @@ def main():
         files = sorted(sources)
         with ThreadPoolExecutor(options.jobs) as threads:
             runs = list(threads.map(look_at, files))
-    findings = {}  # what stands in a header is found from many sources
+    findings = {}  # one entry for a finding in a header, which many sources have
     for file, run in zip(files, runs):
         if run.returncode:
             found = FINDING.findall(run.stdout) or [f"clang-tidy ends with {run.returncode}: {run.stderr}"]

@@ -1,6 +1,6 @@
 // The facts that laws need about one case in one configuration: the detector's results, and the
-// oracle's view of the same steps. Each fact is computed once, when it is first asked for. Exact
-// view values stand first, and facts about one instant of a state last.
+// oracle's view of the same steps. Each fact is computed once, when it is first asked for. This
+// file begins with exact view values, and ends with facts about one instant of a state.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,9 @@ using oracle::JudgeOptions, oracle::StepJudgement;
 
 // Exact values of the view function at one time, by the clamp form of L1 and by regions.
 //
-// All coordinates are integers in one unit, a power of two over the denominator of the time. So the
-// values are rationals with one common denominator, |d|^2, and only the numerators are stored.
+// All coordinates are integers in one unit, a power of two divided by the denominator of the time.
+// So the values are rationals with one common denominator, |d|^2, and only the numerators are
+// stored.
 
 using ExactInteger = boost::multiprecision::cpp_int;
 using ExactPoint = std::array<ExactInteger, 3>;
@@ -48,13 +49,13 @@ class ExactView {
   ExactView(const std::array<MovingPoint, 3>& triangle, const ViewPrimitive& primitive,
             int eighths);
 
-  // Return a corner of the triangle, or its point with the weights `sixteenths`, whose sum is 2^4.
-  // All coordinates are multiplied by 2^4.
+  // Return a corner of the triangle, or the point of the triangle with the weights `sixteenths` /
+  // 2^4. The sum of `sixteenths` is 2^4. The coordinates that are returned are multiplied by 2^4.
   ExactPoint corner(int i) const;
   ExactPoint inner_point(const std::array<int, 3>& sixteenths) const;
 
-  // Return (x - n(x)).N for a point x of the triangle, given times 2^4. The values of all points of
-  // one ExactView have the same positive factor.
+  // Return (x - n(x)).N for a point x of the triangle, whose coordinates are passed multiplied by
+  // 2^4. The values of all points of one ExactView have the same positive factor.
   ExactInteger by_clamp(const ExactPoint& x) const;   // (1-s) f0 + s f1
   ExactInteger by_region(const ExactPoint& x) const;  // from q0, from q1, from the foot
   Region region_of(const ExactPoint& x) const;
@@ -62,17 +63,17 @@ class ExactView {
   bool has_zero_area() const;
 
  private:
-  ExactInteger axial(const ExactPoint& x) const;  // times |d|^2
-  std::array<ExactPoint, 3> triangle_;            // all of these times 2^4
+  ExactInteger axial(const ExactPoint& x) const;  // the axial coordinate times |d|^2
+  std::array<ExactPoint, 3> triangle_;            // this and the points below: times 2^4
   ExactPoint q0_, q1_, d_, normal_;
   ExactInteger length2_;  // |d|^2, or 1 for a point
 };
 
 // Measures the smallest and the largest magnitude of the values on which a law rests in one step,
-// such as the determinants whose signs it compares. A value near 0 beside large ones means that the
-// law was tried near a place where rounding could break it.
+// such as the determinants whose signs the law compares. A value near 0 beside large values means
+// that the law was tested near a place where rounding could break it.
 
-// The range of magnitudes, none of them negative. At first it holds no value.
+// A range of magnitudes, which are never negative. At first the range is empty.
 struct ValueRange {
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -94,8 +95,8 @@ inline bool is_close(const ValueRange& range) {
 // sign change of a triangle counts as 0. The values are in the step's own units, so that nothing
 // overflows.
 //
-// Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
-// x are the vertices of the surface. About 0.5 us a triangle.
+// `triangles` are indices into `surface`. All triangles are seen from one primitive. The rows of
+// the positions are the vertices of the surface. Takes about 0.5 us for each triangle.
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
                       const SteppedMesh& motion, const ViewPrimitive& primitive);
 
@@ -103,19 +104,21 @@ ValueRange view_range(const detector::Topology& surface, std::span<const std::in
 //
 // A patch is certified if L13's premise is proved for it: all of its triangles face one direction
 // throughout the step, and its contour, projected along that direction, stays a simple polygon.
-// The patches looked at are nodes of the detector's tree, from the root down to the largest ones
-// that are certified, and unions of two of these that share an edge. A scheme with a wrong test
-// certifies too much here as well, and L13 shows it.
+// The patches that are tested are nodes of the detector's tree, from the root down to the largest
+// certified nodes, and unions of two certified nodes that share an edge. A scheme with a wrong test
+// certifies too much here, too, and then L13 fails.
 
 struct CertifiedPatches {
   static constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> patch_of;  // by triangle; none: the triangle faces no direction
+  std::vector<std::int32_t> patch_of;  // by triangle; `none` if it faces no direction
   std::set<std::pair<std::int32_t, std::int32_t>> unions;  // of two patches, the lower one first
-  // The number of triangles of the largest patch or union. L13 says nothing below 2.
+  // The number of triangles of the largest patch or union. L13 says nothing if this number is below
+  // 2.
   std::size_t largest = 0;
   // A triangle faces d if the three Bernstein coefficients of N.d over the step are positive (N is
-  // its normal, twice its area long). `facing` has the sizes of the coefficients, for the direction
-  // of the patch and all of its triangles, over all patches and unions of two triangles or more.
+  // the triangle's normal, and its length is twice the area). `facing` is the range of these
+  // coefficients for the triangles of all patches and unions of two triangles or more; d is the
+  // direction of the patch or union.
   ValueRange facing;
 
   // Returns whether both triangles are in one patch, or in one union of two.
@@ -125,8 +128,8 @@ struct CertifiedPatches {
 // The traditional scheme on one mesh.
 class TraditionalScheme {
  public:
-  // Returns null if the search of these stages is not one of normal cones. `x` are the positions
-  // from which the detector is made: they shape the tree. `mesh` must outlive the result.
+  // Returns null if these stages do not search with normal cones. `x` are the positions from which
+  // the detector is made: they shape the tree. `mesh` must outlive the result.
   static std::unique_ptr<TraditionalScheme> make(const detector::Stages& stages,
                                                  const detector::Topology& mesh,
                                                  const PositionsView& x);
@@ -154,15 +157,16 @@ inline bool is_answered(const StepResult& result) {
   return result.answer == Answer::free || result.answer == Answer::collision;
 }
 
-// Returns the stages of a detector that a law makes to run a changed case. Empty if the results
-// come from a detector that cannot be made here (a plug-in); the premises of laws that need one are
-// then not met.
+// Returns the stages of the detector with which a law runs a changed case. This function is empty
+// if the results come from a detector that cannot be made here (a plug-in). The premises of laws
+// that need the function are then not met.
 using StagesOf = std::function<detector::Stages(const Options&)>;
 
 class CaseFacts {
  public:
   // REQUIRES valid input, one result and one judgement for each step of the case, and the surface
-  // of the detector that gave the results. All of them outlive this object.
+  // of the detector that gave the results. The case, results, judgements and surface must outlive
+  // this object.
   CaseFacts(const Case& source, const Options& options, std::span<const StepResult> results,
             std::span<const StepJudgement> judgements, const detector::Surface& surface,
             StagesOf stages_of = detector::standard_stages);
@@ -190,15 +194,15 @@ class CaseFacts {
   bool has_ghosts(std::size_t component) const;
   // Returns whether some edge has three or more triangles, or is used twice in one direction.
   bool has_broken_edges() const;
-  // Returns whether the detector verifies a new start by views alone (L5), as under view-auto, and
-  // not by layers (L9).
+  // Returns whether the detector verifies a new start by views alone (L5), as Culling::view_auto
+  // does, and not by layers (L9).
   bool starts_by_view_alone() const;
   // Returns whether the oracle finished this step.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
   // Returns whether the premise of L3 to L8 holds: outside Vv everything is clean at the start. If
-  // the caller vouched for a new start (Start::clean), the oracle's layers decide whether that is
-  // true. In all other cases it counts as true, because L8 and L9 judge the detector's clean
-  // triangles.
+  // the caller vouched for a new start (Start::clean), the oracle's layers decide whether the
+  // premise is true. In all other cases the premise counts as true, because L8 and L9 judge the
+  // detector's clean triangles.
   bool is_trusted(std::size_t s);
 
   // The functions below ask the oracle; they take the primitives and apexes from the detector's
@@ -206,7 +210,7 @@ class CaseFacts {
   const std::vector<ViewSign>& signs(std::size_t s);        // mesh, then ghosts
   const std::vector<std::uint8_t>& touched(std::size_t s);  // by the component's ghosts (L11)
   const oracle::Candidates& candidates(std::size_t s);      // K
-  std::optional<int> winding_at_start(std::size_t s, std::size_t component);  // of q0, in S
+  std::optional<int> winding_at_start(std::size_t s, std::size_t component);  // S around q0
   // Returns whether L5 applies over the step: all triangles of the component and its ghosts are
   // positive throughout, and the winding number is 1 at t=0.
   bool is_free_by_view(std::size_t s, std::size_t component);
@@ -223,13 +227,14 @@ class CaseFacts {
     return results_[s].doubts[static_cast<std::size_t>(triangle)] != 0;
   }
 
-  // Returns the range of the view values of the step, computed in doubles. `is_close` judges
-  // closeness by it, and is false if the step has no views.
+  // Returns the range of the view values of the step, computed in doubles. `is_close` returns
+  // whether this range is close, and false if the step has no views.
   const ValueRange& view_range(std::size_t s);
   bool is_close(std::size_t s);
 
-  // Returns the traditional scheme that stages_of() makes, on the mesh of this case; null if it
-  // makes none. The scheme is the same whatever culling gave the results.
+  // Returns the traditional scheme that stages_of() makes, on the mesh of this case; null if
+  // stages_of() makes no such scheme. The scheme does not depend on the culling that gave the
+  // results.
   TraditionalScheme* traditional_scheme();
   // Returns the patches that this scheme's own tests certify. REQUIRES traditional_scheme().
   const CertifiedPatches& certified_patches(std::size_t s);
@@ -254,7 +259,7 @@ class CaseFacts {
   Triangles ghosts_;
   std::vector<StepFacts> facts_;
   std::optional<std::unique_ptr<TraditionalScheme>> traditional_scheme_;
-  // Found by positions, because the end of one step is the start of the next.
+  // These layers are looked up by positions, because the end of one step is the start of the next.
   std::vector<std::pair<Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };
 
@@ -281,19 +286,20 @@ constexpr auto names_of(PairBlock) {
 }
 PairBlock block_of(ViewSign a, ViewSign b, bool either_violated);
 
-// Facts about one instant for the laws of state: which triangles share a layer, and which of them
-// the detector may have released (taken as clean again).
+// Facts about one instant for the laws of state: which triangles share a layer, and which triangles
+// a detector is right to release (to take as clean again).
 
 using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
 
-// Returns the oracle's objection to the claim that the triangles marked in `is_held` are untouched
-// and that those of one component share a layer. Empty if it has none.
+// Returns the oracle's objection to the claim that the triangles marked in `is_held` are untouched,
+// and that marked triangles of one component share a layer. Empty if the oracle has no objection.
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
                               const TriangleFlags& is_held);
 
 // Returns which triangles of `in_question` are clean at the start of step s, by the oracle. A clean
-// triangle is untouched, and lies in the layer of the other triangles of its component that were
-// carried on as clean; if there are none, it lies in the common layer (L9). REQUIRES has_views(s).
+// triangle is untouched, and lies in the layer of the triangles of its component that stayed clean
+// from the step before; if no triangle did, it lies in the common layer (L9). REQUIRES
+// has_views(s).
 TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question);
 
 // Returns whether account_of_dirty applies to step s: the arithmetic, the release and the test of
@@ -306,22 +312,24 @@ bool has_account(CaseFacts& facts, std::size_t s);
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
 // Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone. At a new start these are the triangles that are not clean by its layers. Layers do not
-// count with Start::unknown, nor with Start::verified under a culling that chooses views
-// (view_auto, automatic): then every component that is not free by view is dirty. Else a triangle
-// is dirty if it was in doubt after the step before (dirty by this account, touched by a ghost, or
-// in contact with its own component), and is not now untouched and in the common layer. That layer
-// is the one of the triangles that are not in doubt; in a component without such triangles, it is
-// the layer of most untouched triangles.
+// alone.
+// - At a new start, a triangle is dirty if it is not clean by the oracle's layers. Layers do not
+//   count with Start::unknown, or with Start::verified under a culling that chooses views
+//   (view_auto, automatic): then a triangle is dirty if its component is not free by view.
+// - At any other start, a triangle is dirty if it was in doubt after the step before (dirty by this
+//   account, touched by a ghost, or in contact with its own component), unless it is now untouched
+//   and in the common layer. The common layer is that of the triangles that are not in doubt. If a
+//   component has no such triangles, it is the layer of most untouched triangles.
 //
-// A step without views releases nothing. If it is a new start, all triangles are dirty, unless the
-// caller vouched for the start; else those that were in doubt after the step before. REQUIRES
-// has_account(s).
+// A step without views releases nothing. At a new start all its triangles are dirty, unless the
+// caller vouched for the start; at any other start, the triangles that were in doubt after the step
+// before are dirty. REQUIRES has_account(s).
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
-// Returns the triangles that are in doubt after step s: those that were dirty at its start, touched
-// by a ghost, or in contact with their own component. After a collision in a step with views, all
-// are in doubt unless all pairs were asked for. A step without views sweeps no ghosts, so after it
-// all triangles of a component with ghosts are in doubt. REQUIRES has_account(s).
+// Returns the triangles that are in doubt after step s: the triangles that were dirty at its start,
+// touched by a ghost, or in contact with their own component. After a collision in a step with
+// views, all triangles are in doubt, unless all pairs were asked for. A step without views sweeps
+// no ghosts, so after it all triangles of a component with ghosts are in doubt. REQUIRES
+// has_account(s).
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s);
 
 // Returns, by triangle, 1 if the result of step s marks it with doubt::dirty, else 0.

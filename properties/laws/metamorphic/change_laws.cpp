@@ -185,29 +185,29 @@ constexpr Law change_law_table[] = {
      &changes::split_edges},
     law_of<changes::vertex_numbers>(
         "Change_VertexNumbers",
-        "With its vertices numbered otherwise a mesh has the same pairs, times, signs and sets.",
+        "If its vertices are renumbered, a mesh has the same pairs, times, signs and sets.",
         "layers, where two classes tie"),
     law_of<changes::triangle_order>(
         "Change_TriangleOrder",
-        "With its triangles in another order, each begun at another corner, a mesh has the same "
+        "If its triangles are in another order and begin at other corners, a mesh has the same "
         "pairs, times and signs, and the same sets unless two layer classes tie.",
         "layers, where two classes tie"),
-    law_of<changes::power_of_two>(
-        "Change_PowerOfTwo",
-        "Scaled by a power of two, where no coordinate loses a bit, all answers are the same."),
-    law_of<changes::translation>(
-        "Change_Translation",
-        "Translated exactly (all coordinates rounded to a grid before) all answers are the same."),
-    law_of<changes::mirror>(
-        "Change_Mirror",
-        "Mirrored, and turned over so that outside stays outside, all answers are the same."),
-    law_of<changes::axes>(
-        "Change_AxesExchanged",
-        "With axes exchanged (turned over where that mirrors) all answers are the same."),
+    law_of<changes::power_of_two>("Change_PowerOfTwo",
+                                  "If a mesh is scaled by a power of two, so that no coordinate "
+                                  "loses a bit, all answers are the same."),
+    law_of<changes::translation>("Change_Translation",
+                                 "If a mesh is translated exactly (after its coordinates are "
+                                 "rounded to a grid), all answers are the same."),
+    law_of<changes::mirror>("Change_Mirror",
+                            "If a mesh is mirrored, and turned over so that outside stays outside, "
+                            "all answers are the same."),
+    law_of<changes::axes>("Change_AxesExchanged",
+                          "If axes are exchanged (and triangles turned over if that mirrors), all "
+                          "answers are the same."),
     law_of<changes::inside_out>(
         "Change_InsideOutSwapsSigns",
-        "With all triangles turned over, V+ and V- change places; pairs and times stay, and so do "
-        "the doubts of a verified start (L5 releases outward surfaces alone)."),
+        "If all triangles are turned over, V+ and V- change places; pairs, times and the doubts of "
+        "a verified start stay (L5 releases outward surfaces alone)."),
 };
 
 }  // namespace

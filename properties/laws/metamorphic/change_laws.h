@@ -1,7 +1,7 @@
 // Metamorphic laws: a case that is changed in a way that must not matter gives the same answers,
 // changed likewise. For the built-in detector every bit is compared, in pinned runs. Laws that need
-// nothing from the inside of a detector are judged for plug-ins too, which get the case in its
-// other form.
+// nothing from the inside of a detector are judged for plug-ins, too; a plug-in runs the changed
+// case.
 #pragma once
 
 #include <string>
@@ -13,8 +13,9 @@
 namespace assay::properties {
 
 // Returns whether the law is judged for plug-ins. A law is judged if it is about a change of the
-// case that can be put to any detector, or about threads, which the second runs of trials test. No
-// state is saved and restored, because the interface of plug-ins has no such call.
+// case that can be put to any detector, or about threads, which the second runs of trials test.
+// Laws about saved states are not judged, because the interface of plug-ins has no call that saves
+// or restores a state.
 inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
 bool is_of_plugins(const Law& law);
 
@@ -26,8 +27,8 @@ bool is_given_in_form(const Law& law, std::string_view case_id);
 std::string difference_in_form(const StepResult& of_case, const Form& form,
                                const StepResult& of_form, bool pairs = true);
 
-// Compares the pinned run of the case with that of its form. If the change is made on a grid, the
-// rounded case takes the place of the case.
+// Compares the pinned run of the case with the pinned run of its form. If the change is made on a
+// grid, the case is rounded first.
 void check_change(CaseFacts& facts, LawTally& tally, const CaseChange& change);
 template <const CaseChange& change>
 void check_change(CaseFacts& facts, LawTally& tally) {

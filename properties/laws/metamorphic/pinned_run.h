@@ -2,7 +2,8 @@
 //
 // View primitives and apexes are means in doubles, summed in the order of the vertices. In a mesh
 // that is renumbered, mirrored or moved they would differ in the last bits. So a changed run takes
-// them from the original run, changed like the vertices, and every bit can be compared.
+// primitives and apexes from the original run and changes them like the vertices. Then every bit
+// can be compared.
 #pragma once
 
 #include <memory>
@@ -13,9 +14,9 @@
 
 namespace assay::properties {
 
-// Returns the run that gave the results of `facts`, pinned, as a case. Returns nothing if a step
-// has no views, if view-auto left a triangle dirty at a new start that another culling would
-// release by layers, or if no detector can be made.
+// Pins the run that gave the results of `facts`, and returns it as a case. Returns nothing if a
+// step has no views, if no detector can be made, or if Culling::view_auto left a triangle dirty at
+// a new start although another culling would release it by layers.
 //
 // Each step has two frames of its own, after the first frame of the case, which shapes the tree.
 // The pinned points are stored as the case's ghosts, so that they change with the mesh: a fan for
@@ -23,16 +24,17 @@ namespace assay::properties {
 // primitive.
 std::optional<Case> pinned_run(const CaseFacts& facts);
 
-// Returns the options of the case, for a run of another mesh. view-auto decides by cost, for the
-// mesh as a whole, whether it uses views. In a pinned run every step had views, and so must the
-// other run; therefore its culling becomes view-line, which can also see from pinned points.
+// Returns the options for a run of a changed mesh: those of the case, but with Culling::view_line
+// if the culling of the case chooses views itself. Such a culling decides by the cost of the whole
+// mesh whether a step uses views. In a pinned run every step has views, so every step of the other
+// run needs views, too. view_line can also see from pinned points.
 Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
-  // Returns nothing if the holes of the mesh are not among those of the run (a boundary through
-  // repeated vertices may be split in several ways). A mesh that the detector refuses has a player
-  // too: each of its steps is that error. The run must outlive the player.
+  // Returns nothing if the holes of the mesh are not among the holes of the run (a boundary through
+  // repeated vertices can be split in several ways). If the detector refuses the mesh, there is a
+  // player, too: each of its steps returns this refusal. The run must outlive the player.
   static std::optional<PinnedPlayer> make(const Case& run, const Options& options,
                                           const StagesOf& stages_of);
 
@@ -53,7 +55,7 @@ class PinnedPlayer {
   std::optional<detector::Detector> detector_;  // or the problem of the mesh
   std::optional<detector::Problem> problem_;
   std::shared_ptr<PinnedBoundary> boundary_;
-  // Places among the pinned points: of each loop's apex, of the first end of each component's view.
+  // Indices of pinned points: by loop, its apex; by component, the first end of its view primitive.
   Numbers apex_of_loop_, view_of_component_;
 };
 

@@ -1,4 +1,4 @@
-// Laws about the same step, asked for in another way.
+// Laws about one step that is evaluated in two ways.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -246,9 +246,9 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law repetition_law_table[] = {
     {"Change_StepHalved", "change",
-     "Taken in two halves, with the state carried, a step has the same pairs at the same times; if "
-     "only first contacts are asked for, it has the same first time. (Its coordinates are rounded "
-     "to a grid before, so that the middle is exact.)",
+     "If a step is taken in two halves, with the state carried over, it has the same pairs at the "
+     "same times; if only first contacts are asked for, it has the same first time. (Its "
+     "coordinates are rounded to a grid before, so that the middle is exact.)",
      "nothing", check_halves, one_case_in_16, PremiseScope::any_culling, &changes::halves},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
@@ -270,13 +270,13 @@ constexpr Law repetition_law_table[] = {
      "detector can then no longer commit that evaluation.",
      "nothing", check_restored_state, one_case_in_16},
     {"Change_StepReversed", "change",
-     "A sequence played back, each step from its end to its start, has the pairs of each step, and "
-     "is free where it was free.",
+     "If a sequence is played back, each step from its end to its start, each step has the same "
+     "pairs, and is free if it was free.",
      "nothing", check_form<changes::played_back>, one_case_in_16, PremiseScope::any_culling,
      &changes::played_back},
     {"Change_StepsBeforeDoNotShow", "change",
-     "Played after its own steps in another order, a sequence has the answers, pairs and times "
-     "that it has by itself.",
+     "If a sequence is played after its own steps in another order, it has the same answers, pairs "
+     "and times as without them.",
      "nothing", check_form<changes::other_steps_first>, one_case_in_16, PremiseScope::any_culling,
      &changes::other_steps_first},
 };

@@ -1,4 +1,5 @@
-// Draws the configurations in which claims are tried: options, questions, states, sizes in pairs.
+// Draws the configurations in which claims are tested, so that all pairs of options, questions,
+// states and sizes occur.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +13,10 @@
 
 namespace assay::properties {
 
-// Draws values of several factors so that all pairs of values occur: faults hide where two factors
-// meet, which no test of one factor alone reaches.
+// Draws values of several factors so that all pairs of values occur. Some faults show only if two
+// factors have certain values, and no test of one factor alone finds them.
 
-// One value for each factor, and the number of values of each.
+// A row has one value for each factor; the sizes are the numbers of values of each factor.
 using FactorRow = std::vector<std::uint8_t>;
 using FactorSizes = std::vector<std::uint8_t>;
 
@@ -37,7 +38,7 @@ std::vector<FactorRow> covering_rows(const FactorSizes& sizes, std::uint64_t see
 // The history of a detector when the case begins.
 enum class StateBefore : std::uint8_t {
   fresh,      // nothing
-  elsewhere,  // committed a step elsewhere
+  elsewhere,  // committed a step at other positions
   carried,    // committed a step that ends where the case begins
   restored,   // before each step its state moves into a detector that has committed something else
   reset,      // played the case, and was reset
@@ -59,7 +60,8 @@ constexpr auto names_of(Apart) {
       {{none, "contact"}, {little, "little apart"}, {much, "apart"}});
 }
 
-// The question that is asked before each step is played. It must not show in the step's answer.
+// A question that the detector is asked before each step. The step's answer must be the same
+// without the question.
 enum class Question : std::uint8_t {
   none,
   limit,          // how far the step may go

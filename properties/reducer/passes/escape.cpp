@@ -1,9 +1,10 @@
 // The pass that leads out of a local minimum (reducer/search.h).
 //
-// It walks at random among cases of any size that fail alike, and from each tries the cheapest
-// steps down. Between walks it merges two vertices of the best case and changes some coordinates
-// at the same time, or puts a small sphere in the place of the mesh. The random numbers depend on
-// the number of calls made so far, so the same reduction walks the same way.
+// It walks at random among cases of any size that fail with the same signature. From each case it
+// tries the cheapest passes that make a case smaller. Between walks it merges two vertices of the
+// best case and changes some coordinates at the same time, or puts a small sphere in the place of
+// the mesh. The random numbers depend on the number of calls made so far, so the same reduction
+// walks the same way.
 #include <algorithm>
 #include <cmath>
 

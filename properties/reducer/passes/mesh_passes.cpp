@@ -1,5 +1,5 @@
-// Passes that drop triangles, whether or not the mesh stays closed; and the cut of a mesh of very
-// many triangles (reducer/search.h).
+// Passes that drop triangles: some keep a closed mesh closed, others do not. Also the cut of a mesh
+// of very many triangles (reducer/search.h).
 #include <algorithm>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Passes that make coordinates simpler, and the one that gives the mesh its canonical numbering
+// Passes that make coordinates simpler, and the pass that gives the mesh its canonical numbering
 // (reducer/search.h).
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-# Sourced: a bare Debian 12 in the folder $bare, which is gone afterwards. It wants root, debootstrap
-# and a mirror, and ends with 77 where one of them is not here. ASSAY_BARE names a folder in which
-# the bare system is kept.
+# Sourced: makes a bare Debian 12 in the folder $bare, which is removed afterwards. It needs root,
+# debootstrap and a mirror, and ends with 77 if one of them is missing. If ASSAY_BARE names a
+# folder, the bare system stays there.
 # shellcheck shell=sh
 mirror=${ASSAY_MIRROR:-http://deb.debian.org/debian}
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null; then

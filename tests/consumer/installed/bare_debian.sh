@@ -1,6 +1,6 @@
 #!/bin/sh
-# bare_debian.sh SOURCES BUILD: the package in a Debian 12 that holds nothing else: installed by its
-# own apt-get, and asked for every verb and the Python module.
+# bare_debian.sh SOURCES BUILD: installs the package by apt-get in a Debian 12 that holds nothing
+# else, then tries every verb and the Python module.
 set -eu
 sources=$1 build=$2
 here=$sources/tests/consumer/installed

@@ -1,7 +1,7 @@
 #!/bin/sh
-# every_verb.sh ASSAY DATA FOLDER [whole]: whether each verb of an installed program does its work.
-# FOLDER holds steps.log, a log of a simulator, and libmine.so, a plug-in; DATA is share/assay of
-# the program. `whole` adds verbs that take minutes. Ends with 1 at the first that does not.
+# every_verb.sh ASSAY DATA FOLDER [whole]: tries each verb of an installed program. FOLDER holds
+# steps.log, a log of a simulator, and libmine.so, a plug-in; DATA is share/assay of the program.
+# `whole` adds verbs that take minutes. Ends with 1 at the first verb that fails.
 set -eu
 assay=$1 data=$2 size=${4:-quick}
 cd "$3"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# installed_test.sh SOURCES BUILD: installs what is built, then hides sources and build, and asks for
-# every verb. Then packs the same for Debian and looks into the package.
+# installed_test.sh SOURCES BUILD: installs what is built, then hides sources and build, and tries
+# every verb. Then makes a Debian package of the same files and checks its content.
 set -eu
 sources=$1 build=$2
 here=$sources/tests/consumer/installed
@@ -21,7 +21,7 @@ done
 if [ -d "$build/python/assay" ]; then
   ls lib/python3*/dist-packages/assay/__init__.py >/dev/null || fail "the Python module is not installed"
 fi
-# A man page for the program and for each verb, in which formatters find nothing to warn of.
+# The program and each verb have a man page, which formatters accept without a warning.
 if command -v help2man >/dev/null; then
   verbs=$(bin/assay help | sed -n 's/^  \([a-z][a-z-]*\) .*/assay-\1/p')
   for page in assay $(echo "$verbs" | grep -vx -e assay-help -e assay-version); do
@@ -41,7 +41,7 @@ if found=$(grep -rlF -e "$sources/" -e "$build/" .); then
   fail "paths of the machine that built it are in: $found"
 fi
 
-# What the verbs are asked about is made by what the tests build.
+# Programs that the tests build make the input of the verbs.
 mkdir "$scratch/mine"
 cp "$build/tests/plugins/plugin_example.so" "$scratch/mine/libmine.so"
 cp "$here/every_verb.sh" "$here/module.py" "$scratch"
@@ -55,7 +55,8 @@ for package in prefix/lib/python3*/dist-packages; do
   [ ! -d "$package" ] || (cd mine && PYTHONPATH="$2/$package" /usr/bin/python3 "$2/module.py" "$2/prefix")
 done
 ALL
-# Without user namespaces the sources stay in sight; then that no path of theirs is found has to do.
+# Without user namespaces the sources cannot be hidden. Then it is only checked that none of their
+# paths occurs.
 if unshare --user --map-root-user --mount true 2>/dev/null; then
   unshare --user --map-root-user --mount sh "$scratch/all.sh" "$sources" "$scratch"
 else

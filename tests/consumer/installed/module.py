@@ -1,5 +1,5 @@
-"""The Python module as it is installed below the folder that is named: the detector, the judge, and
-a class that is judged; by a campaign too where few.json and its proof are there."""
+"""Tries the Python module that is installed below the named folder: the detector, the judge, and the
+judging of a class; also a campaign, if few.json and its proof exist."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,5 @@
-// A detector with all that a class may have: two triangles collide when their heights overlap.
+// A plug-in whose class has every function that a class can have: two triangles collide if their
+// heights overlap.
 #include "detector/plugin/assay_detector.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-/* Loads the two plug-ins as a host does, and calls what they have. */
+/* Loads the two plug-ins of this folder as a host does, and calls the functions that they have. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>

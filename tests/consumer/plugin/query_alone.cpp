@@ -1,4 +1,4 @@
-// A library that holds one elementary query, and no detector of whole steps.
+// A plug-in library with one elementary query, and without a detector of whole steps.
 #include "detector/plugin/assay_detector.hpp"
 
 struct QueryAlone {

@@ -1,4 +1,4 @@
-// Case files: what is read and written, what is refused, and the curated ones.
+// Case files: what is read and written, which files are refused, and the curated cases.
 #include "corpus/cases/case_file.h"
 
 #include "corpus/files.h"

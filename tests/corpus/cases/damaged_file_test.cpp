@@ -1,5 +1,6 @@
-// Cuts and flips: whatever the bytes, a reader answers; it never crashes and never asks for memory
-// that the file's size does not warrant. Worth running under sanitizers.
+// Files with cut or changed bytes: a reader returns a value or a problem, never crashes, and never
+// asks for more memory than the size of the file justifies. These tests are worth running under
+// sanitizers.
 #include "corpus/cases/case_file.h"
 #include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/sequences.h"

@@ -1,4 +1,5 @@
-// Meshes as programs export them: what is read, what is said of it, and how the rest is refused.
+// Meshes as programs export them: what is read, which remarks are made, and how other content is
+// refused.
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

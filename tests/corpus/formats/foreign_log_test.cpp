@@ -1,4 +1,5 @@
-// Logs of another writer than the recorder: records that are whole, whatever they hold.
+// Logs that another program than the recorder wrote: their records are whole, but can have any
+// content.
 
 #include <nlohmann/json.hpp>
 

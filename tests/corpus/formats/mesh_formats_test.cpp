@@ -1,4 +1,4 @@
-// Meshes in each format: what is read, and what is refused with which words.
+// Meshes in each format: what is read, and which files are refused, with which words.
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

@@ -1,4 +1,4 @@
-// Sequences of frames, and the writer: what is written reads back bit by bit.
+// Sequences of frames, and the writer of meshes: a written mesh is read back bit by bit.
 #include "corpus/formats/sequences.h"
 #include "corpus/formats/step_source.h"
 #include "tests/corpus/scratch.h"

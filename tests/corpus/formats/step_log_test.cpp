@@ -1,5 +1,5 @@
-// Logs of steps: what a recorder wrote is read as it was, and whatever happened to the bytes, each
-// record before the first damage is read, and the damage is named.
+// Logs of steps: a log is read as the recorder wrote it. If bytes are damaged, each record before
+// the first damage is read, and the damage is named.
 #include "corpus/formats/step_log.h"
 
 #include <signal.h>

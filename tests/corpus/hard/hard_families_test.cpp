@@ -1,4 +1,5 @@
-// The hard families by themselves: strengths turn their knob, cases are the same every time.
+// The hard families by themselves: each strength changes the quantity that makes the family hard,
+// and cases are the same every time.
 #include "corpus/hard/hard_families.h"
 
 #include "tests/problem_words.h"

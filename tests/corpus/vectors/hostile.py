@@ -1,9 +1,9 @@
-"""A program that answers the line protocol badly: the words of its command line say how."""
+"""A program that violates the line protocol in the way that its command line names."""
 import sys
 import time
 
 how = sys.argv[1]
-answers = int(sys.argv[2]) if len(sys.argv) > 2 else 0  # that many are good at first
+answers = int(sys.argv[2]) if len(sys.argv) > 2 else 0  # the first answers, this many, are good
 if how == "mute":
     sys.exit(0)
 if how == "deaf":
@@ -33,7 +33,7 @@ for line in sys.stdin:
         print("collision nan", flush=True)
     elif how == "orphan":
         import subprocess
-        # Its child holds the pipe open.
+        # The child process keeps the pipe open.
         subprocess.Popen([sys.executable, "-c", "import time; time.sleep(30)"])
         sys.exit(0)
     else:

@@ -1,4 +1,4 @@
-"""vectors.py and the programs of corpus/vectors, on a small set made by hand, and on the committed one."""
+"""Tests vectors.py and the programs of corpus/vectors, on a small hand-made set and on the committed set."""
 import copy
 import json
 import os
@@ -29,7 +29,7 @@ class InScratch(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.scratch, ignore_errors=True)
 
     def ask(self, *command, options=()):
-        """Exit code, results and summary of a program that is asked the mini set."""
+        """Runs a program on the mini set. Returns its exit code, results and summary."""
         out = self.scratch / "results.json"
         code, text, errors = run("run", "--set", MINI, "--out", out, *options, "--", *command)
         self.assertEqual(errors, "")
@@ -43,7 +43,7 @@ class InScratch(unittest.TestCase):
 
 
 def right_answers():
-    """The right answer to each case of the mini set, as results."""
+    """Returns results with the right answer to each case of the mini set."""
     results = vectors.run(lambda features, t0, t1: True, set=MINI)
     for case in vectors.VectorSet(MINI).cases:
         steps = []
@@ -149,7 +149,7 @@ class Polynomials(unittest.TestCase):
 
 
 class Protocol(InScratch):
-    """Programs that are well-behaved, and others."""
+    """Programs that keep the line protocol, and programs that violate it."""
 
     def hostile(self, *words, options=("--timeout", "0.5")):
         return self.ask(sys.executable, HERE / "hostile.py", *words, options=options)
@@ -306,7 +306,7 @@ class Examples(InScratch):
             self.assertEqual(results["answers"]["st-d-0001"]["steps"], [{"answer": "unsupported"}] * 3)
 
     def test_the_ipc_toolkit_by_its_interface(self):
-        """Its Python module, or, where it is not installed, one that has the same functions."""
+        """Uses a module with the functions of the Python module of the IPC Toolkit."""
         example = ROOM / "examples" / "ipc_toolkit.py"
         done = subprocess.run([sys.executable, "-S", example, MINI], cwd=self.scratch, text=True,
                               capture_output=True, check=False)
@@ -346,7 +346,7 @@ class Page(InScratch):
     """The matrix page of `score --out`."""
 
     def page(self, *products):
-        """Of products, each a name and answers that differ from the right ones."""
+        """Makes the page of products. Each product is a name, and the answers in which it is wrong."""
         files = []
         for name, changes in products:
             results = right_answers()
@@ -391,7 +391,7 @@ class Page(InScratch):
 
 
 class Committed(unittest.TestCase):
-    """The set, the results and the page that stand beside vectors.py."""
+    """The set, the results and the page that are committed beside vectors.py."""
 
     def setUp(self):
         self.set = vectors.VectorSet()
@@ -433,7 +433,7 @@ class Committed(unittest.TestCase):
                 vectors.check_halves(by_id)
 
     def test_who_broke_on_a_case_answers_it_wrongly(self):
-        """By closed sets, which is what these detectors claim: what only touches is a contact."""
+        """Touching counts as a contact, because these detectors claim to test closed sets."""
         asked = 0
         for results in self.results:
             for case in self.set.cases:
@@ -457,7 +457,7 @@ class Committed(unittest.TestCase):
 
 class Checking(InScratch):
     def changed(self, change, group="vertex-face-double", seal=True):
-        """A set in which `change` has changed a group; its digests are set right, or not."""
+        """Returns a set in which `change` has changed a group. `seal`: its digests are made right."""
         folder = self.scratch / "changed"
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(MINI, folder)
@@ -555,7 +555,7 @@ class Checking(InScratch):
 
 class Csv(InScratch):
     def test_there_and_back(self):
-        """Doubles of every kind; labels in the rows and in a file of their own."""
+        """Tests doubles of every kind, and labels in the rows or in a separate file."""
         rows = ("0,1,1,2,-3,4,{l}\n"
                 f"1,{2 ** 1074},{(2 ** 53 - 1) * 2 ** 971},1,-6004799503160661,18014398509481984,{{l}}\n")
         text = "".join(rows.replace("{l}", label) * 4 for label in "10")

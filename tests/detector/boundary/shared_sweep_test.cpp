@@ -1,4 +1,5 @@
-// A sweep in parts, by one thread or by several, against one sweep of the whole mesh.
+// A sweep of ghosts in parts, by one thread or by several, compared with one sweep of the whole
+// mesh.
 #include "detector/boundary/boundary_handler.h"
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/parallel/workers.h"

@@ -1,4 +1,5 @@
-// Boxes in floats: what they tell apart is apart, in doubles and at all times.
+// Boxes in floats: if they find two features apart, the features are apart in doubles and at all
+// times.
 #include "detector/boxes/moving_box.h"
 
 #include "detector/boxes/bounding_volume_tree.h"

@@ -1,5 +1,6 @@
-// Integers of fixed width against the general path: verdicts, times in every bit, how much they
-// leave open; the widths at their bounds; signs at roots against Tarski queries.
+// Integers of fixed width compared with the general path: verdicts, times in every bit, and how
+// many queries they leave open; numbers at the bounds of the widths; signs at roots compared with
+// Tarski queries.
 #include "detector/contact/fixed_products.h"
 #include "detector/contact/fixed_root.h"
 #include "detector/contact/rungs.h"

@@ -1,5 +1,5 @@
-// The bounds of the filters hold: every coefficient computed in double against the same one in
-// exact integers. Prints the largest error beside what is allowed.
+// The bounds of the filters hold: every coefficient in doubles is compared with the same
+// coefficient in exact integers. Prints the largest error beside the bound.
 #include "detector/contact/rungs.h"
 #include "detector/view/view_signs.h"
 #include "tests/detector/exact/exact_numbers.h"

@@ -12,9 +12,9 @@ class QueryDraw {
  public:
   explicit QueryDraw(std::uint64_t seed) : engine_(seed) {}
   int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
-  // In [-1/2, 1/2), with all digits.
+  // Returns a number in [-1/2, 1/2) whose mantissa is full.
   double full() { return std::ldexp(static_cast<double>(engine_() >> 11), -53) - .5; }
-  // Vertex-face or edge-edge; coordinate() draws each of the 24 coordinates.
+  // Returns a vertex-face or an edge-edge query. coordinate() draws each of its 24 coordinates.
   template <class Coordinate>
   detector::FourPoints query(Coordinate coordinate) {
     detector::FourPoints q;

@@ -1,5 +1,5 @@
-// When two features come within d (L16): each region by a case made by hand, and random steps
-// against distances in rational numbers.
+// When two features come within d (L16): each region in a case made by hand, and random steps
+// compared with distances in rational numbers.
 #include "detector/distance/nearness.h"
 
 #include "tests/asked.h"

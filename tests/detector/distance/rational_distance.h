@@ -1,5 +1,6 @@
 // Squared distances of two moving features at a rational time, by the textbook cases of points,
-// segments and triangles. It shares nothing with the regions that it is compared with.
+// segments and triangles. This code shares nothing with the regions of the detector, with which it
+// is compared.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -37,7 +38,8 @@ inline Rational squared_to_segment(const RationalPoint& p, const RationalPoint& 
   return dot(minus(p, foot), minus(p, foot));
 }
 
-// Inside the prism over the triangle the height counts, elsewhere the edges.
+// Inside the prism over the triangle, the distance is the height; elsewhere it is that of the
+// nearest edge.
 inline Rational squared_to_triangle(const RationalPoint& p, const RationalPoint& a,
                                     const RationalPoint& b, const RationalPoint& c) {
   const Rational least =
@@ -53,8 +55,8 @@ inline Rational squared_to_triangle(const RationalPoint& p, const RationalPoint&
   return std::min(least, Rational(height * height / area));
 }
 
-// Edges that are not parallel are nearest where the plane of a moved copy of the other edge tells
-// (Cramer's rule), or at an end.
+// Two edges that are not parallel are nearest at the feet of their common perpendicular (Cramer's
+// rule), or at an end of an edge.
 inline Rational squared_between_segments(const RationalPoint& a, const RationalPoint& b,
                                          const RationalPoint& c, const RationalPoint& e) {
   const Rational least =

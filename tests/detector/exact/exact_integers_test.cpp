@@ -1,4 +1,4 @@
-// Integers of fixed width, and balls, beside integers without bound.
+// Integers of fixed width, and balls, compared with integers of any size.
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/ball.h"
 #include "detector/exact/fixed_integer.h"

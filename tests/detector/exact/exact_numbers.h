@@ -37,7 +37,7 @@ inline Exact operator*(const Exact& a, const Exact& b) {
   out.exponent = a.exponent + b.exponent;
   return out;
 }
-// Within 2^-60 of its size.
+// Returns |a| to within 2^-60 |a|.
 inline double magnitude(const Exact& a) {
   Wide number = abs(a.number);
   if (number == 0) return 0;
@@ -95,7 +95,7 @@ class Numbers {
   int family_ = 0;
 };
 
-// Errors in units of 2^-53 times the scale.
+// Returns the error of `computed` in units of 2^-53 times the scale.
 inline double error_units(double computed, const Exact& exact, double divisor, double scale) {
   // computed - exact / divisor, times divisor: all exact.
   const Exact off = Exact(computed) * Exact(divisor) - exact;

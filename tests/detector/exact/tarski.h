@@ -1,6 +1,6 @@
 // Signs at roots and numbers of roots by signed remainder sequences (Basu, Pollack, Roy, Algorithms
-// in Real Algebraic Geometry, Theorem 2.61): a referee for the detector's roots, which are found
-// and compared in another way.
+// in Real Algebraic Geometry, Theorem 2.61): a referee for the roots of the detector, which finds
+// and compares roots in another way.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace assay::tests {
 
-// The sum of the signs of q at the distinct roots of f in (lo, hi); f vanishes at neither end.
+// Returns the sum of the signs of q at the distinct roots of f in (lo, hi). REQUIRES that f is not
+// 0 at lo and hi.
 inline int tarski_query(const detector::Polynomial& f, const detector::Polynomial& q,
                         const detector::Dyadic& lo, const detector::Dyadic& hi) {
   using detector::Polynomial;

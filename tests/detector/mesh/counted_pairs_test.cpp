@@ -1,4 +1,5 @@
-// What a relation between pairs may not say, and what a detector makes of one at its border.
+// Relations between pairs: which ones are refused, and what a detector makes of a valid one when it
+// is created.
 #include "detector/mesh/counted_pairs.h"
 
 #include "detector/detector.h"

@@ -1,5 +1,5 @@
-// What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
-// every so much work, and ends where that says so. Counted is the work, not the time.
+// Long work on a mesh, in preprocessing or at the start of a step, calls the stop function after
+// every fixed amount of work, and ends if the function says so. The tests count work, not time.
 #include "detector/mesh/for_all.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/surface.h"

@@ -1,5 +1,5 @@
-// Whatever state of the processor a caller has, each call of the detector answers as in the usual
-// one, in every bit, and leaves the caller's state as it was.
+// In every state of the processor, each call of the detector answers as in the usual state, in
+// every bit, and leaves the caller's state unchanged.
 #include <bit>
 #include <cfenv>
 

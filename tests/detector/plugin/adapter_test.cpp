@@ -1,5 +1,5 @@
 // The C++ adapter of the plug-in interface (detector/plugin/assay_detector.hpp): which functions a
-// class gives, what becomes of exceptions, and how long results live.
+// class provides, what happens to exceptions, and how long results live.
 #include <Eigen/Core>
 
 #include "detector/plugin/assay_detector.hpp"

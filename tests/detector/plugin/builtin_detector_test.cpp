@@ -1,4 +1,4 @@
-// The built-in detector in C: options, named errors, sets, view primitives, stop, states; and as a
+// The built-in detector in C (options, named errors, sets, view primitives, stop, states), and as a
 // plug-in.
 #include "detector/contact_place.h"
 #include "detector/detector.h"

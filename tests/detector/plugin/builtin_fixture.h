@@ -1,4 +1,4 @@
-// Handles of the built-in detector in C, with what each call has to say of itself.
+// Handles of the built-in detector in C, and checks of the error text that each call must give.
 #pragma once
 
 #include "detector/options.h"
@@ -16,7 +16,7 @@ using Handle = std::unique_ptr<assay_handle, Destroy>;
 
 class BuiltinDetector : public testing::Test {
  protected:
-  // The octahedron of tests::octahedron, whose vertex 1 may go through its far side.
+  // The octahedron of tests::octahedron. In `hit`, its vertex 1 is beyond the opposite side.
   const detector::Triangles triangles = octahedron();
   const detector::Positions in = octahedron_positions(2);
   detector::Positions hit = in;

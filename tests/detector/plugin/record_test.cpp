@@ -1,4 +1,4 @@
-// What the records of a log hold (detector/plugin/assay_record.h), read back record by record.
+// The records that detector/plugin/assay_record.h writes into a log, read back record by record.
 #include <unistd.h>
 #include <zlib.h>
 

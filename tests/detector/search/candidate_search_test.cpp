@@ -1,4 +1,5 @@
-// What the pair rule asks of a search, a search that is stopped, and the contacts that it lists.
+// How the pair rule directs a search, what a stopped search does, and which contacts a search
+// lists.
 #include "detector/search/candidate_search.h"
 
 #include "detector/step/stages.h"

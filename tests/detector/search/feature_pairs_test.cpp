@@ -1,5 +1,5 @@
-// Feature pairs at representatives: those of all candidates, each once, closure rounds included.
-// And the points that are compared to find them.
+// Feature pairs at representatives: the feature pairs of all candidates are found, each once,
+// closure rounds included. Also the points that are compared to find these pairs.
 #include "detector/search/feature_pairs.h"
 
 #include <boost/multiprecision/cpp_int.hpp>

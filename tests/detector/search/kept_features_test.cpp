@@ -1,4 +1,5 @@
-// Questions that begin where an earlier one began: what that one has kept gives the same answers.
+// A step that begins where an earlier step began: with the features kept from the earlier step, it
+// has the same answer.
 #include "detector/search/kept_features.h"
 
 #include "detector/detector.h"

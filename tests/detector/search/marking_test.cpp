@@ -1,5 +1,5 @@
-// Flags of the partial trees after any sequence, what marking costs, and what skipping leaves
-// alone.
+// Marking of the partial trees: the flags after any sequence of changes, what marking costs, and
+// which nodes a search skips.
 #include "detector/search/pair_rule.h"
 #include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"

@@ -14,7 +14,7 @@ struct MovingMesh {
   detector::Triangles rows() const { return triangles(topology.triangles); }
 };
 
-// A mesh, and a tree that is fitted to its motion, with all triangles of V+.
+// A mesh, and a tree that is fitted to its motion. All triangles are in V+.
 struct Fitted {
   explicit Fitted(const MovingMesh& of) : mesh(of), tree(of.topology, of.x_t0), marks(tree) {
     tree.refit(mesh.topology, mesh.motion());
@@ -31,13 +31,13 @@ class SearchMeshes {
   std::int32_t below(std::int32_t n) {
     return static_cast<std::int32_t>(engine_() % static_cast<std::uint64_t>(n));
   }
-  // In [-1,1]; with few values, so that boxes touch.
+  // Returns a number in [-1,1]. If `coarse`, it has one of few values, so that boxes touch.
   double number(bool coarse) {
     return coarse ? below(5) - 2 : static_cast<double>(below(1 << 20)) / (1 << 19) - 1;
   }
 
-  // Wavy sheets of size x size squares, one above the other, some joined at a vertex; each moves as
-  // a whole and trembles.
+  // Returns wavy sheets of size x size squares, one above the other, some joined at a vertex. Each
+  // sheet moves as a whole, and its vertices move a little besides.
   MovingMesh sheets(int count, int size, bool coarse) {
     const auto side = size + 1;
     std::vector<Corners> rows;
@@ -67,13 +67,13 @@ class SearchMeshes {
     return mesh;
   }
 
-  // Of the types that a step starts with; V+ mostly, or anything.
+  // Returns one of the types that a step starts with, most often V+.
   detector::TriangleType type() {
     constexpr std::int32_t at_start = 5;
     return static_cast<detector::TriangleType>(below(3) ? 0 : below(at_start));
   }
 
-  // Gives some triangles new types; one in `rarity`.
+  // Draws a new type for one of `rarity` triangles.
   void change(std::vector<detector::TriangleType>& types, std::int32_t rarity) {
     for (auto& t : types) {
       if (below(rarity) == 0) t = type();
@@ -86,8 +86,8 @@ class SearchMeshes {
 
 using EdgeEnds = std::array<std::int32_t, 2>;
 
-// Whether two edges are apart by more than a margin, as the detector compares them, by both
-// instruction sets. An edge of equal ends is a point.
+// Returns whether the detector finds two edges to be apart by more than a margin, and expects the
+// same from both instruction sets. An edge of equal ends is a point.
 inline bool are_apart(const detector::FeaturePoints& points, const EdgeEnds& a, const EdgeEnds& b,
                       const detector::FeatureMargin& margin) {
   const auto corners = [&](const EdgeEnds& ends, detector::TriangleCorners& out) {

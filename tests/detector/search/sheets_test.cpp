@@ -1,4 +1,4 @@
-// Sheets that are proved apart: no two of their triangles are in contact, by exact arithmetic.
+// If sheets are proved apart, no two of their triangles are in contact, by exact arithmetic.
 #include "detector/search/sheets.h"
 
 #include "detector/boundary/ghost_sweep.h"

@@ -1,4 +1,4 @@
-// Fans that are proved apart: no two of their triangles are in contact, by exact arithmetic.
+// If fans are proved apart, no two of their triangles are in contact, by exact arithmetic.
 #include "detector/search/vertex_fans.h"
 
 #include "detector/boundary/ghost_sweep.h"

@@ -1,4 +1,4 @@
-// The wide descent against the binary one, and its instruction sets against each other.
+// The wide descent compared with the binary descent, and its instruction sets with each other.
 #include "detector/parallel/workers.h"
 #include "detector/search/pair_search.h"
 #include "tests/detector/search/search_meshes.h"

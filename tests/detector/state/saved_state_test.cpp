@@ -1,5 +1,5 @@
-// A saved state as a value: equal only if all of it is, refused if it is not of the mesh, and taken
-// back at any scale.
+// A saved state as a value: two states are equal only if all parts are equal, a state of another
+// mesh is refused, and a state can be restored at any scale of the mesh.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "tests/asked.h"

@@ -6,7 +6,7 @@
 
 namespace assay::tests {
 
-// The mesh has so many vertices; rows behind them are places of apexes.
+// The first `vertices` rows are vertices of the mesh, and the rows behind them are apexes.
 struct BareStep {
   BareStep(const detector::Triangles& triangles, const detector::Positions& from,
            const detector::Positions& to, Eigen::Index vertices)

@@ -1,5 +1,5 @@
-// view-auto: what it looks from, when it does without views, and that this is a matter of cost
-// alone.
+// Culling::view_auto: the primitives from which it sees, and the steps that it does without views.
+// This choice changes the cost alone.
 #include "detector/detector.h"
 #include "detector/step/culling_policy.h"
 #include "tests/detector/points.h"

@@ -1,4 +1,4 @@
-// The decisions of the cost model, one by one, from the counts that they rest on.
+// The decisions of the cost model, one by one, each from the counts on which it rests.
 #include "detector/step/culling_policy.h"
 
 #include "detector/detector.h"

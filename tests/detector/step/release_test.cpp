@@ -1,4 +1,5 @@
-// A passage through a hole and back, a caller's response, a state that is saved and restored.
+// Sequences with releases: a passage through a hole and back, a response of the caller, a state
+// that is saved and restored.
 #include "detector/detector.h"
 #include "detector/state/step_state.h"
 #include "tests/detector/points.h"

@@ -1,5 +1,5 @@
-// The order in which a step calls its stages: that of the pseudo-code in detector/step/step.cpp.
-// What a step need not do must not be called at all.
+// The order in which a step calls its stages, which is that of the pseudo-code in
+// detector/step/step.cpp. A stage that a step does not need must not be called.
 #include "detector/assembly.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"

@@ -1,4 +1,5 @@
-// A step that is stopped, at each asking in turn: undecided, and as if it had not been.
+// Steps that are stopped, at each call of the stop function in turn. Such a step is undecided, and
+// leaves no trace.
 #include "detector/detector.h"
 #include "detector/mesh/paced_stop.h"
 #include "tests/asked.h"

@@ -1,4 +1,4 @@
-// Contours of patches while they move, the directions that they face, and samples of patches.
+// Contours of moving patches, the directions that patches face, and samples of patches.
 #include "detector/traditional/moving_contour.h"
 
 #include "tests/asked.h"

@@ -9,7 +9,7 @@ namespace assay::tests {
 
 using detector::Positions, detector::Triangles;
 
-// A sheet of n x m squares, its points placed by `place(u, v)` with u, v in [0,1].
+// A sheet of n x m squares. `place(u, v)` returns the place of a point, with u and v in [0,1].
 struct Sheet {
   Triangles rows;
   Positions x;
@@ -28,13 +28,13 @@ Sheet sheet(std::int32_t n, std::int32_t m, Place place) {
 }
 
 inline Point flat(double u, double v) { return {u, v, 0}; }
-// Bent over by `angle` along u.
+// A sheet that is bent by `angle` along u.
 inline auto bent(double angle) {
   return [angle](double u, double v) {
     return Point{std::sin(angle * u) / angle, v, (1 - std::cos(angle * u)) / angle};
   };
 }
-// Winds around the z axis, rising by `rise` over `turns`.
+// A sheet that winds around the z axis `turns` times and rises by `rise`.
 inline auto ramp(double turns, double rise) {
   return [=](double u, double v) {
     const double a = 2 * std::numbers::pi * turns * u, r = 1 + v;
@@ -42,7 +42,8 @@ inline auto ramp(double turns, double rise) {
   };
 }
 
-// Poles joined, of `n` rings: vertices of ring i from 1 + (i - 1) 2n, the poles first and last.
+// Returns a closed sphere of `n` rings of triangles. The poles are the first and the last vertex;
+// the vertices of ring i begin at 1 + (i - 1) 2n.
 inline Sheet sphere(std::int32_t n, double radius) {
   const std::int32_t around = 2 * n, last = 1 + (n - 1) * around;
   Sheet out;

@@ -1,4 +1,4 @@
-// The traditional scheme against culling bvh, and what it saves.
+// The traditional scheme compared with Culling::bvh, and the work that it saves.
 #include "detector/traditional/traditional.h"
 
 #include <ranges>

@@ -46,7 +46,7 @@ inline Positions revolved(const std::vector<Ring>& rings, double end_below, doub
   return x;
 }
 
-// Its waists hide most of it from every point.
+// A tube whose waists hide most of its surface from every point.
 inline constexpr std::int32_t tube_rings = 40;
 inline Positions wavy_tube() {
   std::vector<Ring> rings;

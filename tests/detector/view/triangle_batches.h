@@ -13,7 +13,7 @@ namespace assay::tests {
 
 enum class BatchFamily : std::uint8_t {
   generic,          // coordinates in [-1,1], large steps
-  small_motion,     // of a triangle's size, mostly of one sign
+  small_motion,     // moves by a triangle's size, mostly of one sign
   near_degenerate,  // small integers moved by a few units in the last place
   degenerate,       // small integers
   far,              // around 1e6
@@ -26,7 +26,7 @@ inline constexpr std::array<const char*, 8> batch_family_names = {
     "tiny",    "huge"};
 
 struct TriangleBatch {
-  detector::Topology mesh;  // one component that lists all; triangles share vertices at random
+  detector::Topology mesh;  // one component of all triangles, which share vertices at random
   detector::Positions x_t0, x_t1;
   detector::ViewPrimitive primitive;
 

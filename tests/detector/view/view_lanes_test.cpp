@@ -1,4 +1,5 @@
-// Lanes against one triangle after the other, and each instruction set against the others.
+// View signs in lanes, compared with the signs of single triangles, and the instruction sets
+// compared with each other.
 #include "detector/view/view_lanes.h"
 
 #include <algorithm>

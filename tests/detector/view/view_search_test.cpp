@@ -1,4 +1,4 @@
-// The places and lines that a search for a view primitive tries, and how they move.
+// The points and lines that a search for a view primitive tries, and how they move.
 #include "detector/view/view_search.h"
 
 #include "detector/view/view_anchor.h"

@@ -1,7 +1,8 @@
-// Laws of distance on random queries, most of them degenerate: with d = 0 these are the contacts of
+// Laws of distance on random queries, most of them degenerate: with d = 0 the answers are those of
 // query/contact.h; at exact rational times the squared distance agrees; turned and mirrored queries
-// have the same answer; the least distance is the least d that is reached. ASSAY_CASES=100000 runs
-// more of each kind, and of exponents over all doubles.
+// have the same answer; the least distance is the least d for which the answer is yes.
+// ASSAY_CASES=100000 runs more queries of each kind, and more queries with exponents over all
+// doubles.
 #include "oracle/distance/feature_distance.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/rungs.h"

@@ -1,4 +1,5 @@
-// Times and distances computed by hand, for each region and each way to get one wrong.
+// Times and distances computed by hand, for each region and for each mistake that is possible in a
+// region.
 #include "oracle/distance/feature_distance.h"
 
 #include "oracle/query/integer_polynomial.h"

@@ -1,4 +1,5 @@
-// Whether a surface is embedded, how near its triangles are, and which of them are in contact.
+// Whether a surface is embedded, how near its triangles are to each other, and which of them are in
+// contact.
 #include "tests/oracle/embedding.h"
 
 #include "oracle/instant/instant.h"

@@ -1,4 +1,4 @@
-// Layers of triangles, and the winding numbers that they are made of.
+// Layers of triangles, and the winding numbers from which layers are computed.
 #include "oracle/instant/layers.h"
 
 #include "oracle/mesh/mesh_features.h"

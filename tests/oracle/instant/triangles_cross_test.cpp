@@ -1,4 +1,4 @@
-// Triangles that cross or only touch, held against rational arithmetic.
+// Triangles that cross or only touch, compared with rational arithmetic.
 
 #include "oracle/instant/instant.h"
 #include "oracle/mesh/step.h"

@@ -1,4 +1,4 @@
-// Named queries: which answer, which first time, and which rung decides.
+// Named queries: their answers, their first times, and the rungs that decide them.
 #include "oracle/query/contact.h"
 
 #include <source_location>

@@ -1,4 +1,4 @@
-// The parts that queries are made of: enclosures, integer polynomials, algebraic times, box cull.
+// The parts of a query: enclosures, integer polynomials, algebraic times, and the test of boxes.
 #include <gmpxx.h>
 
 #include "oracle/mesh/feature_pairs.h"

@@ -1,4 +1,5 @@
-// The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
+// The rung "quadratic": queries with known times, and random queries compared with the algebraic
+// kernel.
 #include "oracle/query/rungs.h"
 #include "tests/oracle/random_points.h"
 

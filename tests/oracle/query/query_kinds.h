@@ -1,4 +1,4 @@
-// Random queries of the kinds that methods are compared on.
+// Random queries, of the kinds on which methods are compared.
 #pragma once
 
 #include "tests/oracle/random_points.h"
@@ -7,11 +7,11 @@ namespace assay::oracle::test {
 
 enum class QueryKind {
   generic,           // random points of a cube at both ends
-  mesh_like,         // features near each other, motion a part of their size
-  small_integers,    // a tiny grid: degenerate in every way, often
-  exact_contact,     // made to touch at a time, at a place inside, on an edge or on a vertex
-  near_contact,      // the same with coordinates moved by up to two units in the last place
-  near_grazing,      // the same where the touch is tangential
+  mesh_like,         // features near each other, which move by a part of their size
+  small_integers,    // points of a tiny grid: often degenerate, in every way
+  exact_contact,     // a touch at a given time, inside, on an edge or on a vertex
+  near_contact,      // exact_contact, moved by up to two units in the last place
+  near_grazing,      // near_contact, with a tangential touch
   near_contact_far,  // near_contact, away from the origin
 };
 constexpr int query_kinds = 7;
@@ -29,7 +29,8 @@ inline bool is_near_degenerate(QueryKind kind) {
          kind == QueryKind::near_contact_far;
 }
 
-// Four moving points; the first `first_group` are one feature, the rest the other.
+// Four moving points. The first `first_group` points are one feature, and the other points are the
+// other feature.
 using Points = std::array<detector::MovingPoint, 4>;
 
 inline double moved_by_ulps(double x, int ulps) {
@@ -38,7 +39,8 @@ inline double moved_by_ulps(double x, int ulps) {
   return x;
 }
 
-// A contact at t = 0, 1/4, 1/2, 3/4 or 1, exactly: dyadic numbers of few bits all along.
+// Returns a query with an exact contact at t = 0, 1/4, 1/2, 3/4 or 1. All its numbers are dyadic
+// and have few bits.
 inline Points touching_points(Random& random, int first_group, bool grazing, double offset) {
   const double t = random.below(5) / 4.0;
   const auto dyadic = [&] { return std::ldexp(random.integer(1 << 12), -12); };
@@ -64,8 +66,8 @@ inline Points touching_points(Random& random, int first_group, bool grazing, dou
     }
   }
   if (grazing) {
-    // The first feature slides along an edge of the other, all else at rest relative to it: the
-    // four points stay in one plane.
+    // The first feature slides along an edge of the other feature, and nothing else moves relative
+    // to it, so the four points stay in one plane.
     const double slide = dyadic();
     for (int k = 0; k < 3; ++k) {
       const int other = first_group;
@@ -114,7 +116,7 @@ inline Points random_query(Random& random, QueryKind kind, int first_group) {
 inline detector::VertexFace vertex_face(const Points& x) { return {x[0], {x[1], x[2], x[3]}}; }
 inline detector::EdgeEdge edge_edge(const Points& x) { return {{x[0], x[1]}, {x[2], x[3]}}; }
 
-// Calls law(query) for so many queries of each kind, until one breaks it.
+// Calls law(query) for `queries` queries of each kind, until a query breaks the law.
 template <class Law>
 void for_each_kind(Random& random, std::uint64_t queries, const Law& law) {
   for (int kind = 0; kind < query_kinds; ++kind) {

@@ -1,5 +1,5 @@
-// The distance referee: answers computed by hand, its two proofs against rationals, and what it
-// says against distances sampled exactly.
+// The distance referee: answers computed by hand, its two proofs compared with rational numbers,
+// and its answers compared with exactly sampled distances.
 #include "oracle/referee/distance_referee.h"
 
 #include "tests/detector/distance/rational_distance.h"

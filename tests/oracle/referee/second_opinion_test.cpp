@@ -1,4 +1,5 @@
-// The second opinion: no contradiction where the judgement is right, one where it is not.
+// The second opinion finds no contradiction if the judgement is right, and one if the judgement is
+// wrong.
 #include "oracle/referee/second_opinion.h"
 
 #include "tests/oracle/random_points.h"

@@ -1,4 +1,5 @@
-// Triangles at rest at rational times: what they share and what they have become.
+// The static check of triangles at rational times: triangles that share vertices, and triangles
+// that have become segments or points.
 #include "oracle/referee/static_check.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// Exact view signs; L1 and L2 are the laws of view points and view lines.
+// Exact view signs. L1 and L2 are the laws of view points and view lines.
 #include "oracle/view/view_sign.h"
 
 #include "tests/oracle/random_points.h"

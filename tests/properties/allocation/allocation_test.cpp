@@ -1,5 +1,6 @@
-// What is called for each triangle or pair asks for no memory. A program of its own: it counts
-// every call of malloc, by which operator new and Eigen get their memory.
+// Functions that are called for each triangle or pair allocate no memory. This is a program of its
+// own, because it counts every call of malloc, through which operator new and Eigen get their
+// memory.
 #include <new>
 
 #include "corpus/scenes/scenes.h"

@@ -1,4 +1,4 @@
-// What a run rests on: its binding, its canary, and laws that were met too seldom.
+// Conditions of a run: its binding, its canary, and laws whose premises held too seldom.
 #include "properties/campaign/ledger/binding.h"
 
 #include "properties/campaign/ledger/store.h"

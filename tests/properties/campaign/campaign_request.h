@@ -1,4 +1,4 @@
-// A small campaign as the tests of its parts run it.
+// A small campaign, for the tests of the parts of a campaign.
 #pragma once
 
 #include "properties/campaign/ledger/tally.h"
@@ -8,7 +8,7 @@
 
 namespace assay::properties::test {
 
-// Two strata, the second of half as many cases.
+// Returns a request of two strata. The second stratum has half as many cases as the first.
 inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, std::uint64_t shares = 1) {
   CampaignRequest request;
   request.plan.name = "test";
@@ -23,7 +23,7 @@ inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, std::uint64
   return request;
 }
 
-// Puts the steps of a plug-in in the place of the built-in detector.
+// Replaces the built-in detector by the plug-in in this library, which answers whole steps.
 inline void set_plugin(CampaignRequest& request, const std::filesystem::path& library) {
   auto subject =
       Subject::open(request.worker, library.string(), DetectorPart::steps, request.limits);
@@ -31,7 +31,7 @@ inline void set_plugin(CampaignRequest& request, const std::filesystem::path& li
   static_cast<Subject&>(request) = std::move(subject.value());
 }
 
-// The built-in detector with a fault in it, in the first configuration.
+// Returns a request for the built-in detector, whose first configuration has a planted fault.
 inline CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
   auto request = request_of(cases);
   const Fault* fault = find_fault(name);
@@ -52,7 +52,7 @@ inline Store open_store(const std::filesystem::path& file, const std::string& bi
   return std::move(store.value());
 }
 
-// A store in which all trials of the request are.
+// Runs all trials of the request, and returns their store.
 inline Store with_all_trials(const CampaignRequest& request, const std::filesystem::path& file) {
   Store store = open_store(file);
   const auto in_an_hour = std::chrono::steady_clock::now() + std::chrono::hours(1);

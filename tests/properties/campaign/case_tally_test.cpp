@@ -1,5 +1,6 @@
-// What is counted of a case: the laws of a plug-in, which what is wrong in another form of a case
-// alone breaks, and what its claims allow does not; and how far a case goes.
+// What is counted for a case: its extremes, such as its greatest sizes, and the laws of a plug-in.
+// Such a law is broken by an answer that is wrong only in another form of the case, and not by an
+// answer that the claims allow.
 #include <csignal>
 #include <new>
 

@@ -1,4 +1,5 @@
-// Every kind of evidence survives its row, and what no run stores is refused.
+// Every kind of evidence can be stored as a row and read back, and rows that no run stores are
+// refused.
 #include "properties/campaign/ledger/evidence.h"
 
 #include "properties/campaign/ledger/tally.h"

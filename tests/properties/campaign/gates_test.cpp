@@ -1,5 +1,5 @@
-// Each gate fails for each of its reasons, and the first one that fails names the verdict. And
-// kinds of failure are grouped.
+// Each gate fails for each of its reasons, and the first gate that fails names the verdict. Also
+// how kinds of failure are grouped.
 #include "properties/campaign/gates/gates.h"
 
 #include "corpus/scenes/scenes.h"

@@ -1,4 +1,4 @@
-// Findings of a run all of whose gates hold, for tests that break one of them.
+// Findings of a run in which all gates hold, for tests that break one gate.
 #pragma once
 
 #include <regex>
@@ -20,7 +20,8 @@ inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool 
   return proof;
 }
 
-// Of a trial, or of the corpus. The signature is "law L3_X, claim: kind, contact", or a part of it.
+// Returns a failure of a trial or, if the id begins with "corpus/", of the corpus. The signature is
+// "law L3_X, claim: kind, contact", or a part of this text.
 inline FailureRecord failure(const std::string& signature,
                              const std::string& id = "tiny:1:broken:3") {
   static const std::regex form("(?:law ([^,]*)(?:, |$))?([^:]*)(?:: ([^,]*))?(?:, (.*))?");
@@ -39,7 +40,7 @@ inline FailureRecord failure(const std::string& signature,
           .mesh = "{}"};
 }
 
-// A tally of trials that hold in one configuration, each with a contact.
+// Returns a tally of trials that hold in one configuration. Each trial has a contact.
 inline StratumTally good_tally(std::uint64_t trials) {
   StratumTally tally;
   tally.trials = trials;
@@ -49,8 +50,8 @@ inline StratumTally good_tally(std::uint64_t trials) {
   return tally;
 }
 
-// Three strata of 20, 2 and 2 trials in one configuration, two planted faults, corpus, self-test
-// and speed.
+// Returns findings of three strata (20, 2 and 2 trials in one configuration), two planted faults,
+// corpus, self-test and speed.
 inline RunFindings good_findings() {
   RunFindings f;
   f.run.plan.name = "tiny";
@@ -86,7 +87,7 @@ inline RunFindings good_findings() {
   return f;
 }
 
-// As if the source had not been judged.
+// Removes a source, as if its cases had not been judged.
 inline void forget(RunFindings& f, Source source) {
   std::erase_if(f.evidence.sources, [&](const auto& row) { return row.source == source; });
 }

@@ -1,6 +1,6 @@
-// Detectors of others (corpus/peers) in a small campaign: what corpus/peers/README.md expects of
-// each comes, what their contracts leave out does not, and each failure keeps its cause when it is
-// shrunk.
+// Detectors of others (corpus/peers) in a small campaign. Each detector shows the failures that
+// corpus/peers/README.md expects and none that its contract leaves out, and each failure keeps its
+// cause when it is shrunk.
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"

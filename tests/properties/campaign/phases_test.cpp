@@ -1,5 +1,5 @@
-// What a campaign does with a limit of time: trials first. And its large meshes are drawn by the
-// seed.
+// The phases of a campaign: with a limit of time, trials come first. The seed draws the large
+// meshes.
 #include "properties/campaign/phases/phases.h"
 
 #include <fmt/format.h>

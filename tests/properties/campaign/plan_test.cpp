@@ -1,4 +1,4 @@
-// What a campaign is to do: plans of files and of names, and what is refused of them.
+// Plans of campaigns, from files and by name, and which plans are refused.
 #include "properties/campaign/plan.h"
 
 #include "corpus/json_fields.h"

@@ -1,4 +1,4 @@
-// The store of a campaign: what is kept, across kills and damage, and whose it is.
+// The store of a campaign: which rows survive kills and damage, and to which run a store belongs.
 #include "properties/campaign/ledger/store.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// What the built-in detector is asked besides contacts, each question in a stratum of its own: how
-// far a step may be taken, and what comes within a distance. A wrong answer is found there.
+// Questions other than contacts to the built-in detector, each in a stratum of its own: how far a
+// step can go, and which pairs come within a distance. Wrong answers to these questions are found.
 #include "detector/distance/nearness.h"
 #include "properties/campaign/ledger/tally.h"
 #include "properties/campaign/phases/phases.h"

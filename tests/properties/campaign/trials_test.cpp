@@ -1,5 +1,5 @@
-// The trials of a campaign: the same for any jobs, resumed, made again by their id;
-// their failures are kept, replayed and shrunk.
+// The trials of a campaign: they are the same for any number of jobs, they can be resumed, and each
+// can be made again by its id. Their failures are stored, replayed and shrunk.
 #include "properties/campaign/trials/trials.h"
 
 #include "properties/campaign/ledger/tally.h"

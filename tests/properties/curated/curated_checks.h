@@ -65,7 +65,7 @@ class CuratedStep {
     return oracle::view_signs({from, to}, triangles, {&primitive, 1});
   }
   bool all_signs(detector::ViewSign wanted) const { return are_all(signs, wanted); }
-  // Positive at t=0, 1/2, 1 when the places there are doubles.
+  // Returns whether all triangles of the mesh are positive if it rests at x.
   bool all_positive_at_rest(const detector::Positions& x) const {
     return are_all(signs_between(x, x), ViewSign::positive);
   }
@@ -74,17 +74,18 @@ class CuratedStep {
     return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, from, to, ghosts);
   }
   Flags swept() const { return touched(apexes_t0, apexes_t1); }
-  // As a first step: also what is pierced at t=0 (L11).
+  // Returns what ghosts touch if this is a first step: triangles that they pierce at t=0 are
+  // included (L11).
   Flags swept_alone() const {
     return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts, true);
   }
-  // Ghosts and mesh at one end of the step, piercing included.
+  // Returns which triangles ghosts touch or pierce at rest, at the start or at the end of the step.
   Flags at_rest(bool end) const {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
     return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, true);
   }
   Flags at_either_end() const { return either(at_rest(false), at_rest(true)); }
-  // Ghosts that stay behind, corners and all, at their places of t=0.
+  // Returns what ghosts touch if all of their corners stay where they are at t=0.
   Flags by_frozen_ghosts() const {
     detector::Positions corners(3 * ghosts.rows(), 3);
     detector::Triangles frozen(ghosts.rows(), 3);
@@ -96,9 +97,9 @@ class CuratedStep {
     return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, corners, corners, frozen);
   }
 
-  // K with this Vv.
+  // Returns the candidates K with this Vv.
   oracle::Candidates k(Flags violated = {}) const { return {signs, std::move(violated)}; }
-  // The pairs in contact that these candidates hold, or those that they do not hold.
+  // Returns the pairs in contact that are candidates or, if `held` is false, those that are not.
   std::vector<detector::PairContact> pairs_of(const oracle::Candidates& candidates,
                                               bool held) const {
     std::vector<detector::PairContact> pairs;
@@ -115,7 +116,8 @@ class CuratedStep {
            oracle::holds_a_first_contact(judgement.pairs, k(std::move(violated)));
   }
   std::vector<detector::PairContact> pairs_outside_k() const { return pairs_of(k(), false); }
-  // The pairs of all feature contacts, first or later ones of their pairs, that K has no pair of.
+  // Looks at all contacts of features, including later contacts of a pair. Returns the pairs of
+  // each contact that has no pair in K.
   std::vector<detector::TrianglePair> lost_feature_pairs() const {
     const auto mesh = oracle::mesh_features(triangles);
     const oracle::Candidates candidates = k();
@@ -161,7 +163,7 @@ class CuratedStep {
   oracle::StepJudgement judgement;
 };
 
-// The steps of a case: `b` is the last one, `a` the one before it where there are two.
+// The steps of a case, one or two, and the facts that the case states.
 struct Facts {
   explicit Facts(const corpus::Case& c) : stored(json::parse(c.pending)), id(c.id), given(c) {
     for (std::size_t i = 0; i + 1 < c.frames.size(); ++i) steps.emplace_back(c, i);
@@ -174,7 +176,7 @@ struct Facts {
     for (const std::int32_t t : stored.at(name)) flags[static_cast<std::size_t>(t)] = 1;
     return flags;
   }
-  // Vv of the last step by itself.
+  // Returns Vv of the last step, taken as a first step.
   Flags swept() const { return last().ghosts.rows() > 0 ? last().swept_alone() : Flags{}; }
 
   json stored;
@@ -183,7 +185,7 @@ struct Facts {
   std::vector<CuratedStep> steps;
 };
 
-// True: holds; false: does not; nothing: this case has not what the check needs.
+// Returns whether the fact holds; nothing if the case lacks what the check needs.
 using Check = std::function<std::optional<bool>(const Facts&)>;
 
 inline detector::Triangles with_ghosts(const CuratedStep& s) {
@@ -213,7 +215,8 @@ inline int distinct_unmatched_edges(const detector::Triangles& triangles) {
   return static_cast<int>(edges.size());
 }
 
-// The thesis as printed in one place: Vv taken out of U (and so of V+, V- and V0's partners).
+// Returns whether no pair is found if, as in one place of the printed thesis, U lacks Vv (and so do
+// the partners of V+, V- and V0).
 inline bool reduced_u_finds_nothing(const CuratedStep& s, const Flags& violated) {
   return std::none_of(s.judgement.pairs.begin(), s.judgement.pairs.end(), [&](const auto& c) {
     return !(violated[c.pair.a] && violated[c.pair.b]) && s.k(violated).holds(c.pair);
@@ -246,13 +249,14 @@ inline bool non_adjacent_pairs(const Facts& f, bool wanted_in_k) {
   });
 }
 
-// What the planted fault says in the last step.
+// Returns the result of the detector with the planted fault in the last step.
 inline std::optional<detector::StepResult> said_by(const Facts& f, const Fault* fault) {
   if (!fault) return std::nullopt;
   return run_case(f.given, {"", fault->options, std::string(fault->name)}).steps.back();
 }
 
-// The fault whose case this is: its name there was the mutant's.
+// Returns the result of the detector with the planted fault whose curated case this is. The facts
+// call this fault the mutant.
 inline std::optional<detector::StepResult> said_by_mutant(const Facts& f) {
   const auto all = faults();
   const auto found = std::find_if(all.begin(), all.end(),
@@ -265,7 +269,7 @@ inline std::optional<bool> says_all_positive(const std::optional<detector::StepR
   return are_all(result->signs, ViewSign::positive);
 }
 
-// The checks by the names of their facts.
+// Returns the checks by the names of the facts.
 inline std::map<std::string, Check> checks() {
   auto of_sequence = [](Check check) -> Check {
     return [=](const Facts& f) { return f.two_steps() ? check(f) : std::nullopt; };
@@ -278,7 +282,7 @@ inline std::map<std::string, Check> checks() {
   const Check clear_of_ghosts = [](const Facts& f) {
     return members(f.first().at_rest(false)).empty();
   };
-  // D9: a centre that stands still in step 1 and is at its last place all through step 2.
+  // D9: a centre that rests in step 1, and is at its last place throughout step 2.
   auto jumped = [](const Facts& f) {
     return f.last().touched(f.last().apexes_t1, f.last().apexes_t1);
   };

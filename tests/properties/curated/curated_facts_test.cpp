@@ -1,6 +1,6 @@
-// The pending facts of corpus/curated, checked by the oracle alone (cycles and ghosts, Vv, K,
-// embedding, layers, view primitives) or, what is said of a mutant, by the planted fault. What no
-// check exists for is counted and listed.
+// The pending facts of corpus/curated. The oracle alone checks cycles and ghosts, Vv, K, embedding,
+// layers and view primitives; the planted fault checks what a fact says about a mutant. Facts
+// without a check are counted and listed.
 #include "tests/curated_cases.h"
 #include "tests/properties/curated/curated_checks.h"
 

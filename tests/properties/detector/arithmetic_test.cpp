@@ -1,6 +1,6 @@
-// Bounded arithmetic against the oracle: it never misses, is never late, and its intervals hold the
-// time; its false alarms are counted. Double and float are counted too, and must be wrong
-// somewhere.
+// Arithmetic::bounded compared with the oracle: it never misses a contact and is never late, and
+// its intervals contain the time; its false alarms are counted. The errors of double and float are
+// counted, too, and both must be wrong somewhere.
 #include <fmt/format.h>
 
 #include "corpus/queries/query_csv.h"

@@ -1,4 +1,5 @@
-// The thesis as printed misses, each deviation on its case.
+// The thesis as printed misses contacts: each of its deviations from the laws misses a contact in
+// the case that is made for it.
 #include "properties/faults/fault.h"
 #include "properties/judging/exam.h"
 #include "tests/curated_cases.h"

@@ -1,5 +1,5 @@
-// The hard families of the corpus: what their construction says is what the oracle finds, at every
-// strength and in every kind. And meshes at rest.
+// The hard families of the corpus: the oracle finds what the construction of each case promises, at
+// every strength and for every kind. Also meshes at rest.
 #include "corpus/hard/hard_families.h"
 
 #include "detector/detector.h"

@@ -1,6 +1,6 @@
-// L17: where the built-in detector lets a step stop, judged by the oracle: on random small steps,
-// and on walks, in which each step starts where the last one was let stop. ASSAY_CASES=1000000 runs
-// more steps, ASSAY_WALKS=100 more walks, of 1,000 steps each; ASSAY_SEED draws others.
+// L17: the oracle judges where the built-in detector lets a step stop. The steps are random small
+// steps, and walks, in which each step starts where the last one stopped. ASSAY_CASES=1000000 runs
+// more steps, ASSAY_WALKS=100 more walks of 1,000 steps each; ASSAY_SEED draws others.
 #include <fmt/format.h>
 
 #include "properties/campaign/phases/phases.h"

@@ -1,6 +1,6 @@
-// Several hundred steps of every unclosed scene, period after period: at equal phases of the
-// periods Vv, counters, state and memory do not grow, and the oracle agrees. An arm through a hole
-// keeps Vv small, and leaves nothing behind.
+// Several hundred steps of every unclosed scene, over many periods. At equal phases of the periods
+// Vv, counters, state and memory do not grow, and the oracle agrees. If an arm moves through a
+// hole, Vv stays small, and is empty after the arm has left.
 #include <malloc.h>
 
 #include "corpus/scenes/scenes.h"

@@ -1,5 +1,6 @@
-// What the thesis says of costs, where it can be counted: box tests, candidates, marked nodes, and
-// what the view test leaves open. What can only be timed is a micro bench (tests/bench).
+// Sentences of the thesis about costs that can be counted: box tests, candidates, marked nodes, and
+// how many triangles the view test leaves open. Costs that can only be timed are in micro benches
+// (tests/bench).
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"

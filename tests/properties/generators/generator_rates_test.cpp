@@ -1,6 +1,6 @@
-// What the families reach, judged by the oracle: collisions, clean starts, premises of the laws and
-// how close they come to failing, set pairs among first contacts. What is measured is printed
-// beside what is wanted.
+// Rates of the families of random cases, judged by the oracle: collisions, clean starts, premises
+// of the laws and how close they come to failing, pairs of view sets among first contacts. Each
+// rate is printed beside the wanted rate.
 #include <fmt/format.h>
 
 #include <bit>

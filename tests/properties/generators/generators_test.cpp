@@ -1,5 +1,5 @@
-// Random meshes: every case is valid input, the same bytes whenever it is made, and the families
-// hold what they are for. Rates are printed beside the wanted ones.
+// Random meshes: every case is valid input and has the same bytes whenever it is made, and each
+// family has the properties that it is made for. Rates are printed beside the wanted rates.
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,5 +1,5 @@
-// A response made explicit: what is committed is free, what collides is not, and the case replays
-// from its own frames.
+// Responses made explicit: committed steps are free, colliding steps are not committed, and the
+// case replays from its own frames.
 #include <fmt/format.h>
 
 #include "oracle/mesh/step.h"

@@ -1,5 +1,5 @@
-// Large cases: each shape of a size family is valid, starts without contact, and shows what it is
-// for. Numbers are printed beside the wanted ones.
+// Large cases: each shape of a size family is valid, starts without contact, and has the property
+// that it is made for. Numbers are printed beside the wanted numbers.
 #include <fmt/format.h>
 
 #include "detector/detector.h"

@@ -1,5 +1,5 @@
-// A detector is judged by what it claims: each claim is broken once, alone, and a claim that is not
-// made is never broken.
+// A detector is judged by its claims: each claim is broken once, without any other, and a claim
+// that is not made is never broken.
 #include "properties/claims/claims.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What is said of hand-made runs of a case.
+// Verdicts on hand-made runs of a case.
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_options.h"
 #include "properties/judging/cause.h"

@@ -1,5 +1,5 @@
-// L17: what a limiter allows. Each of its claims is broken once, alone; what numbers leave no room
-// for is counted and breaks nothing.
+// L17: the claims of a limiter. Each claim is broken once, without any other. A shortfall for which
+// only rounding is to blame is counted, and breaks no claim.
 #include "properties/judging/agreement.h"
 #include "properties/judging/exam.h"
 #include "properties/judging/step_measures.h"

@@ -1,6 +1,6 @@
-// The detector's handling of holes against the oracle's own: loops, touched triangles, clean
-// triangles at a new start. Small-integer steps, where degenerate ghosts and ties are frequent. And
-// sequences of such meshes, and view signs.
+// The detector's handling of holes compared with the oracle's: loops, touched triangles, and clean
+// triangles at a new start. The steps have small integers, so that degenerate ghosts and ties are
+// frequent. Also sequences of such meshes, and view signs.
 #include <fmt/format.h>
 
 #include "corpus/cases/case_file.h"

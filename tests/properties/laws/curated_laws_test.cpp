@@ -1,6 +1,6 @@
-// The laws of what is carried from step to step, put to the curated cases: from a point, and under
-// view-auto, whose steps may have views or not; and in which steps it used them, where a case
-// states that.
+// The laws about state that is carried from step to step, checked on the curated cases: with views
+// from a point, and under Culling::view_auto, whose steps may or may not have views. If a case
+// states which steps have views, this is checked, too.
 #include <nlohmann/json.hpp>
 
 #include "properties/laws/law.h"

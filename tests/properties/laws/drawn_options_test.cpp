@@ -1,4 +1,6 @@
-// What is drawn for cases: each value of each factor, and each two of the new factors together.
+// The options that are drawn for cases: for several pairs of factors, such as relation and
+// question, all pairs of values occur. Also covering arrays, and the body that is far from the
+// mesh.
 #include "properties/laws/options/drawn_options.h"
 
 #include <fmt/format.h>

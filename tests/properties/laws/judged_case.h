@@ -1,4 +1,5 @@
-// A generated case through the detector and the oracle, for tests of laws.
+// A generated case with the results of the detector and the judgements of the oracle, for tests of
+// laws.
 #pragma once
 
 #include "oracle/mesh/step.h"
@@ -15,11 +16,13 @@ namespace assay::properties::test {
 
 struct Setting {
   detector::Options options;
-  bool own_primitives = false;  // also where the case states some
+  bool own_primitives = false;  // the detector's primitives, even if the case states others
   StagesOf stages_of = detector::standard_stages;
 };
 
-// view-point or view-line, own or given primitives; now and then another start, or first pairs.
+// Returns a setting with Culling::view_point or view_line, sometimes with a culling that chooses
+// views, and with own or stated primitives. A few settings have another start, or ask for first
+// pairs.
 inline Setting setting_of(std::string_view id) {
   Random random(Random::hash(id), 1);
   Setting setting;
@@ -35,7 +38,8 @@ inline Setting setting_of(std::string_view id) {
   return setting;
 }
 
-// Of steps that prove patches apart L14 speaks, and of culling auto alone.
+// Returns the setting for a law. L14 is about steps that prove patches apart, so it needs
+// Culling::automatic.
 inline Setting setting_for(const Law& law, std::string_view id) {
   Setting setting = setting_of(id);
   if (law.number == "L14") setting.options.culling = detector::Culling::automatic;
@@ -50,13 +54,13 @@ inline RandomCase case_of(const std::string& id) {
   return make_case(*family, id);
 }
 
-// Played from the detector's own primitives.
+// Returns the case without its view primitive, so that the detector uses its own primitives.
 inline corpus::Case without_view(corpus::Case c) {
   c.view.reset();
   return c;
 }
 
-// All that CaseFacts refers to. Tests may change the results before they ask for facts().
+// Owns all that CaseFacts refers to. Tests may change the results before they call facts().
 class JudgedCase {
  public:
   JudgedCase(corpus::Case c, Setting setting)

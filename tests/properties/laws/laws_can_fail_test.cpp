@@ -1,5 +1,5 @@
-// A law that cannot fail proves nothing: each is put to results, or to a pair set, that are wrong,
-// and has to say so.
+// A law that cannot fail proves nothing, so each law is checked on wrong results, or on a wrong
+// pair set, and must report them.
 #include <fmt/format.h>
 
 #include "detector/contact/elementary.h"

@@ -1,10 +1,11 @@
-// Every law by rapidcheck, under its own name; and all of them over cases of all families.
+// Every law by rapidcheck, under its own name; and all laws over cases of all families.
 //
-// rapidcheck draws a 64-bit number, and nothing else: the number and the law's name make a case's
-// id, and the id makes the case. Shrinking is off, as it would only make the number smaller
-// (minimal meshes are the reducer's). A case that the law does not apply to is discarded.
+// rapidcheck draws a 64-bit number, and nothing else. The number and the name of the law make the
+// id of a case, and the id makes the case. Shrinking is off, because it would only make the number
+// smaller; the reducer makes minimal meshes. If the law does not apply to a case, the case is
+// discarded.
 //
-// RC_PARAMS="seed=... max_success=..." runs other cases or more of them, ASSAY_CASE=ID one alone.
+// RC_PARAMS="seed=... max_success=..." runs other or more cases, ASSAY_CASE=ID runs one case alone.
 #include <fmt/format.h>
 #include <rapidcheck.h>
 

@@ -1,6 +1,6 @@
-// The families of distance queries: each query can be made alone, the constructed ones keep their
-// promises, the referee is right about them and leaves few open, and the comparison with a method
-// finds what is wrong.
+// The families of distance queries: each query can be made alone, the constructed queries have the
+// promised distances, the referee is right about them and leaves few open, and the comparison with
+// a wrong method finds its errors.
 #include <fmt/format.h>
 
 #include "properties/queries/query_families.h"

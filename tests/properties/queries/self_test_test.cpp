@@ -1,5 +1,5 @@
-// The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
-// of the constructed families hold, results do not depend on the number of threads.
+// The parts of the self-test: small worlds are complete, cases can be made alone, the constructed
+// families satisfy their exact conditions, and results do not depend on the number of threads.
 #include <fmt/format.h>
 
 #include "corpus/cases/case_file.h"

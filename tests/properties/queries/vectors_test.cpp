@@ -1,6 +1,7 @@
-// Each case of corpus/vectors is proved again: a query by the oracle, by CGAL's algebraic kernel
-// and by the referee, which knows no polynomial; a step of a mesh by the oracle, by the referee and
-// by the detector in exact arithmetic. The digests of set.json are computed anew.
+// Proves each case of corpus/vectors again. A query is decided by the oracle, by CGAL's algebraic
+// kernel and by the referee, which uses no polynomials. A step of a mesh is decided by the oracle,
+// by the referee and by the detector in exact arithmetic. The digests of set.json are computed
+// anew.
 #include <fmt/format.h>
 
 #include "corpus/digest.h"

@@ -1,5 +1,5 @@
-// Each pass of the reducer by itself, with judges that say what must stay. Size, edits and sphere
-// meshes of the reducer.
+// Each pass of the reducer by itself, with judges that prescribe what must stay in the case. Also
+// sizes, edits and sphere meshes.
 #include <Eigen/Geometry>
 
 #include "corpus/cases/case_file.h"

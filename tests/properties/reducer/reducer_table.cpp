@@ -1,8 +1,8 @@
-// The table of what the reducer reaches: `reducer_table toys|faults [SEED [NAME]]`; a beginning of
-// names will do, a whole name prints passes and the case too.
+// Prints a table of the sizes that the reducer reaches: `reducer_table toys|faults [SEED [NAME]]`.
+// NAME can be the beginning of several names; a whole name prints the passes and the case, too.
 //
-// toys: faults of toy detectors over the oracle, on random large meshes. faults: those that are
-// planted in the detector, on their curated cases inflated to 200 triangles and 8 steps.
+// toys: faults of toy detectors over the oracle, on random large meshes. faults: planted faults of
+// the detector, on their curated cases, inflated to 200 triangles and 8 steps.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

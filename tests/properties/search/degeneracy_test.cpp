@@ -1,4 +1,5 @@
-// Newton steps arrive at each degeneracy, alone and two at once, and move only what they may.
+// Newton steps arrive at each degeneracy alone, and at two degeneracies at once, and move only the
+// places that may move.
 #include "properties/search/degeneracy.h"
 
 #include "properties/queries/query_families.h"

@@ -1,4 +1,4 @@
-// The moves of the search: each changes cases and keeps them valid.
+// The moves of the search: each move changes cases, and keeps them valid.
 #include "properties/search/moves.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// A lane of the search: it depends on its name alone, fills an archive, and finds what is wrong in
-// far fewer cases than the trials need. A race of the search against random cases, the trials of
-// the strata, goes until the first defect of a detector.
+// A lane of the search: it depends on its name alone, fills an archive, and finds errors in far
+// fewer cases than the trials need. A race between the search and the random cases of the trials
+// ends at the first defect of a detector.
 #include "properties/search/search.h"
 
 #include <fmt/format.h>

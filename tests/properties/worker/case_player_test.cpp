@@ -1,4 +1,4 @@
-// A case is played as a caller of the detector would go through its script by hand.
+// A case player does what a caller of the detector would do by hand with the script of the case.
 #include "properties/worker/case_run.h"
 #include "tests/curated_cases.h"
 #include "tests/test.h"

@@ -1,5 +1,5 @@
-// What is a neighbour's doing and what is the detector's own: workers killed from outside, and
-// plug-ins that end their process.
+// The worker distinguishes disturbances from faults of the detector: workers are killed from
+// outside, and plug-ins end their process.
 #include <sys/resource.h>
 
 #include "properties/judging/exam.h"

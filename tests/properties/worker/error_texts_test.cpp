@@ -1,5 +1,5 @@
-// What a plug-in says of a call that failed is told, whichever call it was, and of every step. And
-// what it prints.
+// If a call of a plug-in fails, its error text is reported, whichever call it was, and for every
+// step. Also the output that a plug-in prints.
 #include <fmt/format.h>
 #include <unistd.h>
 

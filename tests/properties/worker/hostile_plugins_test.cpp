@@ -1,5 +1,5 @@
-// A plug-in that answers nothing, and in which all goes wrong that can: no run of its holds, and
-// what is not its own stays as it is.
+// A plug-in that answers nothing and misbehaves in every possible way: none of its runs holds, and
+// it changes nothing outside of its process.
 #include "properties/worker/isolation.h"
 #include "properties/worker/worker_process.h"
 #include "tests/problem_words.h"

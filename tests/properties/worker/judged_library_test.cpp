@@ -1,4 +1,4 @@
-// A library that is built anew while it is judged ends the run.
+// A run ends if the judged library is built anew during the run.
 #include "properties/worker/plugin/judged_library.h"
 
 #include "corpus/digest.h"

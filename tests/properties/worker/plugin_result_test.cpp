@@ -1,4 +1,4 @@
-// A plug-in's result: what it says, and what it says against the rules.
+// The result of a plug-in: how it is read, and which violations of the rules are found in it.
 #include "properties/worker/plugin/plugin_host.h"
 #include "tests/test.h"
 

@@ -1,5 +1,5 @@
-// Each plug-in of tests/plugins gets the verdict that it deserves, over curated and random cases,
-// through the worker; and the oracle stays right whatever they do.
+// Each plug-in of tests/plugins runs in the worker over curated and random cases and gets the
+// verdict that it deserves. The oracle stays right whatever plug-ins do.
 #include <xmmintrin.h>
 
 #include "properties/judging/exam.h"

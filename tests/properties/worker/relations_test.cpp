@@ -1,5 +1,5 @@
 // Which pairs count (L19), from the case to the detector and back: the built-in detector in the
-// worker, and plug-ins that can be told, leave pairs out by themselves, or cannot be told.
+// worker; plug-ins that can be told, that leave out pairs by themselves, or that cannot be told.
 #include "detector/plugin/assay_builtin_detector.h"
 #include "properties/generators/draft.h"
 #include "properties/generators/families.h"

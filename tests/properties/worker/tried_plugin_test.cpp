@@ -1,4 +1,5 @@
-// Plug-ins of steps, of a query and of candidates with faults that are excused or found.
+// Plug-ins of steps, of a query and of candidates, with faults that are excused and faults that are
+// found.
 #include "properties/campaign/trials/trials.h"
 #include "properties/claims/claims.h"
 #include "properties/generators/draft.h"

@@ -1,4 +1,4 @@
-// What the tests of the worker run, and the child processes of a test.
+// Cases for the tests of the worker, and functions about the child processes of a test.
 #pragma once
 
 #include <signal.h>
@@ -12,7 +12,7 @@ namespace assay::properties::test {
 
 inline const std::vector<Configuration> plugin_alone = {{"plug-in", {}}};
 
-// Processes whose parent is this one, dead ones that nobody has waited for included.
+// Returns the child processes of this process, including dead processes that nobody has waited for.
 inline std::vector<int> children() {
   std::vector<int> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -25,20 +25,20 @@ inline std::vector<int> children() {
   return found;
 }
 
-// What the system says of a process; nothing once it is gone.
+// Returns /proc/PROCESS/stat; empty if the process is gone.
 inline std::string stat_of(int process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   return {std::istreambuf_iterator<char>(stat), {}};
 }
 
-// Kills a child and returns when it has ended, though nobody has waited for it.
+// Kills a child, and returns when it has ended. The child stays to be waited for.
 inline void end_child(int child, int signal = SIGKILL) {
   if (signal != 0) kill(child, signal);
   siginfo_t seen = {};
   EXPECT_EQ(waitid(P_PID, static_cast<id_t>(child), &seen, WEXITED | WNOWAIT), 0);
 }
 
-// Whether it is so, at once or within a minute.
+// Returns whether holds() becomes true within a minute.
 inline bool comes_true(const std::function<bool()>& holds) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!holds()) {
@@ -48,7 +48,7 @@ inline bool comes_true(const std::function<bool()>& holds) {
   return true;
 }
 
-// A case on which troubled_builtin.cpp uses so much processor time.
+// Returns a case on which troubled_builtin.cpp uses this much processor time.
 inline corpus::Case burning_case(double seconds) {
   auto c = small_case(31, 0);
   for (auto& frame : c.frames) frame(0, 0) = seconds;

@@ -1,5 +1,5 @@
-// The worker: the same answers as in this process, and what it is for: whatever a detector does to
-// its process, the host goes on.
+// The worker gives the same answers as a detector in this process, and whatever a detector does to
+// its own process, the host continues.
 #include "detector/detector.h"
 #include "properties/judging/exam.h"
 #include "properties/worker/messages.h"

@@ -1,5 +1,6 @@
-// The worker's limits of time: processor time wherever it is used, and wider nets of wall clock for
-// what uses none. No test here asks that something be over soon.
+// The limits of time of the worker: processor time, wherever it is used, and longer limits of
+// wall-clock time for runs that use no processor time. No test here requires that something ends
+// soon.
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 

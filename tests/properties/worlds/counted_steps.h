@@ -1,9 +1,10 @@
-// Random steps with a relation that says which pairs count (L19), and whether a plain loop over all
-// pairs of triangles (plain_contacts.h), the oracle and the detector agree on them.
+// Random steps with a relation that says which pairs count (L19), and checks that a plain loop over
+// all pairs of triangles (plain_contacts.h), the oracle and the detector agree on these steps.
 //
 // Coordinates are small integers, so that degenerate contacts and distances that equal the limit
-// are frequent. A mesh has one to three parts, closed, a tube, open or a sheet; some of them stand
-// still. Two steps follow each other, so that what the first has left in a state serves the second.
+// are frequent. A mesh has one to three parts. Each part is a closed mesh, a tube, an open mesh or
+// a sheet, and some parts rest. Each case has two steps, so that the second step uses the state
+// that the first step left.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +24,16 @@ struct CountedSteps {
   detector::CountedPairs counted;
 };
 
-// Case `index` of `seed`, which a hash of both makes alone. Every kind of relation, alone and with
-// others, at both levels.
+// Makes case `index` of `seed` from a hash of these two numbers alone. The cases have every kind of
+// relation, alone and together with other kinds, about triangles and about features.
 CountedSteps make_counted_steps(std::uint64_t seed, std::uint64_t index);
 
-// What was seen, beside agreement.
+// Counts of the steps and pairs that were compared.
 struct CountedTally {
   std::uint64_t steps = 0, collisions = 0, pairs = 0;
   std::uint64_t ignored = 0;  // pairs in contact that do not count
-  // Steps in which some do not count; and among these steps with others that do.
+  // Steps in which some pairs in contact do not count; steps in which, besides, some pairs do
+  // count.
   std::uint64_t with_ignored = 0, with_both = 0;
 
   void add(std::size_t counted, std::size_t in_contact) {
@@ -44,13 +46,13 @@ struct CountedTally {
   }
 };
 
-// The first disagreement between the plain loop, the oracle and the detector with several cullings,
-// in words; nothing if all agree. With `pairs` first the answer, the first time and that all pairs
-// are contacts that count.
+// Returns the first disagreement between the plain loop, the oracle and the detector with several
+// cullings; nothing if all agree. With Pairs::first it compares the answer and the first time, and
+// checks that every reported pair is a contact that counts.
 std::optional<std::string> disagreement(const CountedSteps& steps, CountedTally& tally);
 
-// The same for what comes within a separation above 0, of the oracle, its least distance and the
-// detector.
+// Returns the first disagreement about the pairs that come within a separation above 0, between the
+// oracle, its least distance and the detector.
 std::optional<std::string> disagreement_within(const CountedSteps& steps, double separation,
                                                CountedTally& tally);
 

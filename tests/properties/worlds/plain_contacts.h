@@ -1,5 +1,5 @@
-// Brute force for questions of which pairs count (L19): loops over all pairs of triangles and of
-// their features, with the relation decided in a plain way of its own.
+// Brute force for steps with a relation (L19): loops over all pairs of triangles and of their
+// features. It decides in a plain way, independent of the detector, which pairs count.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace assay::properties::test {
 
-// The contacts of a step that count, ascending, each with its first time. With a separation above 0
-// these are the pairs that share no vertex and come within it. REQUIRES integer places at rest of
-// at most 10 and a distance that is a multiple of a half.
+// Returns the contacts of a step that count, ascending, each with its first time. With a separation
+// above 0, returns the pairs that share no vertex and come within the separation. REQUIRES integer
+// places at rest of at most 10, and a distance at rest that is a multiple of 1/2.
 std::vector<detector::PairContact> plain_contacts(const detector::SteppedMesh& motion,
                                                   const detector::Triangles& triangles,
                                                   const detector::CountedPairs& counted,

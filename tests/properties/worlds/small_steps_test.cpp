@@ -1,6 +1,6 @@
-// Random small steps with small-integer coordinates: the detector with every culling against the
-// oracle, pairs and times compared bit by bit, and view signs against the oracle's. The same with a
-// relation between pairs, and small worlds of tetrahedra.
+// Random small steps with small-integer coordinates: the detector with every culling is compared
+// with the oracle, pairs and times bit by bit, and view signs with the oracle's signs. The same
+// steps with a relation between pairs, and small worlds of tetrahedra.
 #include "properties/worlds/small_steps.h"
 
 #include <fmt/format.h>

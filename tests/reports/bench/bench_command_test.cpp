@@ -1,5 +1,5 @@
 // `assay bench`: its statistics on known numbers, its suites at a hundredth of their size, and the
-// verb as a user runs it.
+// verb on the command line.
 #include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"
 

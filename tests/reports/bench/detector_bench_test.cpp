@@ -1,4 +1,5 @@
-// `assay bench --detector`: plug-ins whose answers are known, on small scenes, and the verb.
+// `assay bench --detector`: plug-ins whose answers are known, on small scenes, and the verb on the
+// command line.
 #include "corpus/scenes/scenes.h"
 #include "reports/bench/compared/comparison.h"
 #include "tests/reports/program.h"

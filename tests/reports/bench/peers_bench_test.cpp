@@ -1,5 +1,6 @@
-// `assay bench --suite peers`: small runs with peers whose answers are known, one that hangs and
-// one that crashes; and the meshes of corpus/peers, each of which shows a peer's worst miss.
+// `assay bench --suite peers`: small runs with peers whose answers are known, one of which hangs
+// and one of which crashes. Also the meshes of corpus/peers, each of which shows the worst miss of
+// a peer.
 #include "corpus/scenes/scenes.h"
 #include "oracle/referee/distance_referee.h"
 #include "properties/judging/exam.h"

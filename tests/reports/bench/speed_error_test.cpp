@@ -1,5 +1,5 @@
-// Suite speed-error: its statistics on known numbers, its judgements on steps that floats get
-// wrong, its files.
+// Suite `speed-error`: its statistics on known numbers, its judgements of steps on which floats are
+// wrong, and its files.
 
 #include "properties/random.h"
 #include "reports/bench/compared/comparison.h"

@@ -1,5 +1,5 @@
-// Suite `stability`: right arithmetic is shown as right, and arithmetic that is wrong on purpose as
-// wrong in the way that it is.
+// Suite `stability`: right arithmetic is shown as right, and each arithmetic that is wrong on
+// purpose is shown with its kind of error.
 
 #include "detector/step/stages.h"
 #include "properties/judging/case_options.h"

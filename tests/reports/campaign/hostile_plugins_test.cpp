@@ -1,5 +1,5 @@
-// Whatever goes wrong in a plug-in, no verb holds it for right, and the isolation that it had is
-// said. The complete table, through `certify` too, is tests/reports/hostile.
+// Whatever goes wrong in a plug-in, no verb says that it holds, and each verb names the isolation
+// in which the plug-in ran. tests/reports/hostile has the complete table, through `certify`, too.
 #include <deque>
 #include <future>
 

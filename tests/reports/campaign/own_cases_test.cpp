@@ -1,4 +1,5 @@
-// `run --corpus DIR`: cases of the detector's owner, judged beside the campaign's.
+// `run --corpus DIR`: cases that belong to the detector's owner, judged beside the cases of the
+// campaign.
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/gates.h"

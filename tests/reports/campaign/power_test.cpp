@@ -1,4 +1,5 @@
-// `--power DIR`: the proof that planted faults are found, taken from another run of this build.
+// `--power DIR`: another run of this build has proved that planted faults are found, and the proof
+// is reused.
 #include "properties/campaign/gates/gates.h"
 #include "tests/reports/tiny_campaign.h"
 

@@ -1,4 +1,4 @@
-// `assay run` whose workers somebody else kills: it comes to the same and says that it was
+// `assay run` whose workers are killed from outside: it has the same results, and says that it was
 // disturbed.
 #include <sys/syscall.h>
 

@@ -1,5 +1,6 @@
-// `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
-// again goes on. A named campaign runs to its end unless its user sets a limit of time.
+// `assay run` that is killed, interrupted, or started twice: stored results stay, and the same
+// command continues the run. A named campaign runs to its end, unless its user sets a limit of
+// time.
 #include "properties/random.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/tiny_campaign.h"

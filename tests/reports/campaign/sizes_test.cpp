@@ -1,6 +1,6 @@
-// Strata of sizes through the program: what goes wrong on large meshes alone is found, is brought
-// home with the number of triangles from which it fails, and is not certified up to a size at which
-// it was not judged. Refusals beyond a stated capacity are counted and break nothing.
+// Strata of sizes through the program. A failure on large meshes alone is found, and reported with
+// the number of triangles from which it occurs. No size above the judged ones is certified.
+// Refusals beyond a stated capacity are counted, and break no claim.
 #include "properties/campaign/gates/gates.h"
 #include "tests/reports/tiny_campaign.h"
 

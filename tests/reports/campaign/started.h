@@ -1,4 +1,4 @@
-// The program in the background, as a shell starts it.
+// Starts the program in the background, as a shell does.
 #pragma once
 
 #include <fcntl.h>
@@ -12,7 +12,7 @@ extern char** environ;
 
 namespace assay::tests {
 
-// In a process group of its own. What it prints goes to the file `output`.
+// A run of the program in its own process group. Its output goes to the file `output`.
 class Started {
  public:
   Started(std::vector<std::string> words, const std::string& output) {
@@ -43,7 +43,7 @@ class Started {
     return waitid(P_PID, static_cast<id_t>(id_), &seen, WEXITED | WNOHANG | WNOWAIT) != 0 ||
            seen.si_pid != 0;
   }
-  // To all of its processes, as a terminal does.
+  // Sends a signal to all processes of the group, as a terminal does.
   void send(int signal) const { kill(-id_, signal); }
   int end() {
     int status = 0;

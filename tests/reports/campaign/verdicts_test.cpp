@@ -1,5 +1,5 @@
-// Folders over all combinations of gate results, three to the sixth: `run`, `certify`, `verify`,
-// the page's data, JUnit and Markdown say the same verdict, exit code and reasons.
+// Folders with all combinations of gate results, three to the sixth power: `run`, `certify`,
+// `verify`, the data of the page, JUnit and Markdown state the same verdict, exit code and reasons.
 #include "properties/campaign/gates/findings.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/statement.h"

@@ -1,5 +1,5 @@
-// What detector/plugin/ci has for a CI, as a machine runs it: the job, and the lines of the files
-// for GitHub and GitLab that run it.
+// The files of detector/plugin/ci: the job for a CI machine, and the lines for GitHub and GitLab
+// that run it.
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

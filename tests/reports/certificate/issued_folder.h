@@ -1,4 +1,4 @@
-// A folder with a certificate that verifies, made without running a campaign.
+// Makes a folder with a certificate that verifies, without running a campaign.
 #pragma once
 
 #include "reports/certificate/statement.h"
@@ -11,14 +11,14 @@ inline void write_bytes(const std::filesystem::path& file, const std::string& by
   std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// The certificate of what the stores of the folder say now.
+// Writes the certificate of the present stores of the folder.
 inline void issue(const std::string& folder) {
   const auto statement = value_of(reports::make_statement(folder));
   write_bytes(properties::certificate_file(folder), reports::statement_text(statement));
   ASSERT_TRUE(reports::write_for_ci(statement["predicate"], folder));
 }
 
-// Stores the run, what the checks of a certificate say of its paths, and its certificate.
+// Stores the run, the paths with which its certificate is issued, and the certificate.
 inline void store_and_issue(const RunToStore& run, const std::string& folder,
                             const properties::Issuance& paths) {
   run.store(folder);
@@ -31,7 +31,7 @@ inline void store_and_issue(const RunToStore& run, const std::string& folder,
   issue(folder);
 }
 
-// All of it holds: `assay verify` ends with 0.
+// Returns a run in which everything holds, so that `assay verify` ends with 0.
 inline RunToStore good_run() {
   return RunToStore().meet_canary(3).judge("closed-generic", 10, 'H').judge("broken", 10, 'H');
 }

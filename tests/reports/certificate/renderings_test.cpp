@@ -1,5 +1,5 @@
-// JUnit and Markdown say what the certificate says, and take names that are no text, or markup: of
-// a plug-in, of a folder.
+// JUnit and Markdown say the same as the certificate. They accept names of plug-ins and folders
+// that are not valid text, or that contain markup.
 #include "properties/words.h"
 #include "reports/certificate/statement.h"
 #include "reports/terminal/words.h"

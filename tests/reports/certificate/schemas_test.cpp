@@ -1,5 +1,6 @@
-// The JSON Schemas of what the program reads and writes. The file tests/reports/program.h holds to
-// them what tests let the program write with --json. Here are the others, and what all share.
+// The JSON Schemas of files that the program reads and writes. tests/reports/program.h checks every
+// file that a test writes with --json against its schema; the tests here check the other files, and
+// what all schemas share.
 #include "properties/campaign/gates/gates.h"
 #include "properties/campaign/plan.h"
 #include "properties/claims/claims.h"

@@ -1,6 +1,6 @@
-// Hundreds of changes of a good certificate's folder: `assay verify` ends each of them with a line
-// and exit code 1 or 2. No byte of these files is without meaning, for the certificate holds the
-// digests of the others and is itself compared byte by byte; so none of the changes may pass.
+// Hundreds of changes to the folder of a good certificate: for each change, `assay verify` prints a
+// line and ends with exit code 1 or 2. No change may pass, because every byte counts: the
+// certificate holds the digests of the other files, and is itself compared byte by byte.
 #include <fmt/format.h>
 
 #include "properties/campaign/ledger/database.h"

@@ -1,4 +1,4 @@
-// `check` of meshes at rest, and the pairs in contact that it names, as a user runs it.
+// `check` of meshes at rest on the command line, and the pairs in contact that it names.
 #include "corpus/formats/mesh_reader.h"
 #include "tests/reports/tiny_campaign.h"
 

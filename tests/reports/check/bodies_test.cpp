@@ -1,4 +1,4 @@
-// `check --body`: several meshes as bodies of one, which meet or do not.
+// `check --body`: several meshes become the bodies of one mesh, and meet or do not meet.
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

@@ -1,5 +1,5 @@
-// `check` on long sequences of files: the memory of a few frames, and what is told of a sequence
-// with a bad frame in it.
+// `check` on long sequences of files: it needs the memory of a few frames only, and it reports a
+// bad frame in a sequence.
 #include "corpus/formats/sequences.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/check/check_run.h"

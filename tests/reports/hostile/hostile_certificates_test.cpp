@@ -1,5 +1,5 @@
-// The complete table of what may go wrong in a plug-in, through `run` and `certify`: none holds,
-// none is certified, and nothing beside is harmed.
+// The complete table of what can go wrong in a plug-in, through `run` and `certify`: no such
+// plug-in holds or is certified, and nothing else is harmed.
 #include "tests/reports/hostile_fixture.h"
 
 namespace assay::tests {

@@ -1,4 +1,4 @@
-// The data of the page, assay-report/3, and the file that it is put into.
+// The data of the page, assay-report/3, and the file into which the data is put.
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"

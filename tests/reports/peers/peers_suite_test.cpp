@@ -1,5 +1,5 @@
-// `assay bench --suite peers --quick` with all peers that were built: every row has figures, those
-// that are absent are named, and the shipped detector's row is what it promises.
+// `assay bench --suite peers --quick` with all peers that were built: every row has numbers, absent
+// peers are named, and the row of the shipped detector has the promised values.
 #include "tests/reports/program.h"
 
 namespace assay::reports {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""reports/pictures/benches.py draws every point with its intervals, the same bytes each time."""
+"""Tests that reports/pictures/benches.py draws every point with its intervals, with the same bytes each time."""
 import json
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Wrong arguments: a clear exception, never a crash. Passed by a build under asan too."""
+"""Wrong arguments cause a clear exception, never a crash. A build with asan passes these tests, too."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""assay.certify of a detector in Python: corpus, campaign, planted faults, self-test."""
+"""Tests assay.certify on a detector in Python: corpus, campaign, planted faults, self-test."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Meshes that several tests step."""
+"""Meshes and steps that several tests use."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ class Step:
 
 
 def tetrahedra(count, seed=1):
-    """Tetrahedra at random places that move at random: many of them meet."""
+    """Returns tetrahedra at random places that move at random, so that many of them meet."""
     random = np.random.default_rng(seed)
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     places = random.uniform(0, count ** (1 / 3) * 3, (count, 1, 3))
@@ -24,7 +24,7 @@ def tetrahedra(count, seed=1):
 
 @pytest.fixture
 def pair():
-    """One tetrahedron flies into another one that rests."""
+    """Returns a step in which a tetrahedron flies into a resting one."""
     x_t0 = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     x_t0 = np.vstack([x_t0, x_t0 + 2])
     x_t1 = x_t0.copy()
@@ -39,11 +39,11 @@ def cloud():
 
 @pytest.fixture
 def long_step():
-    """With culling none others have time to look at it."""
+    """Returns a step that, with culling "none", takes long enough for other threads to act meanwhile."""
     return tetrahedra(1500)
 
 
 @pytest.fixture
 def endless_step():
-    """With culling none it takes as long as it is let."""
+    """Returns a step that, with culling "none", does not end before it is stopped."""
     return tetrahedra(50000)

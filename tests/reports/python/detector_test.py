@@ -1,4 +1,4 @@
-"""assay.Detector and the two elementary queries."""
+"""Tests assay.Detector and the two elementary queries."""
 
 import contextlib
 import ctypes
@@ -228,7 +228,7 @@ def test_threads_do_not_show(threads):
 
 
 def test_after_a_fork_threads_are_refused(cloud):
-    """In an interpreter of its own, for that is known for good afterwards."""
+    """Runs in a separate interpreter, because a process that has forked refuses threads from then on."""
     program = """if True:
         import os, sys
         sys.path.insert(0, sys.argv[1])
@@ -320,7 +320,7 @@ def test_no_queries_have_no_answers():
 
 @contextlib.contextmanager
 def processor_state(bits):
-    """Sets these bits of MXCSR, the last word of glibc's fenv_t, and yields what reads them."""
+    """Sets these bits of MXCSR, the last word of glibc's fenv_t, and yields a function that reads them."""
     library, words = ctypes.CDLL("libm.so.6"), (ctypes.c_uint32 * 8)()
 
     def state():

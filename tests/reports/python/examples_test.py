@@ -1,4 +1,4 @@
-"""The examples of reports/python/README.md, as they stand and in their order."""
+"""Runs the examples of reports/python/README.md as they are written, in their order."""
 
 import re
 from pathlib import Path

@@ -1,5 +1,5 @@
-"""The module installed by pip: a class in Python is judged by what was installed. The test
-tests/consumer/installed does the same where CMake installs it."""
+"""Tests the module that pip installs: it judges a class in Python. The test tests/consumer/installed
+does the same with the module that CMake installs."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ def test_it_is_installed_by_pip(tmp_path):
     subprocess.run(judge, cwd=tmp_path, env=variables, check=True)
     linked = venv / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}"
     package = linked / "site-packages" / "assay"
-    # The conformance set that came with it is answered by the module that came with it.
+    # The installed module answers the installed conformance set.
     script = package / "share/assay/corpus/vectors/vectors.py"
     words = ["run", "--arithmetic", "exact", "--out", tmp_path / "results.json"]
     command = [venv / "bin" / "python", script, *words]

@@ -1,4 +1,4 @@
-"""assay.judge, check, read_frames and write_vtk."""
+"""Tests assay.judge, check, read_frames and write_vtk."""
 
 import json
 import os
@@ -30,7 +30,7 @@ def write_ply(path, triangles, x):
 
 
 def without_times(report):
-    """What must not differ from one run to the next."""
+    """Returns the part of a report that must be the same in every run."""
     report = {k: v for k, v in report.items() if k not in ("times_ms", "peak_memory_bytes")}
     report["steps"] = [
         {
@@ -55,7 +55,7 @@ def test_the_oracle_agrees_with_the_detector(cloud):
 
 
 def falling():
-    """A triangle falls towards another one, from 3 to 1 above it."""
+    """Returns a step in which a triangle falls towards another one, from 3 to 1 above it."""
     x_t0 = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 3], [2, 1, 4], [1, 2, 4]], float)
     x_t1 = x_t0.copy()
     x_t1[3:, 2] -= 2
@@ -177,7 +177,7 @@ def test_an_exception_of_the_listener_ends_the_check(cloud):
 
 @pytest.mark.parametrize("work", ["judge", "check"])
 def test_ctrl_c_ends_the_judge(work):
-    """The signal comes while the work is under way: it takes longer than anybody waits."""
+    """The signal comes during the work, because the work would take very long."""
     step = conftest.tetrahedra(3000)
     step.x_t1 = step.x_t0 + np.random.default_rng(1).uniform(-40, 40, step.x_t0.shape)
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
@@ -205,7 +205,7 @@ def test_case_files_are_checked_and_floats_miss_what_is_in_them():
         if json.loads(file.read_text())["expected"]["answer"] == "error":
             continue
         report = assay.check(file, arithmetic="float")
-        assert report.outcome == "holds", file  # for they claim nothing of that
+        assert report.outcome == "holds", file  # because floats make no claim about contacts
         wrong += any(step.diff.wrong_answer or step.diff.missing for step in report.steps)
     assert wrong > 0
 

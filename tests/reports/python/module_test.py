@@ -1,4 +1,4 @@
-"""What of the module a user sees before he asks it for anything, and results as lists and arrays."""
+"""Tests what a user sees of the module before the first call, and results as lists and arrays."""
 
 import inspect
 import os

@@ -1,4 +1,4 @@
-"""Detectors in Python, judged in a process of their own; campaigns and pages by the program."""
+"""Tests detectors in Python, judged in separate processes, and campaigns and pages by the program."""
 
 import subprocess
 import sys
@@ -121,7 +121,7 @@ SOURCE = """
 
 @pytest.fixture
 def mine(tmp_path, monkeypatch):
-    """A module `mine` in this folder."""
+    """Writes a module `mine` into a folder, and makes this the current folder."""
     (tmp_path / "mine.py").write_text(textwrap.dedent(SOURCE))
     monkeypatch.chdir(tmp_path)
     return tmp_path

@@ -1,4 +1,4 @@
-"""assay.check of public sequences; skipped where ASSAY_DATA names no folder."""
+"""Tests assay.check on public sequences; skipped if ASSAY_DATA names no folder."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""assay.Recorder: what stands in the log, read back by a few lines of the standard library."""
+"""Tests assay.Recorder: reads its logs back with the standard library alone."""
 
 import struct
 import zlib
@@ -12,7 +12,7 @@ MINE = {"name": "mine", "version": "1.5"}
 
 
 def records(path):
-    """The bodies of all records of a log, whose frames have to be as they ought to be."""
+    """Returns the bodies of all records of a log, and checks the bytes around each body."""
     data, out = path.read_bytes(), []
     while data:
         assert data[:9] == b"\x83\x44ASR1\xd8\x18\x5b"
@@ -30,7 +30,7 @@ TYPED = {78: "<i4", 85: "<f4", 86: "<f8"}
 
 
 def item(data, at):
-    """One item of CBOR (those that a log may have), and where the next one begins."""
+    """Returns one item of CBOR, of a type that a log can have, and where the next item begins."""
     major, info = data[at] >> 5, data[at] & 31
     if data[at] == 0xFB:
         return struct.unpack_from(">d", data, at + 1)[0], at + 9
@@ -189,7 +189,7 @@ def test_files_that_are_there_stay(path, pair):
 
 @pytest.mark.parametrize("answer", [False, 0, 7, []])
 def test_what_is_no_answer_is_refused(tmp_path, answer):
-    """A False that was read as "something was found" would hide every miss."""
+    """If False were read as "a contact was found", it would hide every miss."""
     triangles, positions = [(0, 1, 2)], [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     with assay.Recorder(tmp_path / "log", triangles, positions, name="mine", claims=["free-sound"]) as log:
         with pytest.raises(ValueError, match="is no answer"):

@@ -1,4 +1,4 @@
-"""A simulator's log (tests/recording/cloth.cpp): its answers against the exact ones, and written again."""
+"""Compares the answers in a simulator's log (tests/recording/cloth.cpp) with exact ones, and rewrites it."""
 
 import json
 import os
@@ -33,7 +33,7 @@ def rows(array, columns=3):
 
 
 def steps_of(path):
-    """Triangles and rest, and each step with where it starts."""
+    """Returns the triangles and the rest positions of a log, and each step with its start."""
     begin, *steps, _ = records(path)
     end, started = None, []
     for step in steps:
@@ -87,7 +87,7 @@ def test_python_writes_the_same_bytes(logs, tmp_path):
 
 
 def test_the_slip_comes_home_as_two_triangles(logs, tmp_path):
-    """Recorded by Python, judged by the program."""
+    """Python records the log, and the program judges it."""
     triangles, rest, steps = steps_of(logs / "slip")
     with assay.Recorder(tmp_path / "log", triangles, rest, **WORDS) as recorder:
         for x0, step in steps[:120]:

@@ -1,9 +1,9 @@
-"""What assay.Detector.step costs beside the call of C++ inside it, on the public rod-twist step.
+"""Measures the time of assay.Detector.step over that of the C++ call inside, on the public rod-twist step.
 
 usage: ASSAY_DATA=FOLDER PYTHONPATH=build/release/python /usr/bin/python3 tests/reports/python/step_cost.py
 
-Each of 15 steps is timed by the clock outside, and the result says what the call took inside: the
-median of the ratios, with the interval in which it lies at 95 % (order statistics).
+Each of 15 steps is timed outside by the clock, and inside by the result. Prints the median of the ratios,
+with its 95 % confidence interval (order statistics).
 """
 
 import os

@@ -1,4 +1,4 @@
-"""corpus/vectors by the module: who answers the set, and groups that are made of case files."""
+"""Tests corpus/vectors with the module: subjects that answer the set, and groups made from case files."""
 
 import json
 import os
@@ -19,7 +19,7 @@ import make_group  # noqa: E402
 import vectors  # noqa: E402
 
 STORED = sorted((ROOM / "results").glob("*.json"))
-PACKAGED = ("bullet_", "cubic_", "fcl_", "sampled_")  # peers that need no sources of others
+PACKAGED = ("bullet_", "cubic_", "fcl_", "sampled_")  # peers that are built without sources of others
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +97,7 @@ MINE = """
 
 @pytest.fixture
 def answers(tmp_path, monkeypatch):
-    """The answers to the mini set of a class of MINE, as `vectors.py run` writes them."""
+    """Returns a function that returns the answers of a class of MINE to the mini set."""
     (tmp_path / "mine.py").write_text(textwrap.dedent(MINE))
     out = tmp_path / "out.json"
 
@@ -179,12 +179,12 @@ def test_a_query_with_wrong_options_is_refused():
 
 
 KEPT = ("result", "first_time", "distance", "least_distance", "t0", "t1", "triangles", "frames")
-# Flags that the script leaves to the author of a case; of meshes others go by what meets first.
+# Flags that the script leaves to the author. Flags of meshes depend on the first contact; none is compared.
 FLAGS = {"Tangential", "SplitInvariant", "DoubleRoot", "ParallelEdges", "TouchAtEnd", "NoArea"}
 
 
 def test_a_group_made_of_case_files_has_the_facts_of_the_set(committed, tmp_path):
-    """A share of each group, made anew, and one set of all that was made."""
+    """Makes a part of each group again, and checks the set of all these groups."""
     taken = 0
     for group in committed.groups:
         cases = [case for case in committed.cases if case.group == group["group"]][::20]
@@ -272,10 +272,10 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
             make_group.main([str(files[0]), "--name", "g", "--out", "set", "--distance", distance])
     words = [str(files[0]), "--out", str(tmp_path / "set"), "--name"]
     make_group.main([*words, "g"])
-    make_group.main([*words, "g"])  # in place of the one before
+    make_group.main([*words, "g"])  # replaces the group
     with pytest.raises(vectors.Wrong, match="is there twice"):
         make_group.main([*words, "h"])
-    for name in ("a b", "set"):  # and the set stays as it is
+    for name in ("a b", "set"):  # an error leaves the set unchanged
         with pytest.raises(vectors.Wrong):
             make_group.main([*words, name])
     assert len(vectors.check(tmp_path / "set").cases) == 1

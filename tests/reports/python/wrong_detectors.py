@@ -1,4 +1,4 @@
-"""assay.Detector wrapped, wrong in one of eleven ways. The same in C++: tests/plugins/wrong_wrapper.cpp."""
+"""Wrappers of assay.Detector, wrong in eleven ways. tests/plugins/wrong_wrapper.cpp has them in C++."""
 
 from dataclasses import replace
 
@@ -95,7 +95,7 @@ class HalfAStep(Wrapper):
 
 
 class OrderOfASet(Wrapper):
-    """Right, but each process has another order of a set of strings."""
+    """Depends on the order of a set of strings, which differs from process to process."""
 
     def spoiled(self, result):
         names = list({f"name {i}" for i in range(40)})

@@ -1,4 +1,4 @@
-"""Wrong detectors in Python are found, each by a mesh no larger than that of the same in C++."""
+"""Tests that wrong detectors in Python are found, by meshes no larger than for the same detectors in C++."""
 
 import json
 import os
@@ -40,7 +40,7 @@ CAMPAIGN = {
 
 
 def smallest_mesh(folder):
-    """Of all failures of a run: triangles of the smallest mesh."""
+    """Returns the number of triangles of the smallest mesh among all failures of a run."""
     files = Path(folder, "failures").glob("*-smallest.json")
     return min(len(json.loads(file.read_text())["triangles"]) for file in files)
 
@@ -58,12 +58,12 @@ def test_a_wrong_detector_is_found(way, tmp_path, monkeypatch):
     assert sizes[0] <= sizes[1]
 
 
-# The eleventh way: each process has its own answer, and gives it always.
+# The eleventh way: the answers differ from process to process, but not within a process.
 @pytest.mark.parametrize("detector", [wrong.OrderOfASet, PLUGINS / "plugin_wrong_wrapper.so"])
 def test_one_that_differs_from_process_to_process_is_found(detector, tmp_path, monkeypatch, pair):
     monkeypatch.setenv("ASSAY_TEST_WRONG", str(len(WAYS)))
     campaign = tmp_path / "wrong.json"
-    more = [dict(stratum, cases=60) for stratum in CAMPAIGN["strata"]]  # some are asked twice
+    more = [dict(stratum, cases=60) for stratum in CAMPAIGN["strata"]]  # more cases, because only some are repeated
     campaign.write_text(json.dumps(dict(CAMPAIGN, strata=more)))
     run = assay.run(str(campaign), detector, out=tmp_path / "run")
     assert run.outcome == "defect", run.text

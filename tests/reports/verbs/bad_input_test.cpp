@@ -1,4 +1,4 @@
-// Bad input gets one clear line on stderr and exit code 2, nothing else.
+// Bad input causes one clear line on stderr, exit code 2, and nothing else.
 #include "detector/options.h"
 #include "tests/reports/program.h"
 

@@ -1,4 +1,5 @@
-// `assay certify` and `assay verify` through the program: verdicts, and every tampering seen.
+// `assay certify` and `assay verify` through the program: their verdicts, and that all tampering is
+// found.
 #include "reports/certificate/statement.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"

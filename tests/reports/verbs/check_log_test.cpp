@@ -1,5 +1,5 @@
-// `check` of a log: recorded answers are judged as those of a plug-in are, what fails comes home as
-// a small mesh, and what is lost of a log is said.
+// `check` of a log: recorded answers are judged like the answers of a plug-in, a failure is stored
+// as a small mesh, and lost parts of a log are reported.
 #include <fmt/format.h>
 
 #include "corpus/formats/sequences.h"

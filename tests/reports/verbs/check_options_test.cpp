@@ -1,5 +1,6 @@
-// `check` finds the kind of its input by what a file holds, and takes each option with the kinds
-// that it is of: every pair of a kind and an option, and every two options that do not go together.
+// `check` finds out the kind of its input from the content of the file, and takes each option only
+// with certain kinds. The tests try every pair of a kind and an option, and all pairs of options
+// that exclude each other.
 #include <fmt/format.h>
 
 #include "tests/recorded_log.h"

@@ -1,5 +1,5 @@
-// A separation that `assay check` is asked for, of meshes and of queries, as a user runs it: two
-// triangles and a query whose distance is known.
+// `assay check --separation` on the command line, for meshes and for queries: two triangles and a
+// query whose distance is known.
 #include "reports/check/check_run.h"
 #include "tests/reports/program.h"
 #include "tests/sinking_corner.h"

@@ -1,4 +1,4 @@
-// The verbs on scenes, as a user runs them: output, exit codes, JSON.
+// The verbs that make and check scenes, on the command line: output, exit codes, JSON.
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"

@@ -1,4 +1,5 @@
-// What `assay replay --export` writes compiles against the detector alone, and passes.
+// The source file that `assay replay --export` writes compiles with the detector alone, and its
+// program passes.
 #include "reports/steps/exported_case.h"
 
 #include "properties/claims/claims.h"

@@ -1,5 +1,5 @@
-// What the owner of a detector is told of it: rates that it never claimed, claims of which nothing
-// is known, and the cases on which it takes longest.
+// Reports to the owner of a detector: error rates about which it makes no claim, claims that no
+// case has tested, and the cases on which it takes longest.
 #include <sys/stat.h>
 
 #include "properties/campaign/gates/findings.h"

@@ -1,6 +1,6 @@
-// Limiters, and detectors that keep a distance: the right ones hold, of each wrong one a campaign
-// finds a case, names the claim or the distance as its cause and shrinks it to two or three
-// triangles; the texts tell how much of what was possible was used.
+// Limiters, and detectors that keep a distance. The right ones hold. For each wrong one a campaign
+// finds a case, names the claim or the distance as its cause, and shrinks it to two or three
+// triangles. The texts say how large a part of the possible steps limiters allow.
 
 #include "tests/reports/tiny_campaign.h"
 

@@ -1,5 +1,5 @@
-// Each line to paste that a verb prints or writes carries all of its inputs: pasted into a shell,
-// in another folder too, it comes to the same verdict.
+// Each line to paste that a verb prints or writes contains all of its inputs: pasted into a shell,
+// even in another folder, it gives the same verdict.
 #include <fmt/format.h>
 
 #include "tests/recorded_log.h"

@@ -1,5 +1,5 @@
-// What a verb is asked to write is written whatever the verdict, or refused by one line before any
-// work.
+// If a user asks for an output file, the file is written whatever the verdict is, or is refused by
+// a single line before any work.
 #include <fmt/format.h>
 
 #include "tests/recorded_log.h"

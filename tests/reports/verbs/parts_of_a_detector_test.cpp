@@ -1,4 +1,4 @@
-// Libraries that hold a part of a detector through the program: a broad phase, an elementary query.
+// Libraries with a part of a detector, a broad phase or an elementary query, through the program.
 #include "properties/worker/plugin/query_case.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"

@@ -1,4 +1,4 @@
-// The public data sets through the program: real meshes and every labelled query. Skipped where
+// The public data sets through the program: real meshes, and every labelled query. Skipped if
 // ASSAY_DATA names no folder.
 #include "tests/public_data.h"
 

@@ -1,5 +1,6 @@
-// Larger meshes: a plug-in that is wrong there alone is found by the oracle, one whose answer
-// depends there on the number of threads by running again; lines that replay tell that number.
+// Faults that show only on larger meshes: the oracle finds a plug-in that is wrong there, and a
+// second run finds a plug-in whose answer depends on the number of threads. Lines that replay such
+// a failure state this number.
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"

@@ -1,4 +1,4 @@
-// `assay replay`: by id, by file, with --why and --export.
+// `assay replay`: by id, by file, with --why, and with --export.
 
 #include "corpus/cases/case_file.h"
 #include "properties/campaign/trials/trials.h"

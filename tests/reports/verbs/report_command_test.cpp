@@ -1,4 +1,4 @@
-// `assay report` as a user runs it.
+// `assay report` on the command line.
 #include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/tiny_campaign.h"
 

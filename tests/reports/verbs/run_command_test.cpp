@@ -1,4 +1,4 @@
-// `assay run` through the program, as its user runs it.
+// `assay run` on the command line.
 #include <fmt/format.h>
 
 #include "tests/reports/tiny_campaign.h"

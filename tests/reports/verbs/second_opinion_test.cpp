@@ -1,5 +1,4 @@
-// What looks at the oracle itself, as a user asks for it: the self-test, the second opinion, the
-// referee.
+// Checks of the oracle itself on the command line: the self-test, the second opinion, the referee.
 #include "reports/steps/step_report.h"
 #include "tests/reports/program.h"
 

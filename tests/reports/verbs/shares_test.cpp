@@ -1,5 +1,5 @@
-// `assay verify DIR... --out DIR`: shares of a campaign, each with a certificate that says
-// incomplete, come to the verdict on the whole.
+// `assay verify DIR... --out DIR`: shares of a campaign, whose certificates each say incomplete,
+// are combined into the verdict on the whole campaign.
 #include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/tiny_campaign.h"
 

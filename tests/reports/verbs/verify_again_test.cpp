@@ -1,5 +1,5 @@
-// `assay verify --again`: a certificate that was forged together with its stores verifies, and its
-// trials do not come to what it says.
+// `assay verify --again`: if a certificate is forged together with its stores, plain `verify`
+// passes, but repeated trials contradict the certificate.
 #include <fmt/format.h>
 
 #include "properties/campaign/ledger/record.h"

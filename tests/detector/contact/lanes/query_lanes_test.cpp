@@ -1,5 +1,5 @@
-// Queries in lanes: each instruction set against the plain form, and both against one query after
-// the other.
+// Queries in lanes: each instruction set is compared with the plain form, and both are compared
+// with single queries.
 #include "detector/contact/lanes/query_lanes.h"
 
 #include "detector/contact/contact_pieces.h"

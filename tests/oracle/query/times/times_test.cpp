@@ -1,4 +1,4 @@
-// Zeros as exact numbers.
+// Zeros of polynomials as exact numbers.
 #include "oracle/query/times/times.h"
 
 #include "tests/oracle/random_points.h"
