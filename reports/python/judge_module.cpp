@@ -1,5 +1,5 @@
-// The module assay._judge holds the oracle, `check`, the readers of frames, and plug-ins that are
-// asked by hand.
+// The module assay._judge gives Python the oracle, `check`, the readers of frames, and plug-ins
+// that a script asks directly.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -1,5 +1,5 @@
-// `assay check` judges its input: a mesh, whose steps go through the detector and, unless it is
-// left out, the oracle; a log, whose recorded answers are judged; or query files
+// `assay check` judges its input: a mesh, whose steps the detector answers and, unless --no-oracle
+// is given, the oracle judges; a log, whose recorded answers are judged; or query files
 // (check_queries.cpp).
 #include <fmt/format.h>
 

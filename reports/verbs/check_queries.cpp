@@ -1,6 +1,6 @@
-// `assay check` of query files asks one method labelled vertex-face and edge-edge queries, scores
-// the answers against their truth, and times them one by one. The query of a plug-in may answer
-// instead; then its claims are judged too.
+// `assay check` of query files asks one method the vertex-face and edge-edge queries of the files,
+// scores the answers against the labelled truth, and times each query alone. If a plug-in is named,
+// its query function answers, and its claims are judged too.
 #include <fmt/format.h>
 
 #include <algorithm>

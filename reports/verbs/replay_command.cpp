@@ -1,4 +1,5 @@
-// `assay replay` runs one case again, by its id or from its file, and tells about a pair in it.
+// `assay replay` runs one case again, by its id or from its file, and explains one pair of its
+// triangles.
 #include <fmt/format.h>
 
 #include <algorithm>

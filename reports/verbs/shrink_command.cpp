@@ -1,4 +1,4 @@
-// `assay shrink` looks for the smallest case that fails as this one does.
+// `assay shrink` looks for the smallest case that fails like a given case.
 #include <fmt/format.h>
 
 #include "properties/campaign/phases/phases.h"

@@ -1,5 +1,5 @@
-// Suite `peers`, and `--detector` for one plug-in, compare detectors of others with the built-in
-// one.
+// Suite `peers`, and `--detector` for one plug-in, compare the detectors of others with the
+// built-in detector.
 #include <fmt/format.h>
 
 #include <algorithm>

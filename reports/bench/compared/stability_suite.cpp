@@ -1,5 +1,5 @@
-// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the
-// corpus: at all strengths, and in cases that are changed in ways that must not matter.
+// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the corpus:
+// at all strengths, and after changes of the case that must not change its answer.
 #include <fmt/format.h>
 
 #include <algorithm>
