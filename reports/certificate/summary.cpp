@@ -77,7 +77,7 @@ std::string met_text(const Json& failure) {
 
 std::string failures_text(const Json& p) {
   std::string out =
-      p["failures"].empty() ? "" : "\nPaste the lines that replay in the folder of the run.\n\n";
+      p["failures"].empty() ? "" : "\nPaste the replay lines in the folder of the run.\n\n";
   for (std::size_t i = 0; i < std::min(p["failure_groups"].size(), most_groups_shown); ++i) {
     const auto& group = p["failure_groups"][i];
     out += fmt::format("- {}; the smallest: {}\n", cell(group["what"]), cell(group["smallest"]));

@@ -24,7 +24,7 @@ inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int
   for (std::uint64_t i = 0; i < count; ++i) {
     const int a = std::min(raw[2 * i], raw[2 * i + 1]), b = std::max(raw[2 * i], raw[2 * i + 1]);
     const double lo = times ? times[2 * i] : 0, hi = times ? times[2 * i + 1] : 1;
-    if (a < 0 || a == b || b >= c.triangle_count) return "a pair names no two triangles";
+    if (a < 0 || a == b || b >= c.triangle_count) return "a pair does not name two triangles";
     if (!is_time(lo, hi)) return "the time of a pair is no interval in [0, 1]";
     list.push_back({a, b, lo, hi, -1});
   }
@@ -61,7 +61,7 @@ class Plugin {
 
   // Returns which function the plug-in lacks for this case; empty if none.
   const char* lacking() const {
-    if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no query";
+    if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no function query";
     return api_->create && (api_->evaluate || has_candidates() || has_limit())
                ? ""
                : "it takes no steps";

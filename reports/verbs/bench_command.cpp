@@ -50,7 +50,7 @@ Expected<BenchReport> measure(const BenchRequest& request) {
   BOOST_OUTCOME_TRY(plugin, choose_detector(request.detector, {.seconds = settings.case_seconds}));
   if (!plugin.description.parts.steps)
     return Problem{
-        fmt::format("{}: it holds no steps, and only steps are timed", request.detector.library)};
+        fmt::format("{}: it answers no steps, and only steps are timed", request.detector.library)};
   return detector_suite(settings, plugin, progress);
 }
 

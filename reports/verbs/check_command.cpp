@@ -156,7 +156,7 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
     if (are_logs && !start) kinds[i] = InputKind::log;
     if (kinds[i] == InputKind::answers)
       return Problem{fmt::format(
-          "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
+          "{} is a table of answers, which needs frames: assay check FRAME... --answers {}",
           files[i], shell_word(files[i]))};
     const bool is_alone = kinds[i] == InputKind::case_file;
     if (i > 0 && (kinds[i] != kinds[0] || is_alone))
@@ -309,7 +309,7 @@ Expected<int> run_check(const CheckRequest& request) {
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
       request.option_texts()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
-    return Problem{"--detector is asked again about kept steps: name their folder by --keep"};
+    return Problem{"--detector is asked about kept steps: name a folder for them by --keep"};
   if (const auto& which = request.selection;
       kind == a_log && (which.share < 1 || which.from > 1) &&
       std::ranges::any_of(request.inputs,
@@ -385,14 +385,14 @@ void add_options(CLI::App& verb, CheckRequest& request) {
              from_name<detector::Pairs>, "Which pairs are asked for (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
-  verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
+  verb.add_flag("--no-oracle", question.no_oracle, "Run the detector alone; prints `not judged`");
   add(verb, "--second-opinion SHARE", question.second_opinion,
       "Check the oracle itself by other methods, on this share of its questions")
       ->check(share());
   add(verb, "--separation LENGTH", request.separation,
       "Ask only the oracle: which triangles without a common vertex come within this distance, "
       "when first, and how near any two come. For queries: ask for this distance in place of "
-      "contact, unless a query's rows state one")
+      "contact, unless the query's rows state a distance")
       ->check(length());
   add(verb, "--offset LENGTH", request.offsets,
       "Like --separation, with a length for each --body in order: the distance for two triangles "

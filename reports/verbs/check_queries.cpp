@@ -306,7 +306,7 @@ class QueryPlugin {
   void print() const {
     const auto& [judged, left_out, undecided, not_asked, unused, broken, failures] = found_;
     fmt::print("{}\n{}\n", measures_head(true), measures_row(measures_, true));
-    if (left_out > 0) fmt::print("{} queries are left out by its contract\n", left_out);
+    if (left_out > 0) fmt::print("{} queries are left out by the plug-in's contract\n", left_out);
     if (not_asked > 0)
       fmt::print("{} queries were not asked: the plug-in crashed {} times\n", not_asked, crashes_);
     for (const auto& way : std::span(failures).first(std::min(most_shown, failures.size())))

@@ -104,7 +104,7 @@ std::string remarks_text(const Comparison& comparison, std::span<const AbsentPee
   for (const auto& [name, why] : absent) text += fmt::format("absent: {}: {}\n", name, why);
   for (const auto& one : comparison.unsafe()) {
     if (!one.is_confirmed)
-      text += fmt::format("by the oracle alone: {}, case {}, step {}: {}\n", one.subject,
+      text += fmt::format("unsafe by the oracle alone: {}, case {}, step {}: {}\n", one.subject,
                           one.case_id, one.step + 1, one.defect);
   }
   return text;

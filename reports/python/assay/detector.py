@@ -18,7 +18,7 @@ class State:
 
     def __init__(self, saved: _detector.State):
         if not isinstance(saved, _detector.State):
-            raise TypeError("a state is what Detector.state() gives")
+            raise TypeError("a State comes from Detector.state()")
         self._saved = saved
 
     def __eq__(self, other: object) -> bool:
@@ -144,7 +144,7 @@ def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
     if not (math.isfinite(separation) and separation >= 0):
         raise ValueError("separation: a length is wanted, finite and not below 0")
     if separation > 0 and arithmetic != "exact":
-        raise ValueError("separation: only exact arithmetic answers it")
+        raise ValueError("separation: only exact arithmetic has one")
     return arithmetic, separation
 
 

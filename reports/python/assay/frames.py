@@ -66,9 +66,9 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
         return first
     for file, (part, _) in zip(files, parts):
         if not np.array_equal(part.triangles, first.triangles):
-            raise ValueError(f"{file}: not the triangles of {files[0]}")
+            raise ValueError(f"{file}: its triangles differ from those of {files[0]}")
         if len(part.positions[0]) != len(first.positions[0]):
-            raise ValueError(f"{file}: not as many vertices as {files[0]}")
+            raise ValueError(f"{file}: it has more or fewer vertices than {files[0]}")
     return Frames(first.triangles, [part.positions[0] for part, _ in parts], files)
 
 

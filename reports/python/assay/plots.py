@@ -49,6 +49,6 @@ def _points(outcome: Outcome) -> Tuple[str, List[Tuple[float, Dict[str, Any]]]]:
     # The elementary query of a detector has no steps.
     judged = [s for s in findings["strata"] if s["steps"] and s["measures"] is not None]
     if not judged:
-        raise ValueError("plot: errors are counted only of an own detector that answers steps")
+        raise ValueError("plot: errors are counted only for a detector of yours that answers steps")
     points = [(used[s["family"]] / s["steps"] / 1000, s["measures"]) for s in judged]
     return findings["detector"]["name"], points

@@ -69,7 +69,7 @@ class Outcome:
         from . import _judge
 
         if self.out is None or not self.out.is_dir():
-            raise ValueError("only run() and certify() have strata and failures")
+            raise ValueError("only outcomes of run() and certify() have strata and failures")
         findings: Dict[str, Any] = json.loads(_judge.findings(os.fspath(self.out)))
         return findings
 
