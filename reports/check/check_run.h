@@ -101,7 +101,7 @@ struct CheckQuestion {
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
-  DetectorWords detector;     // its `threads` is not used: see below
+  DetectorWords detector;     // its `threads` is not used; the next member is
   std::uint64_t threads = 0;  // 0: all cores, or 1 for a plug-in
   std::string answers;        // table of answers (GivenAnswers) in place of a detector, or empty
   properties::Adjacency adjacency = properties::Adjacency::all;  // of the answers in the table

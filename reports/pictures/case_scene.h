@@ -45,7 +45,7 @@ struct SceneStep {
   std::optional<detector::StepResult> answer;  // by the detector; nothing if its run broke off
   // How truth and answer differ; nothing if the detector did not run.
   std::optional<properties::StepDiff> diff;
-  properties::CandidatePairs candidates = {};  // only of a plug-in with candidates
+  properties::CandidatePairs candidates = {};  // only of a plug-in that returns candidates
 
   // Returns whether `answer` has view sets to show.
   bool has_views() const { return answer && !answer->doubts.empty(); }
@@ -124,14 +124,14 @@ inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle
 
 class SceneMaker {
  public:
-  // Opens the detector and its worker. `detector` is nullopt for a plug-in whose library is
+  // Opens the detector and its worker process. `detector` is nullopt for a plug-in whose library is
   // not known. If the library is not known or no longer exists, the scenes have everything except
   // the detector's answers.
   explicit SceneMaker(const std::optional<DetectorWords>& detector);
 
   // Returns the scene of a case. The built-in detector runs with the options that the case states;
-  // `configuration` names the configuration. Returns nothing if a coordinate is beyond the
-  // detector's contract.
+  // `configuration` is the name of the configuration that failed. Returns nothing if a coordinate
+  // is beyond the detector's contract.
   std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
 
   // Writes the picture of a case beside its file, as .svg in place of .json. Writes no picture if

@@ -92,7 +92,7 @@ class RowsArgument {
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
   // Takes an argument of a call. Raises TypeError or ValueError, with the argument's name, if
-  // `object` is not such an array.
+  // `object` is not an array of rows of three numbers.
   RowsArgument(const pybind11::object& object, const char* name);
 
   // Returns a view that is valid as long as this object, which holds the array.

@@ -66,7 +66,7 @@ struct Case {
   std::vector<Asked> asked;  // the claims to check for each answer
   double time_tolerance;
   double promised;           // the progress that a limiter claims
-  double unit;               // in the last place of 1, in the detector's number type
+  double unit;               // the unit in the last place of 1, in the detector's number type
   bool takes_displacements;  // in place of end positions
 
   std::size_t coordinates() const { return 3 * static_cast<std::size_t>(vertex_count); }
@@ -193,7 +193,7 @@ inline std::string text_of(const Found& found) {
 }
 
 // Prints the claims that the answer to step s breaks; `again` is the answer of a second call.
-// Returns whether it breaks a claim.
+// Returns whether the answer breaks a claim.
 inline bool is_wrong(const Case& c, std::size_t s, const Found& found, const Found& again) {
   const Step& step = c.steps[s];
   bool wrong = false;

@@ -16,8 +16,8 @@ namespace exported_case {
 
 inline bool is_time(double lo, double hi) { return 0 <= lo && lo <= hi && hi <= 1; }
 
-// Appends the pairs to `list`. Returns how they break the rules of the interface; empty if they
-// keep them.
+// Appends the pairs to `list`. Returns how the pairs break a rule of the interface; empty if they
+// break no rule.
 inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int32_t* raw,
                               const double* times, std::vector<Pair>& list) {
   if (count > 0 && !raw) return "pairs are counted but not given";
@@ -137,7 +137,8 @@ class Plugin {
   }
 
   // Calls candidates(), limit() and evaluate(), in the order in which Assay calls them. Keeps one
-  // error: the error of evaluate(), or else the error of the limit, or else of the candidates.
+  // error: the error of evaluate(), or else the error of limit(), or else the error of
+  // candidates().
   void ask(assay_handle* handle, const Step& step, Found& found) const {
     const double* const x_t0 = case_.frame(step.from);
     const auto way = told(step);
@@ -220,10 +221,9 @@ inline bool ask_elsewhere(const char* library, std::string& text) {
   return child > 0 && waitpid(child, &status, 0) == child && status == 0 && !text.empty();
 }
 
-// Runs the program. Its first argument is the library. A second argument is given only to a process
-// that asks the library for another one: the file descriptor to which it writes the answers.
-// Returns 0 if no claim that is asked is broken, 1 if a claim is broken, and 2 if the library
-// cannot be asked.
+// Runs the program. Its first argument is the library. The process that ask_elsewhere() starts has
+// a second argument: the file descriptor to which it writes the answers. Returns 0 if no claim that
+// is asked is broken, 1 if a claim is broken, and 2 if the library cannot be asked.
 inline int ask_library(const Case& c, const assay_counted_pairs* counted, int argc, char** argv) {
   void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
   void* entry = library ? dlsym(library, "assay_detector") : nullptr;

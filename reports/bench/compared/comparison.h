@@ -280,7 +280,7 @@ struct Match {
 struct ComparisonPlan {
   SweepPlan sweep = {};       // the rounds are those of the families
   double small_seconds = 10;  // processor time for a worker's run of a generated or hard case
-  double large_seconds = 60;  // processor time for its run of a scene or a public sequence
+  double large_seconds = 60;  // processor time for a run of a scene or a public sequence
   int jobs = 1;               // threads of the oracle
   bool is_judged = true;      // false: cases are only played and timed
   // A suite's own work on each case.

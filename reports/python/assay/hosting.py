@@ -65,7 +65,7 @@ def stop_if_imported():
 
 
 def class_of(module, name):
-    """Returns the class. ValueError: the module has none, or first judges a detector."""
+    """Returns the class. ValueError: there is none, or the module judges a detector before it."""
     global _imported
     _imported = module
     try:
@@ -223,7 +223,8 @@ def pairs_of(pairs):
 
 
 def int32_of(numbers, name, dimensions=1):
-    """Returns whole numbers from 0 on as int32, in an array of `dimensions`. ValueError: others."""
+    """Returns whole numbers from 0 on as an int32 array. ValueError: other numbers or dimensions.
+    """
     given = np.asarray(numbers)
     most, are_whole = np.iinfo(np.int32).max, given.dtype.kind in "iu" and given.ndim == dimensions
     if not are_whole or (given.size and not 0 <= given.min() <= given.max() <= most):

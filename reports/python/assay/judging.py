@@ -265,7 +265,7 @@ def check(
     plug-in's library, "python:MODULE:CLASS", or a class, which another process imports by its
     module. culling, start, pairs, arithmetic: for the built-in detector. jobs: threads of the
     oracle. threads: those of the detector; 0: all cores, or 1 for a plug-in. time: seconds. memory
-    ("6GB"), isolation: as on the command line. progress: gets the printed texts; True: to stderr.
+    ("6GB"), isolation: as on the command line. progress: a function for printed text; True: stderr.
     bodies: integers (n,), the body of each vertex, from 0 on. apart: pairs of bodies that do not
     meet, or a body paired with itself. rings: pairs of triangles that a path of fewer edges joins
     do not count (1: those that share a vertex). rest_distance: pairs nearer than this length in the

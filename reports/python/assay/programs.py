@@ -99,7 +99,7 @@ def run(
     """Runs `assay run`: a campaign of random cases.
 
     campaign: "smoke", "quick", ..., or a file. detector: as in check(). out: the folder of the run.
-    progress: gets each printed line; True: stderr does. options: as on the command line, without
+    progress: a function for printed lines; True: stderr. options: as on the command line, without
     the dashes: seed=1, time=60, jobs=2, power="proof", ...
 
     AssayError: the run could not begin, and why. After Ctrl-C the same call continues the run.
@@ -115,9 +115,9 @@ def certify(
     progress: Progress = None,
     **options: Any,
 ) -> Outcome:
-    """Runs `assay certify`: corpus, campaign, planted faults, self-test and speed, like run().
+    """Runs `assay certify`: corpus, campaign, planted faults, self-test and speed.
 
-    The certificate is out/certificate.json.
+    Arguments are as in run(). The certificate is out/certificate.json.
     """
     return _of_campaign("certify", campaign, detector, out, progress, options)
 
