@@ -225,9 +225,9 @@ std::string summary_text(const Json& p, const std::string& begin) {
     out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
                        cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
   if (!p["search"].is_null())
-    out += fmt::format(" The search judged {} cases, {} with a defect; {} causes are archived.",
-                       count(p["search"]["cases"]), count(p["search"]["defects"]),
-                       p["search"]["causes"].size());
+    out += fmt::format(
+        " The search judged {} cases, {} with a defect; {} causes of contact are archived.",
+        count(p["search"]["cases"]), count(p["search"]["defects"]), p["search"]["causes"].size());
   out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
   if (!p["strata"].empty())
     out +=

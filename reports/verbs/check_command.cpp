@@ -350,8 +350,8 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "rest. Or one case file (.json). Or logs of a recorder (assay_record.h, assay.Recorder), "
       "each judged by itself; LOG#N is step N alone. Or query files (.csv, .csv.gz)");
   add(verb, "--body FRAME", question.bodies,
-      "The frames of one of several meshes, which become the bodies of one mesh, numbered from 0. "
-      "A body of one frame stands still");
+      "The frames of one body, for a mesh of several bodies, which are numbered from 0. A body of "
+      "one frame stands still");
   add(verb, "--apart A,B", request.apart,
       "A,B: bodies that do not meet; A,A: a body that does not meet itself")
       ->check(one_of("A,B: two bodies by number", two_numbers));
@@ -368,8 +368,8 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_query_options(verb, request.queries);
   add_detector_alone(verb, question.detector,
                      "A plug-in's library, or python:MODULE:CLASS (default: the built-in). For "
-                     "queries: its query answers. For a log: a plug-in of the same code; it is "
-                     "asked again about the kept steps, to shrink them");
+                     "queries: its query function answers. For a log: a plug-in with the recorded "
+                     "detector's code, to shrink the kept steps");
   add_threads(verb, question.threads);
   add(verb, "--answers FILE", question.answers,
       "Judge the answers of this table (step,answer,time) in place of a detector");

@@ -443,7 +443,7 @@ Expected<void> check_method(const QueryQuestion& task, const std::vector<QuerySe
     for (const auto& method : properties::query_methods()) {
       if (method.knows_distance) others.push_back(method.word);
     }
-    return Problem{fmt::format("{} query {}: --method {} knows no separation; these do: {}",
+    return Problem{fmt::format("{} query {}: --method {} knows no separation; these methods do: {}",
                                task.files[i], asks - sets[i].begin(), task.method->word,
                                join(others, ", "))};
   }

@@ -223,8 +223,7 @@ def pairs_of(pairs):
 
 
 def int32_of(numbers, name, dimensions=1):
-    """Returns whole numbers from 0 on as an int32 array. ValueError: other numbers or dimensions.
-    """
+    """Returns whole numbers from 0 on as an int32 array. ValueError: other numbers or shapes."""
     given = np.asarray(numbers)
     most, are_whole = np.iinfo(np.int32).max, given.dtype.kind in "iu" and given.ndim == dimensions
     if not are_whole or (given.size and not 0 <= given.min() <= given.max() <= most):
