@@ -84,7 +84,7 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   JudgedCounts of[2];  // of peers; of the built-in detector
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
   return text +
-         "answer: a (collision or not), t (first time), p (pairs); each judged by its own contract\n"
+         "answer: a (collision or not), t (first time), p (pairs); each under its own contract\n"
          "time, create: ratio to built-in, exact, bvh on the same steps, median of families\n"
          "(n): not claimed (free-sound); late, early: number of steps, worst as a share of a step\n"
          "slow: cases with a step of more than 5 s, run once; bytes: peak memory for a triangle\n" +
