@@ -1,4 +1,5 @@
-# Writes OUT, a header with the commit that SOURCE is at; a file that says so already is left alone.
+# Writes OUT, a header with the commit of SOURCE. A header that has this commit already is not
+# changed.
 execute_process(COMMAND git rev-parse HEAD WORKING_DIRECTORY ${SOURCE}
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 execute_process(COMMAND git diff --quiet HEAD WORKING_DIRECTORY ${SOURCE}

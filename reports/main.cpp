@@ -142,7 +142,7 @@ int run(const Words& words) {
   // These two only stand in the list of verbs; they are not parsed as verbs.
   for (const auto& [word, about] :
        {std::pair("help", "This list; `assay help VERB` says what a verb does"),
-        {"version", "This version, and those of the libraries that its answers rest on"}})
+        {"version", "The versions of this program and of the libraries behind its answers"}})
     app.add_subcommand(word, about)->group(reports::beside_the_verbs)->disabled();
   if (words.empty()) return reports::refuse("name a verb (assay help lists verbs)");
   const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h"; };

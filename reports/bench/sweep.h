@@ -24,7 +24,7 @@ namespace assay::reports {
 // Returns the processor time of this thread in one run of `work`, in ns. The work of other programs
 // does not count, but their effect on caches and clock rates remains.
 double ns_of(const std::function<void()>& work);
-// Returns the time by the wall clock, for work in several threads.
+// Returns the wall-clock time of one run of `work`, in ns: for work in several threads.
 double wall_ns_of(const std::function<void()>& work);
 
 // The hash FNV-1a, over 64-bit words.
@@ -33,20 +33,20 @@ constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
   return (hash ^ word) * 0x100000001b3u;
 }
 
-// Returns a hash of a result, without the parts that depend on time or, like the counts of marking,
-// on the searches before the step.
+// Returns a hash of a result. The hash leaves out what depends on time, and what depends on
+// searches before the step, such as the counts of marking.
 std::uint64_t result_hash(const detector::StepResult& result);
 
 // The way in which a case is played and timed.
 using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
-// The stages of a detector in this process; a test may replace some.
+// Makes the stages of a detector in this process; a test can replace some of them.
 using MakeStages = std::function<detector::Stages(const detector::Options&)>;
 
 struct SweptSubject {
   properties::WorkerProcess* worker = nullptr;    // null: the built-in detector in this process
-  properties::Configuration configuration;        // is_timed is set
-  MakeStages stages = detector::standard_stages;  // in this process
+  properties::Configuration configuration;        // with is_timed = true
+  MakeStages stages = detector::standard_stages;  // of that detector
 };
 
 struct SweepPlan {
@@ -65,10 +65,10 @@ struct SweepPlan {
 
 // The runs of one case by one subject.
 struct SweptRuns {
-  std::optional<properties::CaseRun> first;   // the one that is judged
+  std::optional<properties::CaseRun> first;   // the run that is judged
   std::vector<properties::RunTimes> samples;  // of each round, without the first run
-  std::string ending;                         // in words, how a run ended that did not complete
-  bool is_once = false;  // the first run is the only one, and stands for every round
+  std::string ending;                         // in words, how the run ended if it did not complete
+  bool is_once = false;  // the first run is the only run, and stands for every round
   bool has_differing_runs = false;
 
   // Return times in ms, one for each round.
@@ -77,11 +77,12 @@ struct SweptRuns {
   std::vector<double> create_ms() const;
 };
 
-// Runs the case rounds + 1 times by each subject, in turn, a whole case each time. The order of
-// subjects is forward, and then forward and backward by turns, so that compared times are measured
-// side by side. The first round is judged and not timed. The times of a worker are those of its own
-// clock, with all of its threads. A subject whose run did not complete is not run again. Throws
-// UnusableData if the detector in this process refuses the mesh, or a step of it is an error.
+// Lets each subject run the whole case `rounds` + 1 times. In each round all subjects run the case
+// once: in the given order in the first round, then in the given and in the reverse order
+// alternately, so that compared times are measured side by side. The first round is judged and not
+// timed. The times of a worker are those of its own clock, with all of its threads. A subject whose
+// run did not complete is not run again. Throws UnusableData if the detector in this process
+// refuses the mesh, or a step of it is an error.
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
                              const SweepPlan& plan);
 
@@ -89,18 +90,18 @@ std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject
 // ratios of interleaved measurements, and quantiles. Rank intervals stand first, then intervals by
 // the bootstrap. All results are deterministic.
 
-// A median with a rank interval. The ends are order statistics of the samples: the closest pair
-// x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more. Whatever the
-// distribution, that probability is 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than six samples
-// cannot reach 95 %: the ends are then the least and the largest sample, which hold the median with
-// probability 1 - 2^(1-n).
+// A median with a rank interval. The ends of the interval are order statistics of the samples: the
+// closest pair x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more.
+// Whatever the distribution, that probability is 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than
+// six samples cannot reach 95 %. The ends are then the least and the largest sample, and the median
+// lies between them with probability 1 - 2^(1-n).
 struct Estimate {
   double value = 0, lo = 0, hi = 0;
   std::vector<double> samples;  // raw, in the order in which they were taken
 };
 
-// Returns the median of samples, which for an even number is the mean of the middle two. REQUIRES
-// samples not empty.
+// Returns the median of the samples: for an even number of samples, the mean of the middle two.
+// REQUIRES samples not empty.
 Estimate median_of(std::vector<double> samples);
 
 // Returns an estimate for a figure that is counted and not sampled.
@@ -116,7 +117,8 @@ Estimate scaled(Estimate estimate, double factor);
 // Returns the k of the rank interval for n samples, 1-based.
 std::size_t rank_of_lower_end(std::size_t n);
 
-// Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples.
+// Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples
+// not empty.
 double quantile(std::vector<double> samples, double share);
 
 // Computes percentile bootstrap intervals of medians (Efron and Tibshirani, "An Introduction to the
@@ -127,8 +129,8 @@ double quantile(std::vector<double> samples, double share);
 // seeded alike for every call. They are narrower than the rank interval if samples are few, and
 // lack its guarantee: with five samples the true coverage is nearer to 85 than to 95 %.
 
-// Returns the median with a bootstrap interval. REQUIRES samples not empty. 2,000 draws: the ends
-// are good to about 1 % of the interval's probability. O(2,000 n).
+// Returns the median with a bootstrap interval. REQUIRES samples not empty. Makes 2,000 draws, so
+// the probability of the interval is right to about 1 %. O(2,000 n).
 Estimate bootstrap_median(std::vector<double> samples);
 
 // Returns the median of the ratios a[i] / b[i] of measurements taken next to each other, with a

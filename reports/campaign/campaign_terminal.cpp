@@ -25,7 +25,7 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
   for (auto& real : real_sequences(BenchSettings{folder}, missing))
     cases.push_back(std::move(real.c));
   if (cases.empty())
-    return Problem{fmt::format("{}: none of the public sequences is there", folder)};
+    return Problem{fmt::format("{}: this folder has none of the public sequences", folder)};
   return cases;
 } catch (const UnusableData& problem) {
   return Problem{problem.what()};
@@ -149,29 +149,29 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
   add(verb, "--campaign NAME|FILE", words.campaign,
       "smoke, quick, nightly, release, or a campaign file (.json)")
       ->capture_default_str();
-  add_seed(verb, words.seed, "Seed of all random cases; use a fresh one each night");
+  add_seed(verb, words.seed, "Seed of all random cases; use a fresh seed each night");
   add(verb, "--time SECONDS", words.time_limit,
       "Seconds by the clock, in place of the campaign's own limit; trials not run by then are "
       "missing")
       ->check(positive())
       ->group(OptionGroup::limits);
   add(verb, "--case-seconds SECONDS", words.case_seconds,
-      "Processor time of one case, in place of the campaign's own (10); beyond it the case is "
-      "undecided")
+      "Limit of processor time for one case, in place of the campaign's own (10); a case that "
+      "takes longer is undecided")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, alone or with K, M or G",
              memory_size,
-             "Address space of the process that runs a case, such as 6GB or 512MB, in place of the "
-             "campaign's own (4GB); beyond it allocations fail")
+             "Limit of address space for the process that runs a case, such as 6GB or 512MB, in "
+             "place of the campaign's own (4GB); allocations beyond the limit fail")
       ->group(OptionGroup::limits);
   add(verb, "--power DIR", words.power,
-      "Folder of a run or certificate of this build that has found the planted faults");
+      "Folder of a run or certificate of this build, in which the planted faults were found");
   add(verb, "--corpus DIR", words.own_cases,
-      "Folder of case files of your own (assay-case/1), judged beside the shipped ones");
+      "Folder of case files of your own (assay-case/1), judged besides the shipped cases");
   add(verb, "--data DIR", words.data,
-      "Folder of the public data: a plug-in that claims to be deterministic is run again and "
-      "again on its sequences too");
+      "Folder of the public data: a plug-in that claims to be deterministic is run several times "
+      "on these sequences too");
   add_detector(verb, words.detector);
   add_part(verb, words.detector.part);
   add_jobs(verb, words.jobs);

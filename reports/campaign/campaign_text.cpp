@@ -133,8 +133,8 @@ std::string faults_text(const RunFindings& findings, const Json& power) {
 std::string search_text(const RunFindings& findings) {
   const auto sum = findings.evidence.sum_of(Source::search);
   if (sum.planned == 0) return "";
-  return fmt::format("search: {} cases, {} with a defect, {} causes in the archives\n", sum.cases,
-                     sum.defects, sum.causes.size());
+  return fmt::format("search: {} cases, {} with a defect, {} causes of contact archived\n",
+                     sum.cases, sum.defects, sum.causes.size());
 }
 
 std::string worlds_text(const RunFindings& findings) {

@@ -26,8 +26,8 @@ std::string verdict_text(const properties::RunFindings& findings,
                          const properties::Judgement& judgement);
 
 // Returns "replay OUT/failures/... --detector LIB.so", the words of a line to paste in any folder.
-// Without `out` they are for the folder of the run, as in certificates and pages, which put "assay"
-// in front.
+// If `out` is empty, the line is to be pasted in the folder of the run; certificates and pages show
+// such words after "assay".
 std::string replay_words(const std::filesystem::path& out, const std::filesystem::path& file,
                          const DetectorWords& detector);
 
@@ -36,19 +36,19 @@ DetectorWords detector_of(const properties::RunFindings& findings);
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run, and a picture (.svg) of the smallest mesh of each signature.
-// `text` gets one paragraph for the signature that was met most often: claim, how often, both
-// sizes, triangles, feature, and the line that replays it. Nine others get a line each: the
-// smallest meshes first, and every broken claim at least once. The rest is one count. `detector` is
-// the detector that failed.
+// Appends to `text` one paragraph about the signature that was met most often: claim, how often,
+// both sizes, triangles, feature, and the line that replays it. At most nine other signatures get a
+// line each, sorted by the size of their meshes, and chosen so that no broken claim is left out.
+// Further signatures are only counted. `detector` is the detector that failed.
 Expected<void> write_failures(const properties::FailureList& failure_list,
                               const std::filesystem::path& out, const DetectorWords& detector,
                               std::string& text);
 
-// The most groups of failures that are shown.
+// The largest number of groups of failures that is shown.
 inline constexpr std::size_t most_groups_shown = 5;
 
-// Returns the groups of failures (properties/campaign/gates/gates.h), a line each with the smallest
-// mesh of each, and how many more there are. Empty if there are fewer than two kinds of failure.
+// Returns the groups of failures (properties/campaign/gates/gates.h), each with its smallest mesh,
+// and how many more failures there are. Empty if there are fewer than two kinds of failure.
 std::string groups_text(const properties::RunFindings& findings,
                         const nlohmann::ordered_json& predicate);
 
@@ -57,8 +57,8 @@ std::string groups_text(const properties::RunFindings& findings,
 std::string failures_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 
-// Returns the trials without a verdict, then the slowest of the others, each with its processor
-// time and the line that replays it.
+// Returns the trials without a verdict, then the slowest of the other trials, each with its
+// processor time and the line that replays it.
 std::string slow_trials_text(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

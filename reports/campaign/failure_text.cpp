@@ -184,7 +184,7 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
                         properties::times_text(times));
   if (!kinds.empty())
     text += fmt::format(
-        "each with the line that replays it: {}\n",
+        "all of them, each with the line that replays it: {}\n",
         line_to_paste("list failures " + shell_word(out.string()), PastePlace::this_folder));
   return outcome::success();
 }
@@ -229,7 +229,7 @@ std::string slow_trials_text(const properties::RunFindings& findings) {
                            : fmt::format("{}", tally.undecided.size()),
                        findings.run.plan.case_seconds);
   for (const auto& trial : tally.undecided) out += trial_text(findings, trial, "no verdict");
-  out += "the slowest of the others:\n";
+  out += "the slowest other trials:\n";
   for (const auto& trial : tally.slowest)
     out += trial_text(findings, trial,
                       fmt::format("{:.3g} s", 1e-6 * static_cast<double>(trial.slowest_us)));

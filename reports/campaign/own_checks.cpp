@@ -142,7 +142,7 @@ class CorpusCheck {
     if (!contracted_case) return;  // the case is beyond the contract
     if (hung_ >= most_hung_cases) {
       for (auto& row : rows)
-        row.open.push_back({id, "", fmt::format("not run: it hung in {} cases before", hung_)});
+        row.open.push_back({id, "", fmt::format("not run: {} cases hung before", hung_)});
       return;
     }
     const auto& configurations = request_.detector.configurations;
@@ -300,7 +300,7 @@ Expected<std::filesystem::path> shipped_corpus() {
   };
   if (const char* variable = std::getenv("ASSAY_CORPUS"); variable && *variable) {
     if (is_corpus(variable)) return fs::path(variable);
-    return Problem{fmt::format("ASSAY_CORPUS is {}: it holds no curated/", variable)};
+    return Problem{fmt::format("ASSAY_CORPUS is {}: this folder has no curated/", variable)};
   }
   const auto programs = properties::program_folder();
   // Installed, then as it was built.
@@ -308,7 +308,7 @@ Expected<std::filesystem::path> shipped_corpus() {
     const auto folder = (place / "assay" / "corpus").lexically_normal();
     if (is_corpus(folder)) return folder;
   }
-  return Problem{fmt::format("the shipped corpus is not at {}; ASSAY_CORPUS names its folder",
+  return Problem{fmt::format("the shipped corpus is not at {}; set ASSAY_CORPUS to its folder",
                              (programs / "../share/assay/corpus").lexically_normal().string())};
 }
 

@@ -64,13 +64,13 @@ Expected<Copies> copies_of(const std::vector<std::string>& folders, const std::s
       const auto difference =
           properties::difference_of(binding, store.binding(), properties::Runs::judged_together);
       if (!difference.empty())
-        return Problem{fmt::format("{}: this run and those before cannot be judged together: {}",
+        return Problem{fmt::format("{}: this run does not go together with the runs before: {}",
                                    file.string(), difference)};
       const auto [copy, is_new] =
           copies.emplace(properties::copied_store_file(out, run.seed), file);
       if (!is_new)
         return Problem{
-            fmt::format("{} and {}: both are of seed {}, and its trials would count twice",
+            fmt::format("{} and {}: both runs have seed {}, and its trials would count twice",
                         copy->second.string(), file.string(), run.seed)};
     }
   }
@@ -152,7 +152,7 @@ Expected<int> issue_certificate(const properties::RunFindings& findings,
   BOOST_OUTCOME_TRY(statement, make_statement(findings));
   const auto& predicate = statement["predicate"];
   if (predicate["digests"]["campaign"] != corpus::sha256_of(campaign_text))
-    return Problem{fmt::format("{}: was changed while this run was at work",
+    return Problem{fmt::format("{}: this file was changed during the run",
                                properties::campaign_file(findings.folder).string())};
   const auto certificate = properties::certificate_file(findings.folder).string();
   BOOST_OUTCOME_TRY(write_text_file(certificate, statement_text(statement)));

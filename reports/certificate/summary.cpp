@@ -77,7 +77,7 @@ std::string met_text(const Json& failure) {
 
 std::string failures_text(const Json& p) {
   std::string out =
-      p["failures"].empty() ? "" : "\nPaste the lines that replay in the folder of the run.\n\n";
+      p["failures"].empty() ? "" : "\nPaste the replay lines in the folder of the run.\n\n";
   for (std::size_t i = 0; i < std::min(p["failure_groups"].size(), most_groups_shown); ++i) {
     const auto& group = p["failure_groups"][i];
     out += fmt::format("- {}; the smallest: {}\n", cell(group["what"]), cell(group["smallest"]));
@@ -225,9 +225,9 @@ std::string summary_text(const Json& p, const std::string& begin) {
     out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
                        cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
   if (!p["search"].is_null())
-    out += fmt::format(" The search judged {} cases, {} with a defect; {} causes are archived.",
-                       count(p["search"]["cases"]), count(p["search"]["defects"]),
-                       p["search"]["causes"].size());
+    out += fmt::format(
+        " The search judged {} cases, {} with a defect; {} causes of contact are archived.",
+        count(p["search"]["cases"]), count(p["search"]["defects"]), p["search"]["causes"].size());
   out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
   if (!p["strata"].empty())
     out +=

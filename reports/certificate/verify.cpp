@@ -37,7 +37,7 @@ void compare_fields(const Json& theirs, const Json& ours, Lines& lines) {
     lines.push_back(fmt::format(
         "{}: {}, {}", place,
         change["op"] == "remove" ? "is not stated" : short_text(change["value"]) + " is stated",
-        change["op"] == "add" ? "nothing of it is stored"
+        change["op"] == "add" ? "no value is stored"
                               : short_text(ours[Json::json_pointer(place)]) + " is computed"));
   }
 }
@@ -53,7 +53,7 @@ void compare_file(const std::filesystem::path& file, const std::string& sha256, 
   if (!digest) {
     lines.push_back(digest.error().message);
   } else if (digest.value() != sha256) {
-    lines.push_back(fmt::format("{}: its bytes are not those that were certified", file.string()));
+    lines.push_back(fmt::format("{}: its bytes differ from the certified bytes", file.string()));
   }
 }
 
@@ -80,10 +80,9 @@ Expected<Json> read_certificate(const std::filesystem::path& certificate) {
   if (!statement.is_object())
     return Problem{fmt::format("{}: is no JSON object", certificate.string())};
   if (const auto older = other_schema(statement))
-    return Problem{
-        fmt::format("{}: of schema {}, this assay verifies {}: verify it with the assay "
-                    "that issued it",
-                    certificate.string(), *older, certificate_schema)};
+    return Problem{fmt::format(
+        "{}: of schema {}, this assay verifies {}: use the assay that issued the certificate",
+        certificate.string(), *older, certificate_schema)};
   return std::move(statement);
 }
 
@@ -145,19 +144,18 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   files = properties::JudgedLibrary::of(library, properties::worker_program());
   BOOST_OUTCOME_TRY(digest, files->digest());
   if (digest != run.digests.plugin)
-    return Problem{
-        fmt::format("{}: not the library that was certified: its SHA-256 is {}, {} is "
-                    "certified",
-                    library, digest, run.digests.plugin.value_or("none"))};
+    return Problem{fmt::format(
+        "{}: not the library that was certified: its SHA-256 is {}, the certified SHA-256 is {}",
+        library, digest, run.digests.plugin.value_or("none"))};
   return library;
 }
 
 // Returns why this build cannot make the trials again. Empty if it can.
 std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours) {
   if (certified.digests.generator != ours.digests.generator)
-    return "the generator of this assay makes other cases than that of the certificate";
+    return "the generator of this assay makes other cases than the generator of the certificate";
   if (certified.detector.built_in && certified.digests.worker != ours.digests.worker)
-    return "the built-in detector of this assay is not that of the certificate";
+    return "the built-in detector of this assay is not the built-in detector of the certificate";
   if (json_of(certified.detector) != json_of(ours.detector))
     return "the detector's claims, contract or configurations differ from the certified ones";
   return "";
@@ -177,14 +175,15 @@ std::string sent_alone(const std::filesystem::path& certificate) {
   if (!statement) return "";
   if (const auto schema = statement.value().find("schema"); schema != statement.value().end())
     return fmt::format(
-        "{}: of schema {}, no certificate and no run; assay report shows folders of assay run and "
-        "assay certify; assay check --keep DIR writes DIR/page.html about a check that fails",
+        "{}: of schema {}, neither a certificate nor a run; assay report shows folders of assay "
+        "run and assay certify; assay check --keep DIR writes DIR/page.html about a check that "
+        "fails",
         certificate.string(), schema->dump());
   return properties::stored_runs(folder_of(certificate)).has_value()
              ? ""
              : fmt::format(
-                   "{}: the stores that it rests on (*.sqlite) are not beside it: ask its issuer "
-                   "for the whole folder",
+                   "{}: the stores of this certificate (*.sqlite) are not beside it: ask its "
+                   "issuer for the whole folder",
                    certificate.string());
 }
 

@@ -86,7 +86,7 @@ std::string CheckOutcome::summary() const {
     text += claims_text(held_claims, not_judged);
   }
   for (const auto& [claim, reason] : not_judged)
-    text += fmt::format("not judged: {}, for {}\n", claim, reason);
+    text += fmt::format("not judged: {}, because {}\n", claim, reason);
   return text + measures_sentence(measures);
 }
 

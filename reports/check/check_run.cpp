@@ -136,14 +136,14 @@ class CheckRun {
     for (Eigen::Index i = 0; i < triangles.size(); ++i)
       is_used[properties::at(triangles.data()[i])] = 1;
     const auto loose = std::count(is_used.begin(), is_used.end(), 0);
-    return loose == 0 ? "" : fmt::format(" ({} of no triangle)", loose);
+    return loose == 0 ? "" : fmt::format(" ({} in no triangle)", loose);
   }
 
   // Lets the detector begin. Returns whether there are steps to go through.
   bool begin() {
     const auto verdict = answers_.begin();
     if (verdict.disturbances > 0)
-      say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
+      say(fmt::format("the detector's process was killed from outside and restarted {} times\n",
                       verdict.disturbances));
     if (answers_.is_plugin() && !answers_.is_recorded())
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n",
@@ -222,7 +222,7 @@ class CheckRun {
     const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
     if (is_new || question_.shows_all_steps)
       say(fmt::format("step {}: left out: {}{}\n", number + 1, *why,
-                      question_.shows_all_steps ? "" : "; others like it are only counted"));
+                      question_.shows_all_steps ? "" : "; more such steps are only counted"));
     return nlohmann::ordered_json{{"step", number + 1}, {"left_out", *why}};
   }
 
@@ -353,7 +353,7 @@ class CheckRun {
     // The box of each component is compared with each other box.
     constexpr std::size_t most_components = 1000;
     if (bodies_.empty() && mesh_.components.size() > most_components)
-      return say("  not looked for: components inside other ones, because there are over 1,000\n");
+      return say("  nested components are not looked for: there are over 1,000 components\n");
     nested_ = nested_bodies(
         step.x_t0, mesh_, bodies_.empty() ? component_by_vertex() : steps_.counted()->body, pairs);
     if (bodies_.empty()) nested_ = innermost(*nested_);
@@ -369,7 +369,7 @@ class CheckRun {
                       name((*nested_)[i].inner), name((*nested_)[i].outer),
                       is_at_rest_ ? "" : " during this step"));
     if (nested_->size() > most_told)
-      say(fmt::format("  ... {} more inside of others\n", nested_->size() - most_told));
+      say(fmt::format("  ... {} more lie inside others\n", nested_->size() - most_told));
   }
 
   // Keeps the mesh at the first contact of all, or else at its end.
@@ -446,7 +446,7 @@ class CheckRun {
     const std::string stage =
         properties::stage_that_lost(steps_.triangles(), step.x_t0, step.x_t1, missing_pair.pair,
                                     answers_.under_test().configurations.front().options);
-    say(fmt::format("  triangles {} and {}{} were lost at: {}\n", missing_pair.pair.a,
+    say(fmt::format("  the pair of triangles {} and {}{} was lost at: {}\n", missing_pair.pair.a,
                     missing_pair.pair.b, bodies_.text(missing_pair.pair), stage));
   }
 

@@ -1,5 +1,5 @@
-// Runs `check` on one mesh, for every caller: each step goes through the detector and, unless left
-// out, the oracle, and the two are compared.
+// Runs `check` on one mesh, for the command line and for Python. The detector and, unless it is
+// left out, the oracle answer each step, and their answers are compared.
 #pragma once
 
 #include <array>
@@ -38,10 +38,11 @@ struct CheckOutcome {
   std::string rest;       // for a mesh at rest: the bodies that meet; empty if unknown
   std::string unwritten;  // why a requested file was not written
   std::vector<std::string> asked_again;  // the answers of a plug-in about kept steps
-  std::vector<std::string> losses;       // of the input
-  std::map<properties::Claim, std::uint64_t> first_broken;  // by claim: the step, from 0
+  std::vector<std::string> losses;       // descriptions of lost parts of the input
+  // By claim: the first step that breaks it, from 0.
+  std::map<properties::Claim, std::uint64_t> first_broken;
   std::optional<std::uint64_t>
-      first_missed;  // the first step with a contact that was answered free, whatever is claimed
+      first_missed;  // the first step that has a contact and was answered free, whatever is claimed
   std::size_t judged_steps = 0;
   // Only for a plug-in: the claims that hold, the claims that were not judged, and measures that do
   // not depend on claims.
@@ -78,11 +79,11 @@ nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const StepAnswers& answers,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);
 
-// Takes frames of one mesh, which are read when their steps are reached, or reads one case file.
-// Fails if the options of the case are not understood. REQUIRES a file.
+// Opens frames of one mesh, which are read only when their steps are reached, or reads one case
+// file. Fails if the options of the case are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
-// Reads several meshes as bodies of one, or frames in which not all pairs count; `rest` has all of
-// the input but the files. REQUIRES a file of each body.
+// Reads several meshes as bodies of one mesh, or frames in which not all pairs count. `rest` states
+// everything about the input except the files. REQUIRES at least one file for each body.
 using BodyWords = std::vector<std::vector<std::string>>;
 corpus::Expected<CheckInput> read_bodies(const BodyWords& bodies, corpus::BodyFiles rest);
 
@@ -100,7 +101,7 @@ struct CheckQuestion {
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
-  DetectorWords detector;     // `threads` below counts in place of its own
+  DetectorWords detector;     // its `threads` is not used; the next member is
   std::uint64_t threads = 0;  // 0: all cores, or 1 for a plug-in
   std::string answers;        // table of answers (GivenAnswers) in place of a detector, or empty
   properties::Adjacency adjacency = properties::Adjacency::all;  // of the answers in the table
@@ -112,12 +113,13 @@ struct CheckQuestion {
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool wants_report = false;                  // without it no report is built, which saves memory
   std::string announced_file;                 // the file of the report, to be named to the user
-  std::string ply_file;         // file for the mesh with its contacts marked; empty: no file
-  std::string again;            // the line to paste that asks this again; empty if there is none
+  std::string ply_file;  // file for the mesh with its contacts marked; empty: no file
+  // The line to paste that repeats this check; empty if there is no line.
+  std::string again;
   bool shows_all_steps = true;  // false: only steps that are not as claimed
-  // If set, only the oracle is asked, for this distance (check_separation), and no detector. Of the
-  // other members, only files, jobs, limits and the report are then used. REQUIRES as many offsets
-  // as bodies, or no offsets.
+  // If set, no detector runs, and the oracle alone is asked about this distance (check_separation).
+  // Of the other members, only files, jobs, limits and the report are then used. REQUIRES as many
+  // offsets as bodies, or no offsets.
   std::optional<AskedDistance> distance;
 };
 
@@ -140,35 +142,35 @@ struct CheckListener {
 
 struct CheckAnswer {
   CheckOutcome outcome;
-  nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
+  nlohmann::ordered_json report;  // schema assay-check/1; null if not wanted
 };
 
-// Checks one mesh. `input` cannot be used again; for a plug-in its steps become those that the
-// contract takes. If a frame's file is refused on the way, `listener` was told of all steps before
-// that frame. `worker` is the program assay-worker, for a plug-in. If the input has recorded
-// answers, these are judged, and no detector runs here.
+// Checks one mesh. `input` is used up; for a plug-in, its steps become the steps that the contract
+// takes. If the file of a later frame is refused, `listener` has been told of all steps before that
+// frame. `worker` is the program assay-worker, for a plug-in. If the input has recorded answers,
+// these are judged, and no detector runs here.
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);
 
 // Asks the oracle whether triangles that share no vertex come within question.distance, which ones,
 // when first, and how near any two come. The outcome's collision is the first step in which a pair
-// comes within it. REQUIRES a question with a distance.
+// comes within that distance. REQUIRES a question with a distance.
 Expected<CheckAnswer> check_separation(const CheckQuestion& question, CheckInput& input,
                                        const CheckListener& listener);
 
-// Keeps failing steps: for each the part of the mesh that shows the failure, as files that other
-// programs read (steps/case_export.h).
+// Keeps failing steps: writes, for each of them, the part of the mesh that shows the failure, as
+// files for other programs (steps/case_export.h).
 
 // Where failing steps are kept, and how long they are shrunk.
 struct Keeping {
   std::string folder;          // step N, from 1, goes into FOLDER/step-N; empty: nothing is kept
-  std::string origin;          // the input, for people
+  std::string origin;          // names the input for people
   double shrink_seconds = 20;  // for each step on which the plug-in fails again
 };
 
-// Checks one mesh (check_run.h) and keeps failing steps. If the question names a plug-in, it is
-// asked about each failing step alone, and the steps on which it fails are shrunk. For a log, the
+// Calls check_mesh, and keeps failing steps. If the question names a plug-in, the plug-in is asked
+// about each failing step alone, and the steps on which it fails again are shrunk. For a log, the
 // plug-in should have the code of the recorded detector.
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);

@@ -143,8 +143,8 @@ std::string KeptFailures::keep(const StepFailure& event) {
         properties::BodyNames(event.source.counted(), event.source.triangles()).text(*failure.pair);
   const std::string again = again_(event.number + 1);
   if (counts_[failure.signature()]++ >= most_of_a_kind)
-    return fmt::format("  not kept, because {} of its kind are: {}\n  again: {}\n", most_of_a_kind,
-                       failure.signature(), again);
+    return fmt::format("  not kept, because {} failures of its kind are kept: {}\n  again: {}\n",
+                       most_of_a_kind, failure.signature(), again);
   const auto text = write_step(event, failure, again);
   if (text) return text.value();
   if (unwritten_.empty()) unwritten_ = text.error().message;
@@ -262,7 +262,7 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) 
   if (!*entry.reproduced) {
     entry.reply =
         "not reproduced: asked about this step alone, in a new process, the detector does not "
-        "fail; the failure may need earlier work of the process";
+        "fail; the failure possibly depends on earlier work of the process";
     return outcome::success();
   }
   constexpr std::uint64_t most_calls = 100'000;

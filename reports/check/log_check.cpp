@@ -107,7 +107,7 @@ class RecordedSteps : public corpus::StepSource {
     }
     if (!(asks_answers_ && now_.answer) && !(asks_limits_ && now_.limit)) {
       ++unanswered_;
-      why_left_out_ = "no recorded answer is about its claims";
+      why_left_out_ = "no recorded answer is about the detector's claims";
       return corpus::SourceStep{now_.x_t0, now_.x_t1};
     }
     const auto* rest = contract_.rest_distance > 0 ? &first_frame() : nullptr;
@@ -282,7 +282,7 @@ Expected<CheckInput> read_log(const LogName& name, LogSelection selection) {
   const auto& detector = recorded.subject.detector;
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
-        "{}: under the contract of its detector no claim can be judged by a log", name.file)};
+        "{}: under the contract of its detector no claim can be judged from a log", name.file)};
   if (selection.step && !selection.follow && !log.place_of(*selection.step))
     return Problem{
         fmt::format("{}: there is no whole record of step {}", name.file, *selection.step + 1)};

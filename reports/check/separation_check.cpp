@@ -72,7 +72,7 @@ std::string text_of(const StepNaming& naming, const StepDistance& step) {
     out += fmt::format("  least distance {}: {}\n", step.least.distance,
                        naming.contact(*step.least.where));
   } else if (step.least.complete) {
-    out += "  least distance: none, because no pair counts, or all are beyond the largest double\n";
+    out += "  least distance: none: no pair counts, or all distances exceed the largest double\n";
   }
   return out + fmt::format("  ms:   oracle {:.1f}; {} feature candidates\n", step.milliseconds,
                            step.near.feature_candidates);

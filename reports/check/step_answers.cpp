@@ -169,7 +169,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
         "{}: under its contract no claim can be judged; there is nothing to check", library)};
   auto contracted_case = properties::contract_case(*input.steps->whole(), detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: no step of it is within the contract of {}: {}", input.file,
+    return Problem{fmt::format("{}: none of its steps is within the contract of {}: {}", input.file,
                                plugin.description.name,
                                properties::why_left_out(*input.steps->whole(), detector.contract))};
   }

@@ -18,9 +18,9 @@
 
 namespace assay::reports {
 
-// The detector that `check` judges, and its answers to the steps. The built-in one answers in this
-// process, step by step; a plug-in answers in a worker, all steps at once; the answers of a log are
-// read (GivenAnswers).
+// The detector that `check` judges, and its answers to the steps. The built-in detector answers in
+// this process, step by step. A plug-in answers in a worker, all steps at once. The answers of a
+// log are read (GivenAnswers).
 class StepAnswers {
  public:
   virtual ~StepAnswers() = default;
@@ -39,7 +39,7 @@ class StepAnswers {
   // for in order, each once.
   virtual void ask(std::size_t s, const corpus::SourceStep& step,
                    const detector::StopFunction& stop) = 0;
-  // Returns the answer to step s, once it was asked for.
+  // Returns the answer to step s. REQUIRES that ask() was called for this step.
   detector::StepResult& result(std::size_t s) { return run_.steps[place_of(s)]; }
   // Returns why a step ended with an error.
   std::string error_of(std::size_t s) const {
@@ -52,27 +52,29 @@ class StepAnswers {
   bool is_plugin() const { return !under_test().built_in; }
   // Returns whether the answers were recorded, so that no detector runs here.
   virtual bool is_recorded() const { return false; }
-  // Returns why the step that was read last is not judged: empty if it was not chosen, nothing if
-  // it is judged. Is called once, before the step's answer is asked for.
+  // Returns why the step that was read last is not judged, nullopt if it is judged, and an empty
+  // text if it was not chosen. Is called once, before the step's answer is asked for.
   virtual std::optional<std::string> left_out() { return std::nullopt; }
-  // Returns claims of the detector that this kind of input cannot show, and why. These are not
-  // among those of under_test().
+  // Returns claims of the detector that this kind of input cannot show, and why. under_test() does
+  // not list these claims.
   virtual std::vector<properties::NotJudged> beyond_reach() const { return {}; }
-  // Returns the detector, with its claims on steps alone.
+  // Returns the detector. Its claims are only the claims about steps.
   const properties::DetectorUnderTest& under_test() const { return subject_.detector; }
   // Returns whether the detector is judged by its claims. If not, it must agree with the oracle in
   // every bit.
   bool judged_by_claims() const {
     return is_plugin() || !under_test().claims.has(properties::Claim::times_unique);
   }
-  // Returns whether the steps have answers. A library of candidates or limits alone has none.
+  // Returns whether the steps have answers. A library that gives only candidates or limits has no
+  // answers.
   bool has_answers() const { return subject_.description.parts.steps; }
   // Returns how many steps of the input the contract leaves out.
   std::size_t steps_left_out() const { return steps_left_out_; }
-  // Returns the milliseconds of preprocessing; nothing for a plug-in, which does it in a process of
-  // its own.
+  // Returns the milliseconds of preprocessing; nullopt for a plug-in, which is prepared in a
+  // process of its own.
   std::optional<double> create_ms() const { return create_ms_; }
-  // Returns the run: for a plug-in over all steps, for others over the step asked for last.
+  // Returns the run of the detector: for a plug-in over all steps, for other detectors over the
+  // last step that was asked for.
   const properties::CaseRun& run() const { return run_; }
   // Returns the place of step s in run().
   std::size_t place_of(std::size_t s) const { return s - first_of_run_; }
@@ -112,7 +114,7 @@ class GivenAnswers : public StepAnswers {
   GivenAnswers(properties::Subject subject, const corpus::StepSource& steps)
       : StepAnswers(std::move(subject)), triangles_(steps.triangles()) {}
 
-  // Reads the answer with the same distrust as that of a plug-in.
+  // Checks the answer as if a plug-in had given it, and stores it as the answer of the step.
   void take(const std::optional<corpus::LoggedAnswer>& logged);
   void take_error(const std::string& text);
 
@@ -132,8 +134,9 @@ struct CheckInput {
   std::unique_ptr<StepAnswers> recorded = nullptr;
 };
 
-// The options of the built-in detector that the user states. The others are those of the case, or
-// else the defaults, with Culling::bvh for a mesh at rest.
+// The options of the built-in detector that the user states. Options that the user does not state
+// come from the case, or else are the defaults; the default culling for a mesh at rest is
+// Culling::bvh.
 struct BuiltInChoice {
   std::optional<detector::Culling> culling;
   std::optional<detector::Start> start;
@@ -142,20 +145,20 @@ struct BuiltInChoice {
   std::uint32_t threads = 1;  // 0: all cores
 };
 
-// Makes the built-in detector. If `limits` stop that, each of its steps is undecided.
+// Makes the built-in detector. If a limit is reached while it is made, each step is undecided.
 Expected<std::unique_ptr<StepAnswers>> answers_of_built_in(const BuiltInChoice& choice,
                                                            const CheckInput& input, Limits& limits);
-// Runs a plug-in under its own limits of time and memory. The steps of `input` become those that
-// the plug-in's contract takes, with coordinates rounded if it says so. REQUIRES a whole case,
-// because the worker gets all of it at once.
+// Runs a plug-in under its own limits of time and memory. The steps of `input` become the steps
+// that the plug-in's contract takes, with coordinates rounded if the contract says so. REQUIRES a
+// whole case, because the worker gets all of it at once.
 Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plugin,
                                                          CheckInput& input);
 
 // Reads answers to the steps of `input` from a table FILE.csv with the columns step (from 1),
-// answer (free, collision, undecided or error) and time (of contact; may be empty). The claims are
-// that no step with a contact is called free, and that no contact begins before a given time. Rows
-// are in any order; steps without a row are left out. Fails if the file is no such table, or names
-// a step twice.
+// answer (free, collision, undecided or error) and time (of contact; may be empty). The table is
+// judged by two claims: no step with a contact is called free, and no contact begins before a given
+// time. Rows are in any order; steps without a row are left out. Fails if the file has no such
+// columns, or names a step twice.
 Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
                                                         const CheckInput& input,
                                                         properties::Adjacency adjacency);
@@ -167,7 +170,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
 struct LogSelection {
   double share = 1;                   // in (0, 1]; the numbers of the steps alone decide which
   std::uint64_t from = 1;             // steps before this one, from 1, are not judged
-  std::optional<std::uint64_t> step;  // only this one
+  std::optional<std::uint64_t> step;  // only this step is judged; counted from 0
   bool follow = false;                // wait for steps until the recorder ends the log
 };
 

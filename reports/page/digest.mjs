@@ -1,4 +1,5 @@
-// Computes the digest of the page's sources. dist/page.html records it, and tests compare.
+// Computes the digest of the page's sources. dist/page.html records the digest, and a test
+// compares.
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";

@@ -1,5 +1,5 @@
-// Makes TypeScript types of a JSON Schema, so that the page has every field of a certificate by the
-// name and the type that the schema gives it. usage: node types.mjs SCHEMA OUT
+// Makes TypeScript types from a JSON Schema, so that the page uses every field of a certificate
+// with the name and the type that the schema states. usage: node types.mjs SCHEMA OUT
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
 

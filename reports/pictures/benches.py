@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Draws what `assay bench --json` wrote, as SVG.
+"""Draws the figures of `assay bench --json` as SVG.
 
 usage: benches.py FILE.json OUT.svg
 
-Suites speed-error and peers: speed against error, a point for each subject with its intervals, unsafe
-steps at the left and false alarms at the right. Suite stability: a cell for each hard family and
-arithmetic, with the share of cases that are answered right. The same figures give the same bytes.
+Suites speed-error and peers: speed against error, a point with intervals for each subject; unsafe
+steps at the left, false alarms at the right. Suite stability: for each hard family and arithmetic a
+cell with the share of right answers. The same figures give the same bytes.
 """
 import json
 import math
@@ -52,7 +52,7 @@ def mark(x, y, shape, colour, hollow):
 
 
 class Panel:
-    """Times on a scale of logarithms against percents on one that has 0 and shows small shares."""
+    """Times on a logarithmic scale, and percents on a scale that has 0 and shows small shares."""
     TOP, HEIGHT = 40, 360
 
     def __init__(self, left, width, times, most):
@@ -96,8 +96,9 @@ class Panel:
 
 
 def looks_of(subjects, of_peers):
-    """By subject: shape, colour, hollow. Exact arithmetic is hollow, because it has no error and would
-    hide bounded arithmetic; and so is a detector that does not promise to miss nothing."""
+    """Returns shape, colour and hollowness of each subject's mark. Marks are hollow for exact
+    arithmetic, so that it does not hide bounded arithmetic, and for a detector that does not claim
+    free-sound."""
     looks = {}
     for place, subject in enumerate(subjects):
         if not of_peers:
@@ -150,7 +151,7 @@ def speed_against_error(report):
 
 
 def heat(report):
-    """Dark is never right, light is always right, so that cells differ by lightness alone."""
+    """Draws a cell for each family and arithmetic: dark if nothing is right, light if all is."""
     sums = {}
     for cell in report["heat"]:
         one = sums.setdefault((cell["family"], cell["arithmetic"]), [0, 0, 0])

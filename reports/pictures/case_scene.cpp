@@ -195,7 +195,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   const properties::Exam exam{detector, {&configuration, 1}, worker};
   properties::CaseResults results;
   results.c = std::move(*contracted_case);
-  results.runs = {{RunEnd::not_run, "the detector is not at hand", {}}};
+  results.runs = {{RunEnd::not_run, "the detector is not available", {}}};
   if (worker) run_first(exam, results);
   judge(exam, results);
   scene.c = std::move(results.c);

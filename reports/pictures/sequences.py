@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Times whole sequences by culling auto and by bvh, for the top README.
+"""Times whole sequences with culling auto and with culling bvh, for the top README.
 
 usage: sequences.py ASSAY OUT.svg [--data DIR] [--scenes NAME...] [--rounds N]
 
-Each scene has 19 steps and about 20,000 triangles; where contacts grow with the square of the
-triangles it has fewer. Both cullings go through a sequence in turn, N times, in one thread, in
-exact arithmetic and with all pairs. A step counts with the least time that it took, because other
-work of the machine only adds time. It prints a line for each sequence; OUT.svg is the chart.
+Each scene has 19 steps. It has about 20,000 triangles, or fewer if its contacts grow with the
+square of the triangles. Both cullings go through a sequence in turn, N times, in one thread, in
+exact arithmetic and with all pairs. The time of a step is the least of its N times, because other
+work of the machine only adds time. Prints a line for each sequence. OUT.svg is the chart.
 """
 import argparse
 import json
@@ -31,7 +31,7 @@ text { fill: #e6edf3 } .bar { fill: #56b4e9 } .line { stroke: #9da7b1 } }"""
 
 
 def step_times(assay, frames, culling, folder):
-    """Milliseconds of each step, and the number of triangles."""
+    """Returns the milliseconds of each step, and the number of triangles."""
     report = folder / "report.json"
     subprocess.run([assay, "check", "--no-oracle", "--threads", "1", "--culling", culling,
                     "--json", report, *frames], check=True, stdout=subprocess.DEVNULL)
@@ -57,7 +57,7 @@ class Sequence:
 
 
 def chart(sequences):
-    """Bars from 1, on a scale of logarithms."""
+    """Draws bars that begin at 1, on a logarithmic scale."""
     most = max(100.0, *(s.faster for s in sequences))
     least = min(0.8, *(s.faster for s in sequences))
 

@@ -15,8 +15,8 @@ BUILD = SOURCES / "build" / "release"
 
 
 class BuildPy(build_py):
-    """The package, and in it modules, the plug-in that serves detectors in Python, programs and
-    what these read."""
+    """Builds the package with its modules, the plug-in that serves detectors in Python, the
+    programs, and the files that these read."""
 
     def run(self):
         super().run()
@@ -39,7 +39,7 @@ class BuildPy(build_py):
 
 
 class EggInfo(egg_info):
-    """Nothing is written beside the sources."""
+    """Keeps its files in build, so that nothing is written beside the sources."""
 
     def finalize_options(self):
         if self.egg_base is None:
@@ -49,7 +49,7 @@ class EggInfo(egg_info):
 
 
 class BdistWheel(bdist_wheel):
-    """It holds what was compiled, for this Python and this machine."""
+    """Names the wheel for this Python and this machine, because it has compiled files."""
 
     def finalize_options(self):
         super().finalize_options()

@@ -1,10 +1,11 @@
-// Common parts of calls from Python: problems of the other rooms as exceptions, ctrl-C during work
-// that does not hold the interpreter, and arrays of NumPy as input and results of the detector.
-// Input is not copied if its layout allows a view.
+// Common parts of the modules for Python: problems of C++ code become exceptions, ctrl-C works
+// while the interpreter is released, and NumPy arrays are input and results of the detector. Input
+// is not copied if its layout allows a view.
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
-// arrays too. assay/arrays.py converts other arrays once, or refuses them with dtype and shape.
+// arrays too. assay/arrays.py converts other arrays once, or refuses them with a message that
+// states dtype or shape.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -37,15 +38,16 @@ namespace assay::python {
 
 // Asks Python now and then whether a signal has arrived, such as that of ctrl-C. A clock decides
 // how often it asks, because asking waits for the interpreter. Only the thread that made this
-// object asks; others may help with the work. REQUIRES that the interpreter is held when this
-// object is made and when raise() is called; it is released in between.
+// object asks; other threads may take part in the work. REQUIRES that this thread holds the
+// interpreter when it makes this object and when it calls raise(), and releases it in between.
 class Interruption {
  public:
   detector::StopFunction stop_function() {
     return [this] { return check(); };
   }
 
-  // Raises the exception of the signal's handler; for ctrl-C that is KeyboardInterrupt.
+  // Raises the exception of the signal's handler, which is KeyboardInterrupt for ctrl-C. Does
+  // nothing if no signal has arrived.
   void raise() const {
     if (raised_) throw pybind11::error_already_set(*raised_);
   }
@@ -58,7 +60,8 @@ class Interruption {
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
     if (PyErr_CheckSignals() == 0) return false;
-    // The exception is kept here, because calls before the end of the work must not find it.
+    // The exception is moved into this object, so that calls of Python before the end of the work
+    // do not see it.
     raised_ = std::make_unique<pybind11::error_already_set>();
     return has_come_ = true;
   }
@@ -69,8 +72,8 @@ class Interruption {
   std::atomic<bool> has_come_ = false;
 };
 
-// Returns work(stop), during which other threads of Python may run, or raises the exception of a
-// ctrl-C meanwhile.
+// Returns the result of work(stop). Other threads of Python can run meanwhile. If ctrl-C was
+// pressed meanwhile, raises its exception.
 template <class Work>
 auto interruptible(const Work& work) {
   Interruption interruption;
@@ -88,7 +91,8 @@ class RowsArgument {
   using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
-  // Takes the argument of this name; errors state the name. Raises TypeError and ValueError.
+  // Takes an argument of a call. Raises TypeError or ValueError, with the argument's name, if
+  // `object` is not an array of rows of three numbers.
   RowsArgument(const pybind11::object& object, const char* name);
 
   // Returns a view that is valid as long as this object, which holds the array.
@@ -115,7 +119,7 @@ class QueriesArgument {
   pybind11::array array_;
 };
 
-// Returns an array of the vector's elements, which owns them and is not writeable.
+// Returns a read-only array of the vector's elements. The array owns the elements.
 template <class Number, class Element>
 pybind11::array array_of(std::vector<Element> elements) {
   static_assert(sizeof(Number) == sizeof(Element));
@@ -141,13 +145,13 @@ pybind11::array owning_array(Matrix matrix) {
   return pybind11::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
 }
 
-// Returns the answers by the names of the fields of assay.StepResult: `answer`, `first` (none
-// without a collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the
-// kind of the feature pair that has the first time (FeatureKind), and its vertices.
+// Returns an answer as a dict, with the names of the fields of assay.StepResult: `answer`, `first`
+// (None without a collision), `pairs` int32 k x 2, `times` float64 k x 2, and `features` int32 k x
+// 6, which are the kind (FeatureKind) and the vertices of the feature pair that meets first.
 pybind11::dict arrays_of(detector::Answer answer, const detector::TimeEnclosure& first,
                          const std::vector<detector::PairContact>& contacts);
 
-// Returns all fields of a result. REQUIRES that it is no error.
+// Returns all fields of a result. REQUIRES a result that is no error.
 pybind11::dict arrays_of(detector::StepResult result);
 
 }  // namespace assay::python

@@ -1,4 +1,4 @@
-// Maps the words of claims and contracts in Python to the plug-in interface.
+// Translates the words for claims and contracts that Python uses into the plug-in interface.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -18,7 +18,8 @@ inline pybind11::tuple claim_words() {
   return words;
 }
 
-// Returns the words of each member in the order of their numbers; none for a number.
+// Returns the words of each member of a contract, in the order of the numbers that stand for them.
+// A member that is a number has no words.
 inline pybind11::dict words_of_members() {
   pybind11::dict members;
   assay_description description = {};
@@ -34,8 +35,8 @@ inline pybind11::dict words_of_members() {
   return members;
 }
 
-// Sets the members of the description. `described` of assay/hosting.py has turned words into
-// numbers.
+// Sets the members of the contract in the description. `numbers` comes from described() of
+// assay/hosting.py, which turns words into numbers.
 inline void set_contract(assay_description& description, const pybind11::dict& numbers) {
   properties::Contract contract;
   visit_members(description, contract, [&]<class T>(const char* name, T& member, const auto&) {

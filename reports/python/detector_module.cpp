@@ -30,7 +30,7 @@ class OneAtATime {
  public:
   explicit OneAtATime(std::atomic_flag& busy) : busy_(busy) {
     if (busy_.test_and_set())
-      throw std::runtime_error("this detector is at work in another thread: one thread at a time");
+      throw std::runtime_error("this detector is in use by another thread: one thread at a time");
   }
   OneAtATime(const OneAtATime&) = delete;
   OneAtATime& operator=(const OneAtATime&) = delete;
@@ -48,7 +48,7 @@ void threads_in_this_process(std::uint32_t threads) {
   pid_t first = 0;
   if (!process.compare_exchange_strong(first, ::getpid()) && first != ::getpid())
     throw std::runtime_error(
-        "threads: this process was forked from one that had several; use 1, or spawn it");
+        "threads: the parent of this process had several; use 1, or spawn this process");
 }
 
 class PythonDetector {

@@ -1,5 +1,5 @@
-// The module assay._judge holds the oracle, `check`, the readers of frames, and plug-ins that are
-// asked by hand.
+// The module assay._judge gives Python the oracle, `check`, the readers of frames, and plug-ins
+// that a script asks directly.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -136,7 +136,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames, const p
     if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows()))
       raise({bad->error, name + ": " + bad->message});
   }
-  if (c.frames.empty()) throw py::value_error("a frame or more is needed");
+  if (c.frames.empty()) throw py::value_error("at least one frame is needed");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   c.counted = relation_of(args, c);
   std::vector<std::int32_t> body(static_cast<std::size_t>(c.frames[0].rows()), 0);

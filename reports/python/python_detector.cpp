@@ -1,6 +1,6 @@
 // The plug-in that serves `--detector python:MODULE:CLASS`. It runs an interpreter in the process
-// of a plug-in, and the class in it. assay/hosting.py says what the class may have and how its
-// answers are read, and does all work that can be done in Python.
+// of a plug-in, and the class in that interpreter. assay/hosting.py says which members the class
+// may have and how its answers are read, and does all work that can be done in Python.
 #include <Python.h>
 #include <dlfcn.h>
 #include <pybind11/numpy.h>

@@ -1,6 +1,6 @@
-// The module assay._recorder holds the recorder of a simulator's steps, which is that of
-// detector/plugin/assay_record.h. Arrays come to it from assay/recorder.py, which has looked at
-// their shapes.
+// The module assay._recorder gives Python the recorder of a simulator's steps from
+// detector/plugin/assay_record.h. Its arrays come from assay/recorder.py, which has checked their
+// shapes.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -1,5 +1,5 @@
-// A case outside of Assay: what an export writes beside its arrays. It judges the answers of a
-// detector by the claims that are asked, and needs C++17 alone.
+// Judges the answers of a detector to an exported case by the claims that are asked. Needs C++17,
+// and nothing of Assay. An export writes the case itself as arrays, into a file beside this one.
 #pragma once
 
 #include <algorithm>
@@ -11,25 +11,26 @@
 
 namespace exported_case {
 
-// Two triangles and the interval of their first time. The pairs that meet at t* are the edges of a
-// graph of triangles. `part` is the number of the pair's connected part, or -1 if the pair meets
-// later.
+// Two triangles and the interval of the first time at which they meet. The pairs that meet at t*,
+// the first contact time of the step, are the edges of a graph with triangles as nodes. `part` is
+// the number of the pair's connected component in this graph, or -1 if the pair meets later.
 struct Pair {
   int a, b;
   double lo, hi;
   int part;
 };
 
-// From frame `from` to frame `to`; with `commit` the detector's state goes on. The first contact
-// time t* is `lo` if lo == hi, else strictly between the two, which are adjacent doubles.
+// A step from frame `from` to frame `to`. If `commit` is true, the detector's state advances to the
+// end of the step. The first contact time t* is `lo` if lo == hi; otherwise `lo` and `hi` are
+// adjacent doubles, and t* is strictly between them.
 struct Step {
   int from, to;
   bool commit, collision;
   double lo, hi;
   const char *lo_as_fraction, *hi_as_fraction;
   std::vector<Pair> pairs;  // that meet
-  // Pairs that the detector may report, but not earlier: contacts that the contract leaves out, or
-  // all pairs that come within its margin.
+  // Pairs that the detector may report, though not before their first time: contacts that the
+  // contract leaves out, or all pairs that come within the contract's margin.
   std::vector<Pair> allowed;
 };
 
@@ -57,16 +58,16 @@ struct Asked {
 };
 
 struct Case {
-  int query;  // 0: a mesh; a query is 1: a vertex and a face, or 2: two edges
+  int query;  // 0: a mesh; 1: a query of a vertex and a face; 2: a query of two edges
   const int* triangles;
   int triangle_count, vertex_count;
-  const double* frames;  // of all vertices, one frame behind the other
+  const double* frames;  // positions of all vertices, one frame after the other
   std::vector<Step> steps;
-  std::vector<Asked> asked;  // of each answer
+  std::vector<Asked> asked;  // the claims to check for each answer
   double time_tolerance;
-  double promised;           // of a limiter: its progress
-  double unit;               // in the last place of 1, in the detector's numbers
-  bool takes_displacements;  // in place of ends
+  double promised;           // the progress that a limiter claims
+  double unit;               // the unit in the last place of 1, in the detector's number type
+  bool takes_displacements;  // in place of end positions
 
   std::size_t coordinates() const { return 3 * static_cast<std::size_t>(vertex_count); }
   const double* frame(int number) const {
@@ -78,13 +79,13 @@ struct Case {
 struct Found {
   bool filled_in = false;
   bool collision = false;
-  double lo = 0, hi = 1;         // the interval of its first time; [0, 1] states none
+  double lo = 0, hi = 1;         // the interval of the first contact time; [0, 1]: not stated
   std::vector<Pair> pairs;       // that meet, each with the interval of its first time
   std::vector<Pair> candidates;  // of a broad phase; their times do not matter
-  double share = -1;             // of a limiter: of the step; -1: not stated
-  std::vector<double> stop;      // of a limiter: where the caller stops; else empty
+  double share = -1;             // the share of the step that a limiter allows; -1: not stated
+  std::vector<double> stop;      // the positions at which a limiter stops the caller; else empty
   bool is_answered = true;       // false: undecided, or a broad phase alone
-  std::string error;             // why it has no answer
+  std::string error;             // why there is no answer; empty if there is an answer
 };
 
 inline const Pair* find(const std::vector<Pair>& list, const Pair& pair) {
@@ -102,8 +103,8 @@ inline bool is_whole(const Case& c, const Step& step, const Found& found) {
                     });
 }
 
-// Returns whether a share of a step is longer than rounding: it moves some coordinate by 2^10 units
-// in its last place.
+// Returns whether this share of the step is more than rounding: whether it moves some coordinate by
+// at least 2^10 units in the last place of the coordinate.
 inline bool has_room(const Case& c, const Step& step, double share) {
   const double *x_t0 = c.frame(step.from), *x_t1 = c.frame(step.to);
   for (std::size_t i = 0; i < c.coordinates(); ++i)
@@ -111,8 +112,8 @@ inline bool has_room(const Case& c, const Step& step, double share) {
   return false;
 }
 
-// Returns whether the answer to a step keeps a claim. Only `assay replay` can tell whether the way
-// to positions other than the end is free.
+// Returns whether the answer to a step keeps a claim. Does not find out whether the way to
+// positions other than the end is free; `assay replay` does.
 inline bool holds(Claim claim, const Case& c, const Step& step, const Found& found) {
   if (!found.error.empty()) return claim != Claim::total;
   const auto begins_after = [&](double lo, double exact) { return lo > exact + c.time_tolerance; };
@@ -171,7 +172,7 @@ inline bool holds(Claim claim, const Case& c, const Step& step, const Found& fou
   return true;
 }
 
-// Returns the text of an answer to the last bit. Equal answers have equal texts.
+// Returns the text of an answer, with every bit of its numbers. Equal answers have equal texts.
 inline std::string text_of(const Found& found) {
   std::string text = found.error + "\n";
   const auto add = [&text](double number) {
@@ -192,7 +193,7 @@ inline std::string text_of(const Found& found) {
 }
 
 // Prints the claims that the answer to step s breaks; `again` is the answer of a second call.
-// Returns whether it breaks any.
+// Returns whether the answer breaks a claim.
 inline bool is_wrong(const Case& c, std::size_t s, const Found& found, const Found& again) {
   const Step& step = c.steps[s];
   bool wrong = false;

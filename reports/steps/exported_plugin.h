@@ -1,4 +1,4 @@
-// A program that puts an exported case to a plug-in: ./case_plugin ./libmine.so
+// A program that asks a plug-in about an exported case: ./case_plugin ./libmine.so
 #pragma once
 
 #include <dlfcn.h>
@@ -16,14 +16,15 @@ namespace exported_case {
 
 inline bool is_time(double lo, double hi) { return 0 <= lo && lo <= hi && hi <= 1; }
 
-// Returns what breaks the rules of the interface; empty if nothing does.
+// Appends the pairs to `list`. Returns how the pairs break a rule of the interface; empty if they
+// break no rule.
 inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int32_t* raw,
                               const double* times, std::vector<Pair>& list) {
   if (count > 0 && !raw) return "pairs are counted but not given";
   for (std::uint64_t i = 0; i < count; ++i) {
     const int a = std::min(raw[2 * i], raw[2 * i + 1]), b = std::max(raw[2 * i], raw[2 * i + 1]);
     const double lo = times ? times[2 * i] : 0, hi = times ? times[2 * i + 1] : 1;
-    if (a < 0 || a == b || b >= c.triangle_count) return "a pair names no two triangles";
+    if (a < 0 || a == b || b >= c.triangle_count) return "a pair does not name two triangles";
     if (!is_time(lo, hi)) return "the time of a pair is no interval in [0, 1]";
     list.push_back({a, b, lo, hi, -1});
   }
@@ -37,7 +38,8 @@ inline std::string read_pairs(const Case& c, std::uint64_t count, const std::int
   return "";
 }
 
-// Returns the error in place of an answer; empty if there is an answer, or if it is undecided.
+// Reads an answer into `found`. Returns the error if there is no answer; empty for free, collision
+// and undecided.
 inline std::string read_result(const Case& c, const assay_result& raw, Found& found) {
   if (raw.answer == ASSAY_ERROR) return raw.message ? raw.message : "an error without a message";
   if (raw.answer == ASSAY_FREE) return raw.pair_count == 0 ? "" : "answers free and gives pairs";
@@ -51,7 +53,7 @@ inline std::string read_result(const Case& c, const assay_result& raw, Found& fo
   return read_pairs(c, raw.pair_count, raw.pairs, raw.pair_times, found.pairs);
 }
 
-// Asks a plug-in about one case. The plug-in's first call has said which functions it has.
+// Asks a plug-in about one case. `api` is the table of the plug-in's functions.
 class Plugin {
  public:
   Plugin(const Case& c, const assay_detector_api* api, const assay_counted_pairs* counted)
@@ -59,7 +61,7 @@ class Plugin {
 
   // Returns which function the plug-in lacks for this case; empty if none.
   const char* lacking() const {
-    if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no query";
+    if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no function query";
     return api_->create && (api_->evaluate || has_candidates() || has_limit())
                ? ""
                : "it takes no steps";
@@ -102,7 +104,8 @@ class Plugin {
     const char* text = api_->abi_version >= 2 && api_->error_text ? api_->error_text() : nullptr;
     return text ? text : std::string(function) + " failed";
   }
-  // Notes a return code; true if the call did its work.
+  // Returns whether the return code says that the call succeeded. If not, notes the error in
+  // `found`.
   bool succeeded(const char* function, std::int32_t code, Found& found) const {
     if (code == ASSAY_OK) return true;
     found.is_answered = false;
@@ -110,7 +113,8 @@ class Plugin {
     return false;
   }
 
-  // Returns the motion of a step as the detector is told it: its end or its displacement.
+  // Returns the motion of a step in the form that the detector takes: end positions or
+  // displacements.
   std::vector<double> told(const Step& step) const {
     const double *x_t0 = case_.frame(step.from), *x_t1 = case_.frame(step.to);
     std::vector<double> way(x_t1, x_t1 + case_.coordinates());
@@ -132,8 +136,9 @@ class Plugin {
     if (succeeded("query", code, found)) found.error = read_result(case_, alike, found);
   }
 
-  // Asks all parts, in the order in which Assay asks them. The first error counts; that of the step
-  // itself goes before others.
+  // Calls candidates(), limit() and evaluate(), in the order in which Assay calls them. Keeps one
+  // error: the error of evaluate(), or else the error of limit(), or else the error of
+  // candidates().
   void ask(assay_handle* handle, const Step& step, Found& found) const {
     const double* const x_t0 = case_.frame(step.from);
     const auto way = told(step);
@@ -216,9 +221,9 @@ inline bool ask_elsewhere(const char* library, std::string& text) {
   return child > 0 && waitpid(child, &status, 0) == child && status == 0 && !text.empty();
 }
 
-// Runs the program. Its first argument is the library. In the process that asks the library, a
-// second argument says where to write the answers. Returns 0 if no claim that is asked is broken, 1
-// if one is, and 2 if nothing can be asked.
+// Runs the program. Its first argument is the library. The process that ask_elsewhere() starts has
+// a second argument: the file descriptor to which it writes the answers. Returns 0 if no claim that
+// is asked is broken, 1 if a claim is broken, and 2 if the library cannot be asked.
 inline int ask_library(const Case& c, const assay_counted_pairs* counted, int argc, char** argv) {
   void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
   void* entry = library ? dlsym(library, "assay_detector") : nullptr;

@@ -63,8 +63,8 @@ std::string repeated_text(const properties::EvidenceFacts& evidence) {
                            one.what);
   }
   return fmt::format(
-      "on larger meshes: {} sequences of up to {} triangles, {} steps; {} differ from run to run; "
-      "{} judged, {} wrong\n{}",
+      "on larger meshes: {} sequences of up to {} triangles, {} steps; {} sequences differ from "
+      "run to run; {} steps judged, {} wrong\n{}",
       repeated.size(), sum.triangles, sum.steps,
       std::ranges::count(repeated, true, &properties::JudgedSource::broken), sum.cases, sum.defects,
       lines);
@@ -76,8 +76,8 @@ std::string limits_text(const properties::LimitUse& use) {
   std::string text = fmt::format("limits: {} of {} free steps cut", use.cut, use.free);
   if (use.contact == 0) return text + "\n";
   text += fmt::format(
-      "; {} steps with a contact used this share of the time until it: median {:.3g}, in 99 of 100 "
-      "at least {:.3g}, worst {:.3g}; {} stalls{}\n",
+      "; {} steps with a contact used this share of the time until the contact: median {:.3g}, in "
+      "99 of 100 at least {:.3g}, worst {:.3g}; {} stalls{}\n",
       use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
       use.excused > 0
           ? fmt::format("; {} less than claimed, perhaps because of rounding", use.excused)
@@ -219,12 +219,12 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(
-        "in {} steps it does not report a contact, as its contract allows ({}): otherwise these "
-        "would be misses\n",
+        "in {} steps the detector does not report a contact, as its contract allows ({}): without "
+        "this contract they would be misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))
-    out += fmt::format("not judged: {}, for {}\n", claim, reason);
+    out += fmt::format("not judged: {}, because {}\n", claim, reason);
   return out;
 }
 

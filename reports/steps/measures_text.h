@@ -1,5 +1,5 @@
-// Renders the measures of a run in words and as JSON: those of a plug-in, whatever it claims, the
-// sizes up to which its claims were tried, and how planted faults were found.
+// Renders measures of a run in words and as JSON: how well a plug-in answers, whatever it claims;
+// the sizes up to which its claims were tried; and how planted faults were found.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,8 +10,8 @@
 namespace assay::reports {
 
 // Returns a row for each stratum and one for all of them: false alarms with their interval, misses,
-// spurious pairs, how late and how early times are, and how much the contract leaves out. Then the
-// claims that were not judged. Empty for the built-in detector.
+// spurious pairs, how late and how early times are, and how much the contract leaves out. The
+// claims that were not judged follow. Returns an empty text for the built-in detector.
 std::string measures_text(const properties::RunFindings& findings);
 
 // Returns the measures of a few steps, in words: "1 of 2 free steps answered collision; 28874
@@ -30,7 +30,8 @@ std::string extremes_text(const nlohmann::ordered_json& extremes);
 // Returns "72 by random cases, 44 by their curated case alone".
 std::string found_text(const nlohmann::ordered_json& power);
 
-// Returns the columns of one row, without its name: for steps, or for queries, which have no pairs.
+// Returns the columns of one row, without the row's name. Rows of queries have no columns for
+// pairs.
 std::string measures_row(const properties::StepMeasures& measures, bool of_queries);
 std::string measures_head(bool of_queries);
 

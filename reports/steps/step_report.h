@@ -56,7 +56,7 @@ struct JudgedByOracle {
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const JudgedByOracle* oracle, const ShownWork& work);
 
-// Returns "; 12 pairs left out by the contract, the first at t = 0"; empty if none is.
+// Returns "; 12 pairs left out by the contract, the first at t = 0"; empty if no pair is left out.
 std::string left_out_text(const properties::StepTruth& truth);
 
 // Returns one indented line with the counts of a second opinion; then one line for each
@@ -80,9 +80,9 @@ nlohmann::ordered_json step_json(const detector::StepResult& result, const Judge
 
 // Describes the pairs of a step: which triangles are in contact, when, by which features, where,
 // and whether the two touch or cross; and why a pair was or was not tested. Tells which bodies
-// meet, and which lie wholly inside another one without meeting its surface.
+// meet, and which bodies lie wholly inside another body without meeting its surface.
 
-// A step and the pairs that are in contact in it. REQUIRES features that are named.
+// A step and the pairs that are in contact in it. REQUIRES that each pair names its features.
 struct StepContacts {
   const detector::SteppedMesh& motion;
   const detector::TrianglesView& triangles;
@@ -90,14 +90,15 @@ struct StepContacts {
   const properties::BodyNames& bodies;
   bool is_at_rest = false;
 
-  // Returns the first `most` pairs, a line each, and how many more there are: the earliest first,
-  // and at rest crossing pairs before touching ones. A pair in contact from the start touches or
-  // crosses; a pair that comes into contact later touches, and may cross at the end of the step. At
-  // rest the text also says how many of all pairs cross.
+  // Returns the first `most` pairs, a line each, and how many more there are. Pairs are sorted by
+  // their times; at rest, crossing pairs come before touching pairs. A pair in contact from the
+  // start touches or crosses; a pair that comes into contact later touches, and may cross at the
+  // end of the step. At rest the text also says how many of all pairs cross.
   std::string text(std::size_t most) const;
-  // Returns by pair whether it crosses or only touches, for a mesh at rest. In a moving mesh, and
-  // for more than 20,000 pairs, all pairs are marked as crossing: at 20 us a pair, a soup of
-  // 100,000 triangles would wait longer for the marks than for its answer.
+  // Returns a mark for each pair of a mesh at rest: whether the two triangles cross or only touch.
+  // In a moving mesh, and if there are more than 20,000 pairs, all pairs are marked as crossing. A
+  // mark takes 20 us, so for a soup of 100,000 triangles the marks would take longer than the
+  // answer.
   static constexpr std::uint8_t crossing_mark = 1, touching_mark = 2;
   static constexpr std::size_t most_told_apart = 20'000;
   std::vector<std::uint8_t> marks() const;
@@ -118,24 +119,26 @@ struct NestedBodies {
   std::int32_t inner = 0, outer = 0;
 };
 
-// Returns each closed body with each other body that it holds: every component of the inner body
-// has a winding number other than 0 in the outer one, by the oracle's exact arithmetic. Two bodies
-// with triangles in contact are left out. `body`: by vertex. O(bodies^2) boxes, and 1 us for each
-// vertex of the outer bodies. REQUIRES that all pairs in contact are among `pairs`.
+// Returns each closed body with each other body inside it: the winding number of the outer body
+// around every component of the inner body is not 0, by the oracle's exact arithmetic. Two bodies
+// with triangles in contact are left out. `body` has the body of each vertex. Takes O(bodies^2) box
+// tests, and 1 us for each vertex of the outer bodies. REQUIRES that all pairs in contact are among
+// `pairs`.
 std::vector<NestedBodies> nested_bodies(const detector::PositionsView& x,
                                         const detector::Topology& mesh,
                                         const std::vector<std::int32_t>& body,
                                         const std::vector<detector::PairContact>& pairs);
 
-// Returns the pairs with no third body between them. For shells within shells each inner shell has
-// one pair, with the next shell around it.
+// Returns the pairs with no third body between inner and outer body. For shells within shells, each
+// inner shell is paired only with the next shell around it.
 std::vector<NestedBodies> innermost(const std::vector<NestedBodies>& nested);
 
-// Tells for each step of the case: both signs, doubts, components, layers at the start by the
-// oracle, whether the pair is in K, whether its moving boxes meet, and the oracle's judgement of
-// the pair. With a separation the boxes are grown by it, and the oracle states the least distance
-// of a pair that stays farther apart. Runs the built-in detector in this process. REQUIRES the
-// truth under contract_of(options) (properties/claims/claims.h).
+// Tells for each step of the case: the view signs, doubts and components of both triangles, their
+// layers at the start by the oracle, whether the pair is in K (detector/LAWS.md), whether the boxes
+// of the moving triangles meet, and the oracle's judgement of the pair. With a separation, the
+// boxes are enlarged by the separation, and the oracle states the least distance of a pair that
+// stays farther apart. Runs the built-in detector in this process. REQUIRES the truth under
+// contract_of(options) (properties/claims/claims.h).
 std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const detector::TrianglePair& pair,
                        const std::vector<oracle::StepJudgement>& truth);

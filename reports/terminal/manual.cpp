@@ -121,7 +121,7 @@ std::string exit_codes_text() {
   std::string text = "Exit codes:\n";
   for (std::size_t code = 0; code < meanings.size(); ++code)
     text += fmt::format("  {}  {}\n", code, meanings[code]);
-  return text + "\nIf several apply, it is the first of 2, 4, 1, 3, 5, 0.\n";
+  return text + "\nIf several apply, the code is the first of 2, 4, 1, 3, 5, 0.\n";
 }
 
 std::string wrapped(const std::string& text, std::size_t indent) {

@@ -166,7 +166,7 @@ void add_part(CLI::App& verb, DetectorPart& part) {
   };
   add_choice(verb, "--part", part, "steps, query", parse,
              "The part of the plug-in that is judged: whole steps with their candidates, or its "
-             "elementary query (default: all that it holds)")
+             "elementary query (default: every part that it has)")
       ->group(OptionGroup::detector);
 }
 

@@ -1,5 +1,6 @@
-// Checks the words after an option, gives the examples and exit codes in the help of a verb, opens
-// the detector that words name, the built-in one or a plug-in, and describes a plug-in to people.
+// Checks the words that follow an option; has the examples and exit codes for the help of a verb;
+// opens the detector that a user names, the built-in detector or a plug-in; and describes a plug-in
+// to people.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ struct VerbManual {
   const char* verb;
   const char* group;  // the title of the verb's group in the list of verbs
   const char* codes;  // the verb's possible exit codes, a digit each
-  // The meaning of exit code 0, if it is not that all claims hold.
+  // The meaning of exit code 0; empty: all claims hold.
   const char* success;
   std::vector<Example> examples;
 
@@ -39,8 +40,8 @@ struct VerbManual {
 };
 
 // Returns the manuals. Their examples can be run one after the other, in this order, in a folder
-// with a reader's own files: two frames, queries of vertex-face, a log of a recorder, and a
-// plug-in.
+// with a reader's own files: two frames, a file of vertex-face queries, the log of a recorder, and
+// a plug-in.
 const std::vector<VerbManual>& verb_manuals();
 
 constexpr const char* beside_the_verbs = "Beside it";
@@ -48,14 +49,15 @@ constexpr const char* beside_the_verbs = "Beside it";
 // Returns all exit codes as lines, and which code is used if several apply.
 std::string exit_codes_text();
 
-// Returns the text broken into lines of 80 columns. Each line but the first begins with `indent`
-// blanks; the first continues a line that has `indent` columns already.
+// Returns the text broken into lines of 80 columns. The first line continues a line that has
+// `indent` columns already; each later line begins with `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent);
 
-// Returns one line that says which words are allowed, and which may have been meant.
+// Returns one line that says which words are allowed, and which of them the user probably meant.
 std::string wrong_word(const std::string& word, const std::string& choices);
 
-// Returns a check that accepts the words that `parse` accepts: a fixed set, or words of some form.
+// Returns a check that accepts the words that `parse` accepts. `words` lists these words, or shows
+// their form.
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
   return [words, parse](const std::string& word) {
@@ -90,16 +92,16 @@ struct DetectorWords {
   DetectorPart part = DetectorPart::by_library;
 };
 
-// Returns " --detector LIB.so --isolation limits --threads 2": the library by its whole path, the
-// other options only if they differ from the default. Empty for the built-in detector.
+// Returns " --detector LIB.so --isolation limits --threads 2": the library by its absolute path,
+// the other options only if they differ from the default. Empty for the built-in detector.
 std::string detector_words(const DetectorWords& detector);
 
 // Returns the parts of a plug-in that a plan is about: steps, queries, or both.
 DetectorPart part_asked_by(const properties::CampaignPlan& plan);
 
-// Opens the detector that the words name. `limits` are those of its processes; isolation and
-// threads are those of the words. `worker` is the program assay-worker. Fails as Subject::open
-// does.
+// Opens the detector that the words name. `limits` apply to the detector's processes; isolation and
+// number of threads come from the words. `worker` is the program assay-worker. Fails as
+// Subject::open does.
 Expected<properties::Subject> choose_detector(
     const DetectorWords& words, properties::WorkerLimits limits = {},
     const std::filesystem::path& worker = properties::worker_program());
@@ -110,7 +112,7 @@ std::string detector_text(const properties::DetectorUnderTest& detector);
 // may use: one line each, without a newline at the end.
 std::string plugin_text(const properties::Subject& plugin);
 
-// Returns "  it printed:" and the lines that a plug-in printed in a case, each behind four blanks;
+// Returns "  it printed:" and the lines that a plug-in printed in a case, each after four blanks;
 // empty if it printed nothing.
 std::string printed_text(const std::string& output);
 

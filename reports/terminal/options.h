@@ -1,5 +1,6 @@
 // Adds a verb to CLI11, with its own options, which the verb's file states, and with the options
-// that several verbs share. CLI11 takes six seconds to compile, so only verbs include this.
+// that several verbs share. CLI11 takes six seconds to compile, so only the files of verbs include
+// this header.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,8 @@
 
 namespace assay::reports {
 
-// The titles of the groups of a verb's options. An option that states none stands under the second.
+// The titles of the groups of a verb's options. An option without a group is listed under
+// `question`.
 struct OptionGroup {
   static constexpr const char *input = "Input", *question = "What is asked",
                               *detector = "The detector", *limits = "Limits and threads",
@@ -24,8 +26,8 @@ struct OptionGroup {
 };
 
 // Adds an option with its word ("--out DIR"), or a word without an option ("FILE"). The target must
-// outlive the parsing, and keeps its value if the option is not given. If it is a function, it is
-// called with the word once the word has passed the checks.
+// outlive the parsing, and keeps its value if the option is not given. A target that is a function
+// is called with the word once the word has passed the checks.
 template <class Target>
 CLI::Option* add(CLI::App& verb, const std::string& name, Target&& target,
                  const std::string& about) {
@@ -42,8 +44,8 @@ CLI::Option* add(CLI::App& verb, const std::string& name, Target&& target,
 // Returns the options of the parsed command line as help names them ("--out DIR").
 std::vector<std::string> given_options(const CLI::App& verb);
 
-// A verb of the command line: its name, and its action once the command line is parsed, which
-// returns the exit code.
+// A verb of the command line: its name, and its action. The action runs once the command line is
+// parsed, and returns the exit code.
 struct VerbAction {
   std::string name;
   std::function<int()> act;
@@ -52,9 +54,9 @@ struct VerbAction {
 // Adds a verb with the text of its manual.
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& about);
 
-// Makes a verb with these options and this action, which returns the exit code, or the problem with
-// which the verb is refused. The action keeps the request alive: it holds the defaults, and the
-// options write into it.
+// Makes a verb. `add_options` adds its options. `run` does its work, and returns the exit code, or
+// the problem with which the verb is refused. The verb's action keeps the request alive, because
+// the request has the defaults, and the options write into it.
 template <class Request>
 VerbAction make_verb(CLI::App& app, const char* name, const char* about,
                      void (*add_options)(CLI::App&, Request&),
@@ -93,7 +95,8 @@ CLI::Option* add_detector(
     CLI::App& verb, DetectorWords& detector,
     const std::string& about =
         "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-// Add the same options without --threads; and --threads alone, where 0 means all cores.
+// add_detector_alone adds --detector and --isolation. add_threads adds --threads, where 0 means all
+// cores.
 CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about);
 void add_threads(CLI::App& verb, std::uint64_t& threads);
 

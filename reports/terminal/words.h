@@ -13,11 +13,11 @@
 
 namespace assay::reports {
 
-// Returns the text with each character that is a key of `characters` replaced by its value, as
-// formats demand for characters that have a meaning in them.
+// Returns the text with each character that is a key of `characters` replaced by its value. Formats
+// demand this for characters with a special meaning.
 std::string replace(std::string_view text, const std::map<char, std::string_view>& characters);
 
-// Returns the text escaped for XML, with characters that XML 1.0 does not allow replaced.
+// Returns the text escaped for XML. Characters that XML 1.0 does not allow are replaced.
 std::string xml_escaped(const std::string& text);
 
 // A test in a JUnit file.
@@ -38,26 +38,28 @@ std::string join(const List& list, const char* between) {
   return text;
 }
 
-// Returns the word itself, or the word in quotes if a shell would read it otherwise.
+// Returns the word itself, or the word in quotes if a shell would change the bare word.
 std::string shell_word(const std::string& word);
 
 // The folder in which a line is to be pasted.
 enum class PastePlace : std::uint8_t { this_folder, any_folder };
 
-// Returns a line that runs this program, to be pasted into a shell: the program, then `words`,
-// which must be shell_words, and for any folder must have absolute_paths. The program is written
-// "assay" if a shell finds it by that name on the PATH, else as its path, which in this folder is
-// "build/release/assay" if it lies below. A line for any folder changes to this folder first if it
-// names a detector in Python, which lies here. All lines to paste come from this function or the
-// next, except those in a certificate or a page, which begin with "assay" on every machine.
+// Returns a line to be pasted into a shell: this program, then `words`. The program is written
+// "assay" if a shell finds it on the PATH by that name, and otherwise as its path; in a line for
+// this folder the path is relative, such as "build/release/assay", if the program lies below this
+// folder. A line for any folder first changes to this folder if it names a detector in Python,
+// because Python looks for the module here. REQUIRES that each word is a shell_word, and for
+// PastePlace::any_folder that each path is an absolute_path. All lines to paste come from this
+// function or from this_command, except the lines in a certificate or a page, which begin with
+// "assay" on every machine.
 std::string line_to_paste(const std::string& words, PastePlace place = PastePlace::any_folder);
 
 // Returns the whole command as it was typed, with all of its inputs. With PastePlace::any_folder
 // the line first changes to this folder, and has no options for output files.
 std::string this_command(PastePlace place);
 
-// Returns the absolute path of the file; empty for an empty path. Does not change the word of a
-// detector in Python.
+// Returns the absolute path of the file; empty for an empty path. The word of a detector in Python
+// is returned as it is.
 std::string absolute_path(const std::filesystem::path& path);
 
 // Returns the commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed.

@@ -32,8 +32,8 @@ using corpus::Problem;
 using corpus::ProblemKind;
 namespace outcome = boost::outcome_v2;
 
-// Prints "assay: LINE" on stderr, with control characters replaced and cut at 1,000 bytes, and
-// returns exit_usage. Never throws, whatever stderr is.
+// Prints "assay: LINE" on stderr, with control characters replaced, and cut at 1,000 bytes. Returns
+// exit_usage. Never throws, even if stderr cannot be written.
 int refuse(const std::string& line) noexcept;
 // Refuses with the problem's line.
 int refuse(const Problem& problem) noexcept;
@@ -41,8 +41,8 @@ int refuse(const Problem& problem) noexcept;
 // Returns whether all output reached stdout; if not, says so on stderr.
 bool output_was_written() noexcept;
 
-// Makes SIGINT and SIGTERM end the program with `code`, once `line` is printed; for work that
-// stores its results and can go on later. REQUIRES that no thread has started yet; threads started
+// Makes SIGINT and SIGTERM print `line` and end the program with `code`. Meant for work that stores
+// its results and can be continued later. REQUIRES that no thread has started yet; threads started
 // later leave the two signals to the program. Workers are not affected: a ctrl-C in a terminal does
 // not reach them, and they block no signal (properties/worker/child_process.h). A signal that is
 // ignored stays ignored.
@@ -61,7 +61,7 @@ class Limits {
   bool exceeded();
   // Returns "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
   const std::string& limit_text() const { return limit_text_; }
-  // Returns whether the limit reached is one of memory, the user's or the machine's.
+  // Returns whether the limit reached is a limit of memory, the user's or the machine's.
   bool is_out_of_memory() const { return is_out_of_memory_; }
   // Notes that an allocation failed.
   void memory_failed();
@@ -89,7 +89,7 @@ class Limits {
   bool is_out_of_memory_ = false;
 };
 
-// Returns the seconds on the wall clock.
+// Returns the seconds of the wall clock since `begin`.
 inline double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -100,7 +100,8 @@ struct TimedAnswer {
   double milliseconds = 0;  // wall clock
 };
 
-// Returns the answer of `ask`, or an empty answer if memory fails.
+// Returns the answer of `ask`, or an empty answer if memory runs out, with the time that `ask`
+// took.
 template <class Ask>
 auto answer_in(Limits& limits, const Ask& ask) {
   const auto begin = std::chrono::steady_clock::now();
@@ -132,7 +133,7 @@ class PlainProgress {
   bool is_due() const;
   // Shows the text if is_due().
   void show(const std::string& text);
-  // Removes the line from a terminal. It may be called again; the destructor calls it too.
+  // Removes the line from a terminal. Further calls are allowed; the destructor calls it too.
   void finish();
 
  private:

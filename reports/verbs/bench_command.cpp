@@ -50,7 +50,7 @@ Expected<BenchReport> measure(const BenchRequest& request) {
   BOOST_OUTCOME_TRY(plugin, choose_detector(request.detector, {.seconds = settings.case_seconds}));
   if (!plugin.description.parts.steps)
     return Problem{
-        fmt::format("{}: it holds no steps, and only steps are timed", request.detector.library)};
+        fmt::format("{}: it answers no steps, and only steps are timed", request.detector.library)};
   return detector_suite(settings, plugin, progress);
 }
 
@@ -93,8 +93,8 @@ void add_options(CLI::App& verb, BenchRequest& request) {
   verb.add_flag("--quick", request.is_quick,
                 "A tenth of sizes and rounds: a first look, in a tenth of the time or so");
   add(verb, "--data DIR", request.settings.data,
-      "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of missing data "
-      "say so");
+      "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows without data say "
+      "so");
   request.settings.peers = (properties::worker_program().parent_path() / "peers").string();
   add(verb, "--peers DIR", request.settings.peers,
       "Suite peers: folder of the plug-ins (default: peers beside the program, where target "

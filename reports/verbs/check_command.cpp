@@ -1,5 +1,5 @@
-// `assay check` judges its input: a mesh, whose steps go through the detector and, unless it is
-// left out, the oracle; a log, whose recorded answers are judged; or query files
+// `assay check` judges its input: a mesh, whose steps the detector answers and, unless --no-oracle
+// is given, the oracle judges; a log, whose recorded answers are judged; or query files
 // (check_queries.cpp).
 #include <fmt/format.h>
 
@@ -156,7 +156,7 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
     if (are_logs && !start) kinds[i] = InputKind::log;
     if (kinds[i] == InputKind::answers)
       return Problem{fmt::format(
-          "{} is a table of answers, which stands beside frames: assay check FRAME... --answers {}",
+          "{} is a table of answers, which needs frames: assay check FRAME... --answers {}",
           files[i], shell_word(files[i]))};
     const bool is_alone = kinds[i] == InputKind::case_file;
     if (i > 0 && (kinds[i] != kinds[0] || is_alone))
@@ -309,7 +309,7 @@ Expected<int> run_check(const CheckRequest& request) {
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
       request.option_texts()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
-    return Problem{"--detector is asked again about kept steps: name their folder by --keep"};
+    return Problem{"--detector is asked about kept steps: name a folder for them by --keep"};
   if (const auto& which = request.selection;
       kind == a_log && (which.share < 1 || which.from > 1) &&
       std::ranges::any_of(request.inputs,
@@ -350,8 +350,8 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "rest. Or one case file (.json). Or logs of a recorder (assay_record.h, assay.Recorder), "
       "each judged by itself; LOG#N is step N alone. Or query files (.csv, .csv.gz)");
   add(verb, "--body FRAME", question.bodies,
-      "The frames of one of several meshes, which become the bodies of one mesh, numbered from 0. "
-      "A body of one frame stands still");
+      "The frames of one body, for a mesh of several bodies, which are numbered from 0. A body of "
+      "one frame stands still");
   add(verb, "--apart A,B", request.apart,
       "A,B: bodies that do not meet; A,A: a body that does not meet itself")
       ->check(one_of("A,B: two bodies by number", two_numbers));
@@ -368,8 +368,8 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_query_options(verb, request.queries);
   add_detector_alone(verb, question.detector,
                      "A plug-in's library, or python:MODULE:CLASS (default: the built-in). For "
-                     "queries: its query answers. For a log: a plug-in of the same code; it is "
-                     "asked again about the kept steps, to shrink them");
+                     "queries: its query function answers. For a log: a plug-in with the recorded "
+                     "detector's code, to shrink the kept steps");
   add_threads(verb, question.threads);
   add(verb, "--answers FILE", question.answers,
       "Judge the answers of this table (step,answer,time) in place of a detector");
@@ -385,14 +385,14 @@ void add_options(CLI::App& verb, CheckRequest& request) {
              from_name<detector::Pairs>, "Which pairs are asked for (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
-  verb.add_flag("--no-oracle", question.no_oracle, "Detector only; prints `not judged`");
+  verb.add_flag("--no-oracle", question.no_oracle, "Run the detector alone; prints `not judged`");
   add(verb, "--second-opinion SHARE", question.second_opinion,
       "Check the oracle itself by other methods, on this share of its questions")
       ->check(share());
   add(verb, "--separation LENGTH", request.separation,
       "Ask only the oracle: which triangles without a common vertex come within this distance, "
       "when first, and how near any two come. For queries: ask for this distance in place of "
-      "contact, unless a query's rows state one")
+      "contact, unless the query's rows state a distance")
       ->check(length());
   add(verb, "--offset LENGTH", request.offsets,
       "Like --separation, with a length for each --body in order: the distance for two triangles "

@@ -1,6 +1,6 @@
-// `assay check` of query files asks one method labelled vertex-face and edge-edge queries, scores
-// the answers against their truth, and times them one by one. The query of a plug-in may answer
-// instead; then its claims are judged too.
+// `assay check` of query files asks one method the vertex-face and edge-edge queries of the files,
+// scores the answers against the labelled truth, and times each query alone. If a plug-in is named,
+// its query function answers, and its claims are judged too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -306,7 +306,7 @@ class QueryPlugin {
   void print() const {
     const auto& [judged, left_out, undecided, not_asked, unused, broken, failures] = found_;
     fmt::print("{}\n{}\n", measures_head(true), measures_row(measures_, true));
-    if (left_out > 0) fmt::print("{} queries are left out by its contract\n", left_out);
+    if (left_out > 0) fmt::print("{} queries are left out by the plug-in's contract\n", left_out);
     if (not_asked > 0)
       fmt::print("{} queries were not asked: the plug-in crashed {} times\n", not_asked, crashes_);
     for (const auto& way : std::span(failures).first(std::min(most_shown, failures.size())))
@@ -443,7 +443,7 @@ Expected<void> check_method(const QueryQuestion& task, const std::vector<QuerySe
     for (const auto& method : properties::query_methods()) {
       if (method.knows_distance) others.push_back(method.word);
     }
-    return Problem{fmt::format("{} query {}: --method {} knows no separation; these do: {}",
+    return Problem{fmt::format("{} query {}: --method {} knows no separation; these methods do: {}",
                                task.files[i], asks - sets[i].begin(), task.method->word,
                                join(others, ", "))};
   }

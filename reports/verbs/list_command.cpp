@@ -86,7 +86,7 @@ constexpr List lists[] = {
     {"laws", "the theorems that are tested, each in a sentence", false, list_laws},
     {"faults", "the planted faults that a campaign has to find", false, list_faults},
     {"campaigns", "campaigns, for `assay run` and `assay certify`", false, list_campaigns},
-    {"failures", "what failed in the run in DIR, each with its replay line", true, list_failures},
+    {"failures", "the failures of the run in DIR, each with its replay line", true, list_failures},
     {"slow", "the slowest cases of the run in DIR", true, list_slow}};
 
 void print_lists() {

@@ -1,4 +1,5 @@
-// `assay replay` runs one case again, by its id or from its file, and tells about a pair in it.
+// `assay replay` runs one case again, by its id or from its file, and explains one pair of its
+// triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -202,12 +203,12 @@ Expected<int> run_replay(const ReplayRequest& request) {
   if (!trial) {
     auto input = read_case_of({request.id_or_file});
     if (!input) {
-      return Problem{input.error().message +
-                     (request.id_or_file.find(':') == std::string::npos
-                          ? ""
-                          : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build; "
-                            "what a search found "
-                            "is replayed by its file: assay list failures DIR)")};
+      return Problem{
+          input.error().message +
+          (request.id_or_file.find(':') == std::string::npos
+               ? ""
+               : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build; a case that "
+                 "a search found is replayed by its file: assay list failures DIR)")};
     }
     c = std::move(input.value());
   }
@@ -238,7 +239,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   }
   const auto contracted_case = properties::contract_case(c, subject.detector.contract);
   if (!contracted_case) {
-    return Problem{fmt::format("{}: no step of it is within the detector's contract: {}",
+    return Problem{fmt::format("{}: none of its steps is within the detector's contract: {}",
                                request.id_or_file, properties::why_left_out(c, contract))};
   }
   // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
@@ -255,7 +256,7 @@ Expected<int> run_replay(const ReplayRequest& request) {
   fmt::print("{}: {}{}\n", properties::printable(c.id), properties::size_text(c),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (trial) fmt::print("{}", misspelt(request.id_or_file));
-  if (vouched) fmt::print("as in the campaign, the detector is told that its start is clean\n");
+  if (vouched) fmt::print("as in the campaign, the detector is told that the start is clean\n");
   print_steps(*contracted_case, truth, contract);
   int code = exit_holds;
   std::vector<RunText> texts;

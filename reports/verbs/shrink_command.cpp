@@ -1,4 +1,4 @@
-// `assay shrink` looks for the smallest case that fails as this one does.
+// `assay shrink` looks for the smallest case that fails like a given case.
 #include <fmt/format.h>
 
 #include "properties/campaign/phases/phases.h"
@@ -114,7 +114,7 @@ void add_options(CLI::App& verb, ShrinkRequest& request) {
   add(verb, "FILE", request.files,
       "A case file (.json), frames of one mesh, or LOG#N: step N of a log")
       ->required();
-  add(verb, "--out FILE", request.out, "Where the smallest case goes")
+  add(verb, "--out FILE", request.out, "File for the smallest case")
       ->required()
       ->group(OptionGroup::output);
   add(verb, "--time SECONDS", request.seconds, "Seconds at most")
@@ -127,7 +127,7 @@ void add_options(CLI::App& verb, ShrinkRequest& request) {
 }  // namespace
 
 VerbAction add_shrink(CLI::App& app) {
-  return make_verb(app, "shrink", "The smallest case that fails as a given one does", add_options,
+  return make_verb(app, "shrink", "The smallest case that fails like a given case", add_options,
                    run_shrink);
 }
 

@@ -63,7 +63,7 @@ Expected<int> run_trials_again(const std::string& certificate, const VerifyReque
                *difference, certificate, trials, stored_trials, request_again.seed);
     return exit_defect;
   }
-  fmt::print("again: {} of {} trials, seed {}: all as they are stored\n", trials, stored_trials,
+  fmt::print("again: {} of {} trials, seed {}: all results are as stored\n", trials, stored_trials,
              request_again.seed);
   return exit_holds;
 }
@@ -112,8 +112,8 @@ void add_options(CLI::App& verb, VerifyRequest& request) {
       "each under a seed of its own")
       ->group(OptionGroup::output);
   add(verb, "--again SHARE", request.again,
-      "Run this SHARE of the trials, above 0, at most 1, once more; the results must be those that "
-      "are stored")
+      "Run this SHARE of the trials, above 0, at most 1, once more; the results must be the stored "
+      "results")
       ->check(share());
   add(
       verb, "--seed N",

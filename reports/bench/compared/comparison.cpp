@@ -321,15 +321,15 @@ namespace {
 using KnownPeer = std::pair<std::string, std::string>;
 std::vector<KnownPeer> known_peers() {
   std::vector<KnownPeer> peers = {
-      {"cubic_double", ""}, {"cubic_float", ""}, {"cubic_eigen", "libeigen3-dev was not there"},
+      {"cubic_double", ""}, {"cubic_float", ""}, {"cubic_eigen", "libeigen3-dev was not installed"},
       {"sampled_1", ""},    {"sampled_10", ""},  {"sampled_100", ""}};
-  peers.emplace_back("fcl_elementary", "libfcl-dev was not there");
-  peers.emplace_back("bullet_bernstein", "libbullet-dev was not there");
+  peers.emplace_back("fcl_elementary", "libfcl-dev was not installed");
+  peers.emplace_back("bullet_bernstein", "libbullet-dev was not installed");
   std::istringstream of_sources(
       "tight_inclusion ipc_tight_inclusion ipc_additive fast_approximate_root eltopo_cubic ctcd "
       "eltopo_root_parity bsc tight_ccd arcsim codim_ipc libuipc ppf");
   for (std::string name; of_sources >> name;)
-    peers.emplace_back(name, "its source was not found when it was built (corpus/peers/README.md)");
+    peers.emplace_back(name, "its source was not found in the build (corpus/peers/README.md)");
   return peers;
 }
 
@@ -338,8 +338,8 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
                                           properties::DetectorPart::by_library, {});
   const std::string file_name = file.stem().string();
   const auto why = !plugin                                           ? plugin.error().message
-                   : !plugin.value().description.parts.steps         ? "it holds no steps"
-                   : plugin.value().detector.contract.separation > 0 ? "it is asked for a distance"
+                   : !plugin.value().description.parts.steps         ? "it answers no steps"
+                   : plugin.value().detector.contract.separation > 0 ? "it answers about distances"
                                                                      : "";
   if (!why.empty()) {
     peers.absent.push_back({file_name, why});

@@ -1,7 +1,8 @@
-// Compares subjects on sources of cases: each subject plays each case in turn, the oracle judges
-// it, and times stand beside errors, summed by family and by subject. All suites of `assay bench`
-// are such comparisons. At its default size, on one core, each takes at most five minutes, and all
-// together twenty. The report of a suite stands first.
+// Compares subjects on families of cases. A subject is a plug-in, or the built-in detector with
+// certain options. The subjects play each case in turn, and the oracle judges their answers. The
+// report shows times beside errors, summed by family and by subject. Every suite of `assay bench`
+// is such a comparison. At default size, on one core, a suite takes at most five minutes, and all
+// suites together take at most twenty. This header begins with the report of a suite.
 #pragma once
 
 #include <array>
@@ -25,15 +26,15 @@
 
 namespace assay::reports {
 
-// The result of a suite of benches: rows, wrong answers, and further figures, in forms that are the
-// same for all suites. It is written as text, as JSON (schema assay-bench/2,
-// reports/schemas/bench.schema.json) and as CSV, each in one way.
+// The report of a suite has rows, wrong answers, and further figures. It is written as text, as
+// JSON (schema assay-bench/2, reports/schemas/bench.schema.json) and as CSV, in the same form for
+// all suites.
 
-// The goals of the suites of `assay bench`, as ratios. Suites hand these values to their rows; the
-// comments below name the rows.
+// The goals of the suites of `assay bench`, as ratios. Suites give these goals to their rows; the
+// comments below say to which rows.
 //
-// Only chosen bounds have a name here. Other goals stand in their rows: no wrong answer
-// (at_most(0)), every answer the same (at_least(100) %).
+// A goal has a name here only if its bound was chosen. Goals without a choice are written where
+// their rows are made: no wrong answer (at_most(0)), every answer the same (at_least(100) %).
 
 // The goal of a row.
 struct Goal {
@@ -48,15 +49,16 @@ inline std::optional<Goal> goal_if(bool condition, Goal goal) {
 
 namespace goal {
 
-// For the time of whole steps of any mesh. view-auto falls back to bvh if views do not pay, so it
-// loses only the time to find that out.
+// Goals for the time of whole steps, on any mesh. Where views do not pay, Culling::view_auto
+// searches like Culling::bvh, so it loses only the time to find out that they do not pay.
 inline constexpr Goal view_auto_over_bvh = at_most(1.05);
 inline constexpr Goal exact_over_double = at_most(1.3);
 
-// For whole sequences with culling auto. The first two are ratios to the single culling that takes
-// the least time for the sequence: the first for the sum and the median step, the second for the
-// worst step of a millisecond or more. The third is the first step over the first step of bvh,
-// which looks at the same pairs. The last is the time of one thread over the time of two.
+// Goals for whole sequences with Culling::automatic. "Best culling" is the single other culling
+// that takes the least time for the sequence. auto_over_best_culling is for the sum and for the
+// median step, auto_step_over_best_culling for the worst step of a millisecond or more.
+// first_step_over_bvh compares the first step with the first step of Culling::bvh, which looks at
+// the same pairs. two_threads_gain is the time of one thread over the time of two threads.
 inline constexpr Goal auto_over_best_culling = at_most(1.05);
 inline constexpr Goal auto_step_over_best_culling = at_most(1.15);
 inline constexpr Goal first_step_over_bvh = at_most(1.1);
@@ -85,7 +87,8 @@ struct BenchReport {
   // The fields that the suite adds to the JSON, by name: lists of objects, except `detector`.
   std::map<std::string, nlohmann::ordered_json, std::less<>> figures = {};
   // The suite's own CSV: the names of its columns, and its lines, each with the number of columns
-  // that it fills; the other columns of a line are empty. No lines: the CSV has the rows' samples.
+  // that it fills; the other columns of a line are empty. If there are no lines, the CSV has the
+  // samples of the rows.
   std::vector<std::string> columns = {};
   std::vector<std::pair<std::size_t, std::string>> samples = {};
 
@@ -94,7 +97,8 @@ struct BenchReport {
   // Adds a row that says that the folder or file `missing` does not exist.
   void add_no_data(std::string label, const std::string& missing);
   // Adds a line to `samples`. A field that is an object has a column for each of its fields
-  // ("late_steps"). Numbers of a list are separated by blanks; other lists are left out.
+  // ("late_steps"). A list of numbers fills one column, with blanks between the numbers; other
+  // lists are left out.
   void add_sample(const nlohmann::ordered_json& object);
   // Adds a row without a measurement. `why` is its note, such as "left out: ...".
   void add_left_out(std::string label, std::string why);
@@ -102,17 +106,17 @@ struct BenchReport {
 
 std::string text_of(const Goal& goal);
 
-// A word of a table, the heading of its column, and the width that it fills. A word ends at the
-// right of its column, or begins at the left if the width is below 0. The last column has width 0
-// or above; where its word is empty, the line ends before it.
+// A word of a table, with the heading and the width of its column. The word is aligned to the
+// right, or to the left if the width is below 0. The last column has width 0 or above; if its word
+// is empty, the line ends before this column.
 struct Column {
   std::string heading;
   int width;
   std::string word;
 };
 
-// Returns the headings of the first row, and all rows, a line each, with `gap` blanks between
-// columns. Empty without rows.
+// Returns a line with the headings of the first row, then a line for each row, with `gap` blanks
+// between columns. Empty if there are no rows.
 std::string table_text(const std::vector<std::vector<Column>>& rows, int gap = 1);
 
 // Returns "2: 0.01": the number of steps whose first times are off, and the worst error, as a share
@@ -142,38 +146,39 @@ nlohmann::ordered_json json_object(const char* name, const T& value, const Rest&
   return json;
 }
 
-// The subjects that are compared: the built-in detector by its options, in this process or in a
-// worker, and plug-ins.
+// A subject of a comparison: the built-in detector with certain options, in this process or in a
+// worker, or a plug-in.
 struct BenchSubject : properties::Subject {
   std::string name = {};
   detector::Options options = {};  // of the built-in detector; `start` is set by the case
-  bool is_here = false;            // it runs in this process
-  MakeStages stages = detector::standard_stages;  // in this process
-  bool is_vouched_for = true;                     // known clean starts are not verified
+  bool is_here = false;            // the subject runs in this process
+  MakeStages stages = detector::standard_stages;  // of a subject in this process
+  bool is_vouched_for = true;                     // true: starts known to be clean are not verified
   bool must_hold = true;                          // a broken claim is a wrong answer of the suite
   // The claims by which errors are counted. For every form of the built-in detector these are the
-  // claims of exact arithmetic, so that all errors are counted: otherwise doubles, which claim no
-  // pair, could miss none. For a plug-in these are its own claims.
+  // claims of exact arithmetic, so that all errors are counted. Arithmetic::double_precision claims
+  // no pairs, so by its own claims no missing pair would be an error. For a plug-in, these are its
+  // own claims.
   properties::Claims error_claims = {};
-  // The contract by which the subject gets steps, if that is not its own.
+  // If stated, the steps that the subject gets are chosen by this contract in place of its own.
   std::optional<properties::Contract> contract_of_input = std::nullopt;
 
   const properties::Contract& contract_of_steps() const {
     return contract_of_input ? *contract_of_input : detector.contract;
   }
-  // Returns a worker that runs the subject, not yet started.
+  // Returns a worker for the subject. The worker is not started yet.
   properties::WorkerProcess make_worker(double seconds) const;
 };
 
-// Returns an assembly that a user may choose by options, named "exact view-auto all", in this
-// process.
+// Returns the built-in detector with these options, in this process, under a name like "exact
+// view-auto all".
 BenchSubject variant_of(detector::Arithmetic arithmetic, detector::Culling culling,
                         detector::Pairs pairs);
-// Returns every arithmetic with every culling, for all pairs and for first pairs; exact, bvh, all
-// is the first.
+// Returns a subject for every arithmetic, every culling, and both Pairs. The first is "exact bvh
+// all".
 std::vector<BenchSubject> all_variants();
 
-// Returns the built-in detector in a worker, "built-in, exact, bvh".
+// Returns the built-in detector in a worker, under a name like "built-in, exact, bvh".
 BenchSubject built_in_in_worker(const detector::Options& options);
 
 // A detector that is known but cannot be run here.
@@ -181,12 +186,13 @@ struct AbsentPeer {
   std::string name, why;
 };
 struct Peers {
-  std::vector<BenchSubject> subjects;  // the first is the built-in detector, exact, bvh
+  std::vector<BenchSubject> subjects;  // the first is "built-in, exact, bvh"
   std::vector<AbsentPeer> absent;
 };
-// Returns the built-in detector in three arithmetics, and the peers in the folder: each library
-// NAME.so, by name. A library is absent if it cannot be loaded, has no steps, or answers about a
-// distance in place of contact. A known peer without a library is absent too; `why` says its needs.
+// Returns the built-in detector in three arithmetics, and the peers, which are the libraries
+// NAME.so in the folder: known peers first, then the others by name. A library counts as absent if
+// it cannot be loaded, has no steps, or answers about a distance in place of contact. A known peer
+// without a library is absent too; `why` then says what it lacks.
 Peers find_peers(const std::string& folder);
 
 // The counts of answers that the oracle judged.
@@ -194,8 +200,8 @@ struct JudgedCounts {
   properties::StepErrors errors;       // of the steps that the contract takes
   std::uint64_t left_out = 0;          // steps that the contract does not take
   std::uint64_t confirmed = 0;         // unsafe steps confirmed without the oracle (is_confirmed)
-  std::uint64_t timed_collisions = 0;  // collisions with another first time than [0, 1]
-  std::uint64_t slow = 0;              // cases run once, because a step took so long
+  std::uint64_t timed_collisions = 0;  // collisions whose first time is not [0, 1]
+  std::uint64_t slow = 0;              // cases run only once, because a step took too long
   std::uint64_t ended = 0;             // cases whose run ended early
 
   JudgedCounts& operator+=(const JudgedCounts& other) {
@@ -234,7 +240,7 @@ struct FamilyRow {
 // A share of steps, with its interval of Clopper and Pearson, 95 %.
 struct ShareOfSteps {
   double share = 0, lo = 0, hi = 0;
-  bool on_pareto_line = false;  // no subject as fast has a smaller share
+  bool on_pareto_line = false;  // no subject that is as fast has a smaller share
 };
 
 // The results of one subject on all families.
@@ -249,9 +255,10 @@ struct SubjectRow {
   std::optional<double> bytes_a_triangle = {};
 };
 
-// Returns rows in the order of the subjects; a subject that took part in nothing is left out.
-// Subjects in this process that are asked for the same pairs share a Pareto line for each error.
-// Culling::none has no place on the line, because only the smallest meshes are run with it.
+// Returns rows in the order of the subjects; a subject that took part in nothing is left out. For
+// each kind of error there is a Pareto line of the subjects in this process that are asked for the
+// same pairs. Subjects with Culling::none are on no line, because they run only the smallest
+// meshes.
 std::vector<SubjectRow> by_subject(std::span<const FamilyRow> families,
                                    const std::vector<BenchSubject>& subjects);
 
@@ -261,8 +268,7 @@ struct Match {
   std::vector<SweptSubject> subjects = {};
   std::vector<SweptRuns> runs = {};
   // If cases are judged: the oracle's judgement of each step, and a verdict on the first run of
-  // each subject. `outcome` is by the claims by which errors are counted, `own` by the subject's
-  // own claims.
+  // each subject. `outcome` is judged by the subject's error_claims, `own` by its own claims.
   std::vector<oracle::StepJudgement> truth = {};
   struct Verdict {
     properties::StepErrors errors = {};
@@ -274,9 +280,9 @@ struct Match {
 struct ComparisonPlan {
   SweepPlan sweep = {};       // the rounds are those of the families
   double small_seconds = 10;  // processor time for a worker's run of a generated or hard case
-  double large_seconds = 60;  // the same for a scene or a public sequence
+  double large_seconds = 60;  // processor time for a run of a scene or a public sequence
   int jobs = 1;               // threads of the oracle
-  bool is_judged = true;      // else cases are only played and timed
+  bool is_judged = true;      // false: cases are only played and timed
   // A suite's own work on each case.
   std::function<void(const Match&)> on_case = [](const Match&) {};
 };
@@ -290,15 +296,16 @@ struct BenchProgress {
 // Runs and judges cases. The first subject is the reference.
 class Comparison {
  public:
-  // The references must outlive this object. Wrong answers, and a line of the CSV for each step
-  // and subject, go into the report.
+  // `subjects` and `report` must outlive this object. Wrong answers, and a line of the CSV for each
+  // step and subject, go into the report.
   Comparison(const std::vector<BenchSubject>& subjects, ComparisonPlan plan, BenchReport& report,
              const BenchProgress& progress = {});
 
-  // Runs all cases of the families, and adds a row for each family and subject that had one. A
-  // subject is given the steps that its contract takes, and the reference is given the same steps.
-  // If steps were left out, the start of the others is not vouched for. Culling::none takes part up
-  // to 64 triangles. The times of a run that ended early do not count, and its steps are undecided.
+  // Runs all cases of the families, and adds a row for each family and each subject that played a
+  // case of it. A subject is given the steps that its contract takes, and the reference is given
+  // the same steps. If steps are left out of a case, its starts are verified. Subjects with
+  // Culling::none play only cases of at most 64 triangles. The times of a run that ended early do
+  // not count, and its steps are undecided.
   void run(const std::vector<CaseFamily>& families);
 
   const std::vector<FamilyRow>& rows() const { return rows_; }
@@ -324,12 +331,13 @@ class Comparison {
   std::vector<UnsafeAnswer> unsafe_;
 };
 
-// Returns whether another method shows that step s has a contact that was missed or reported too
-// late, or one of the missing pairs. If the contact may be at any time of the step, the method is
-// the referee (a proof without roots). Otherwise it is rational arithmetic at a witness: a time
-// before the detector's at which the two features meet, or two times between which they are proved
-// to meet (oracle/referee/referee.h). If the contract asks for all features, their two triangles
-// may meet instead. REQUIRES an unsafe diff of that step.
+// Returns whether a method other than the oracle's confirms the unsafe diff of step s: that the
+// contact exists which the detector missed or reported too late, or that a missing pair is in
+// contact. Two methods are tried, over the whole step or, for a late contact, before the detector's
+// time. The referee proves without roots that the two features meet (oracle/referee/referee.h).
+// Rational arithmetic looks for a witness: a time at which the features meet, or two times between
+// which they are proved to meet. If the contract asks for all features, it suffices that the two
+// triangles meet. REQUIRES an unsafe diff.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 
@@ -357,20 +365,22 @@ RunSuite speed_error_suite;
 // Plays whole sequences by each culling and by several threads, and compares the default with the
 // best choice.
 RunSuite sequences_suite;
-// Compares the peers that are there with the built-in detector: time and error.
+// Compares the peers that can be run with the built-in detector: time and error.
 RunSuite peers_suite;
 
-// Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences:
-// each in a worker of its own, in turn, a whole sequence each time. The built-in detector is asked
-// for what the plug-in claims. A claim that either breaks is a wrong answer. With a scale below 1,
-// public sequences of more than 10,000 triangles are left out. REQUIRES a plug-in that has steps;
-// its `limits.seconds` is the processor time that one run of a sequence may take.
+// Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences.
+// Each detector has a worker of its own, and the two take turns, a whole sequence each time. The
+// built-in detector is asked only for what the plug-in claims. A claim that one of the two
+// detectors breaks is a wrong answer. With a scale below 1, public sequences of more than 10,000
+// triangles are left out. REQUIRES a plug-in that has steps; its `limits.seconds` is the processor
+// time that one run of a sequence may take.
 BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
                            const BenchProgress& progress);
 
-// Runs suite `stability` over any families and subjects in this process, so that tests can hand in
-// wrong ones. The rows go family by family and subject by subject. Wrong answers are: a wrong exact
-// subject, a refuted bounded one, and an oracle that contradicts a construction.
+// Runs suite `stability` over the given families and the given subjects, which run in this process,
+// so that a test can pass subjects that are wrong. The rows are sorted by family, then by subject.
+// There is a wrong answer if a subject with exact arithmetic is wrong, if an answer with bounded
+// arithmetic is refuted, or if the oracle contradicts the construction of a case.
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const std::vector<BenchSubject>& subjects, const BenchSettings& settings,
                          const BenchProgress& progress);
@@ -381,8 +391,8 @@ std::vector<BenchSubject> all_arithmetics();
 // Returns the changes of a hard case that must not change its answer, by their names: permutation
 // (of vertices, triangles, first corners), mirror (all triangles reversed, so that outside stays
 // outside), power of two (up or down, by the case's id), and translation (as far as it can be
-// exact). The case's view primitive is changed too, and its facts stay. There is no form if a
-// coordinate would be rounded.
+// exact). The case's view primitive is changed too, and its facts stay. A change returns nothing if
+// it would round a coordinate.
 using MakeForm = std::optional<properties::Form> (*)(const corpus::Case&);
 std::span<const std::pair<const char*, MakeForm>> case_changes();
 

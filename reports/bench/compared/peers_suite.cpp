@@ -1,5 +1,5 @@
-// Suite `peers`, and `--detector` for one plug-in, compare detectors of others with the built-in
-// one.
+// Suite `peers`, and `--detector` for one plug-in, compare the detectors of others with the
+// built-in detector.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void keep_smallest_sequences(std::vector<CaseFamily>& families, BenchReport& rep
   for (std::size_t i = most_built_in; i < sizes.size(); ++i) {
     const auto& name = sizes[i].second;
     std::erase_if(families, [&](const auto& family) { return family.name == name; });
-    report.add_left_out(name, "left out: --quick takes the two smallest sequences");
+    report.add_left_out(name, "left out: --quick takes only the two smallest sequences");
   }
 }
 
@@ -118,7 +118,7 @@ std::string sequences_text(const std::vector<FamilyRow>& rows, const BenchSubjec
                      {"", 0, remark}});
   }
   return table_text(table) +
-         (has_left_out ? "steps 5-2: of 5, 2 are left out by the contract\n" : "");
+         (has_left_out ? "steps 5-2: of 5 steps, 2 are left out by the contract\n" : "");
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
   for (auto& real : real_families(settings, missing)) {
     constexpr Eigen::Index most_triangles_when_quick = 10'000;
     if (settings.is_quick() && triangles_of(real) > most_triangles_when_quick)
-      report.add_left_out(real.name, "left out: of more triangles than --quick takes");
+      report.add_left_out(real.name, "left out: it has more triangles than --quick takes");
     else
       families.push_back(std::move(real));
   }
@@ -167,8 +167,8 @@ BenchReport detector_suite(const BenchSettings& settings, const properties::Subj
   for (const auto& file : missing) report.add_no_data("public sequence", file);
   report.above = plugin_text(plugin) +
                  fmt::format(
-                     "\nbeside the built-in detector, {}, exact, {} pairs; processor time in ms "
-                     "with all threads, medians\n",
+                     "\nbeside the built-in detector ({}, exact, {} pairs): medians of processor "
+                     "time in ms, of all threads\n",
                      name_of(subjects[0].options.culling), name_of(subjects[0].options.pairs)) +
                  sequences_text(comparison.rows(), subjects[1]);
   add_figures(comparison.subjects(), comparison, report);

@@ -42,9 +42,9 @@ void add_errors(std::span<const SubjectRow> rows, BenchReport& report) {
                  exactly(static_cast<double>(count)), goal_if(is_claimed, at_most(0)),
                  std::move(note));
     };
-    const std::string of = fmt::format("of {} steps, all cullings, all pairs and first", all.steps);
+    const std::string of = fmt::format("of {} steps: all cullings, all and first pairs", all.steps);
     add("wrong answers", all.missed + all.false_alarms, exact, of);
-    add("answered free, with a contact", all.missed, is_proved, of);
+    add("steps with a contact, answered free", all.missed, is_proved, of);
     add("missing pairs", all.missing, is_proved, "");
     add("spurious pairs", all.spurious, exact, "");
     add("first times late", all.late.steps, is_proved, "steps");

@@ -1,5 +1,5 @@
-// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the
-// corpus: at all strengths, and in cases that are changed in ways that must not matter.
+// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the corpus:
+// at all strengths, and after changes of the case that must not change its answer.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -296,8 +296,8 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
       all.back()[i].cells[strength] += cell_of(match, i);
     add_changes(match, survivals);
     if (!agrees_with_construction(match.c, match.truth[0]))
-      report.wrong_answers.push_back(match.c.id +
-                                     ": the oracle's answer is not the one it was built for");
+      report.wrong_answers.push_back(
+          match.c.id + ": the oracle contradicts the answer for which the case was built");
   };
   Comparison comparison(subjects, plan, of_comparison, progress);
   for (const auto& family : families) {

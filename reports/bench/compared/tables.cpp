@@ -86,8 +86,8 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   return text +
          "answer: a (collision or not), t (first time), p (pairs); each under its own contract\n"
          "time, create: ratio to built-in, exact, bvh on the same steps, median of families\n"
-         "(n): not promised; late, early: number of steps, and the worst as a share of the step\n"
-         "slow: cases with a step of more than 5 s, run once; bytes: highest use for a triangle\n" +
+         "(n): not claimed (free-sound); late, early: number of steps, worst as a share of a step\n"
+         "slow: cases with a step of more than 5 s, run once; bytes: peak memory for a triangle\n" +
          fmt::format(
              "unsafe answers confirmed by referee or rational witness: {} of {}, built-in "
              "{} of {}\n",
@@ -104,7 +104,7 @@ std::string remarks_text(const Comparison& comparison, std::span<const AbsentPee
   for (const auto& [name, why] : absent) text += fmt::format("absent: {}: {}\n", name, why);
   for (const auto& one : comparison.unsafe()) {
     if (!one.is_confirmed)
-      text += fmt::format("by the oracle alone: {}, case {}, step {}: {}\n", one.subject,
+      text += fmt::format("unsafe by the oracle alone: {}, case {}, step {}: {}\n", one.subject,
                           one.case_id, one.step + 1, one.defect);
   }
   return text;

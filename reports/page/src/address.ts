@@ -3,8 +3,8 @@
 import { html } from "./dom";
 
 export interface Address {
-  run: number | null; // from 0; null: none is named
-  place: string; // the id of an element, or that of a failure after "failure/"
+  run: number | null; // from 0; null: the address names no run
+  place: string; // the id of an element, or "failure/" and the name of a failure
 }
 
 export const failurePlace = "failure/";
@@ -14,11 +14,12 @@ export function parseAddress(hash: string): Address {
   return { run: run === undefined ? null : Number(run) - 1, place: place! };
 }
 
-// Writes an address of one run. `run` is null where the page has no other.
+// Returns the writer of addresses within one run. `run` is null if the page has only one run.
 export const addressIn = (run: number | null) => (place: string): string =>
   run === null ? `#${place}` : `#run-${run + 1}/${place}`;
 
-// Names of the failures in addresses: their signatures in small letters and hyphens, each once.
+// Returns the names of failures in addresses: their signatures in small letters and hyphens. A name
+// that occurs again gets a number.
 export function namesOf(signatures: string[]): string[] {
   const times = new Map<string, number>();
   return signatures.map((signature) => {
@@ -29,7 +30,8 @@ export function namesOf(signatures: string[]): string[] {
   });
 }
 
-// Makes `hash` the address of the page, so that it can be sent, and left by going back.
+// Makes `hash` the address of the page, so that a reader can send the address, and can leave the
+// place by going back.
 export function remember(hash: string): void {
   try {
     history.pushState(null, "", hash);
@@ -38,8 +40,8 @@ export function remember(hash: string): void {
   }
 }
 
-// Calls back for each link within the page that is followed, in place of the browser, which would
-// leave a page that stands in a frame of another one.
+// Calls `then` when the reader follows a link within the page. The browser does not follow the link
+// itself, because it would leave a page that is shown in a frame of another page.
 export function onFollow(then: (hash: string, link: HTMLAnchorElement) => void): void {
   document.addEventListener("click", (event) => {
     const link = event.target instanceof Element ? event.target.closest("a") : null;
@@ -57,7 +59,7 @@ export function goTo(element: HTMLElement, withFocus: boolean): void {
   if (withFocus) element.focus({ preventScroll: true });
 }
 
-// The sections of a run, in their order.
+// Returns links to the sections of a run, in their order.
 export function contents(sections: HTMLElement[], address: (place: string) => string): HTMLElement {
   const items = sections.map((s) =>
     html("li", {}, html("a", { href: address(s.id) }, s.querySelector("h2")!.textContent)),

@@ -1,4 +1,5 @@
-// Describes the cases: laws met, sizes, contacts, set pairs.
+// Describes the cases of a campaign: how often laws were tested, sizes, contacts, pairs of view
+// sets.
 import { folded, html, section, table } from "./dom";
 import { barPlot } from "./plots";
 import type { Findings, Run } from "./report";
@@ -40,7 +41,8 @@ export function laws({ findings: { laws: told }, law_statements: statements }: R
   );
 }
 
-// The exhaustive part: no bound, but all there is on a small grid.
+// Shows the exhaustive part of a run: it needs no bound, because it proves all motions on a small
+// grid.
 export function worlds(f: Findings): HTMLElement | null {
   type World = Findings["power"]["worlds"][number];
   if (f.power.worlds.length === 0) return null;
@@ -60,7 +62,7 @@ export function worlds(f: Findings): HTMLElement | null {
   );
 }
 
-// [from, to, cases] of all families together, ascending.
+// Sums the cases of all families in each range [from, to, cases], and sorts the ranges.
 function together(lists: [number, number, number][][]): { label: string; value: number }[] {
   const sums = new Map<number, [number, number]>();
   for (const list of lists)

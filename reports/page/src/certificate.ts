@@ -1,5 +1,5 @@
 // The parts that a certificate adds to a run: the corpus, speed, the checks of the oracle, and the
-// digests of all that was judged.
+// digests of everything that was judged.
 import { facts, html, section, table } from "./dom";
 import { pasteNote, replayLine } from "./failure_facts";
 import type { Findings, Run } from "./report";
@@ -7,7 +7,7 @@ import { count, counted } from "./words";
 
 type CorpusRow = NonNullable<Findings["corpus"]>[number];
 
-// Configurations that agree on an input are one row.
+// Puts configurations with the same result on an input into one row.
 function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
   const groups = new Map<string, CorpusRow[]>();
   for (const row of rows) {
@@ -85,7 +85,7 @@ function selfTest(t: Findings["self_test"]): HTMLElement {
   return section("oracle", "The oracle, checked", html("p", {}, text));
 }
 
-// What exactly was judged, to the byte.
+// Shows the digests of what was judged.
 function digests(run: Run): HTMLElement {
   const f = run.findings;
   const { issued, seconds } = f.times;

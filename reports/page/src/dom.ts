@@ -1,4 +1,4 @@
-// Makes an element in one expression. All data goes in as text, never as markup.
+// Makes an element in one expression. All data is inserted as text, never as markup.
 
 export type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
@@ -39,7 +39,7 @@ export interface Column<Row> {
   short?: boolean; // never broken into lines
 }
 
-// Says of each table whether it is wider than its place, so that it can say that it scrolls.
+// Marks each table that is wider than its place, so that the style can show that the table scrolls.
 const widths = new ResizeObserver((entries) => {
   for (const { target } of entries) {
     const scroll = target.closest(".scroll")!;
@@ -47,7 +47,7 @@ const widths = new ResizeObserver((entries) => {
   }
 });
 
-// A table that scrolls by itself where the window is narrow. Rows that are `aside` are grey.
+// Makes a table that scrolls by itself if the window is narrow. Rows that are `aside` are grey.
 export function table<Row>(
   caption: string,
   columns: Column<Row>[],
@@ -78,7 +78,8 @@ export function section(id: string, title: string, ...children: Child[]): HTMLEl
   return html("section", { id, tabindex: -1, "aria-labelledby": heading.id }, heading, ...children);
 }
 
-// Names with their values, each of one or more lines. A name without a value is left out.
+// Makes a list of names with their values. A value has one or more lines. A name without a value is
+// left out.
 export function facts(rows: [string, Child[] | string | null][]): HTMLElement {
   const shown = rows.filter(([, value]) => value !== null && value.length > 0);
   return html(
@@ -91,6 +92,6 @@ export function facts(rows: [string, Child[] | string | null][]): HTMLElement {
   );
 }
 
-// A part that is folded until somebody wants it; it is unfolded on paper.
+// Makes a part that is folded until the reader opens it. On paper it is unfolded.
 export const folded = (title: string, ...children: Child[]): HTMLElement =>
   html("details", {}, html("summary", {}, title), ...children);

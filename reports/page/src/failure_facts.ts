@@ -21,7 +21,8 @@ export function replayLine(line: string): HTMLElement {
   return html("div", { class: "replay" }, code, button, said);
 }
 
-// A page from file:// is no secure context in every browser: then the older way is tried.
+// Tries the clipboard, then an older way, because some browsers give a page from file:// no
+// clipboard.
 async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

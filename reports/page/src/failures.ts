@@ -1,5 +1,5 @@
-// The failures: a list of their signatures, and one of them in full with its mesh. On paper, where
-// none can be chosen, all of them are in full, with a picture each.
+// Shows the failures: a list of their signatures, and the chosen failure in full with its mesh. On
+// paper, where no failure can be chosen, every failure is shown in full with a picture.
 import { failurePlace } from "./address";
 import { html, section } from "./dom";
 import { failureFacts } from "./failure_facts";
@@ -37,7 +37,7 @@ const printed = (run: Run, failure: Failure): HTMLElement =>
 
 const mostGroups = 5;
 
-// What the groups of kinds share, for one mistake shows as many kinds.
+// Shows what the kinds of failure in each group share, because one mistake causes many kinds.
 const groups = (run: Run, links: Map<string, string>): HTMLElement[] => {
   const all = run.findings.failure_groups;
   if (all.length === 0) return [];
@@ -88,7 +88,8 @@ export function failures(run: Run, names: string[], address: (place: string) => 
     detail.append(failureFacts(run, failure));
   };
 
-  // In the order of the findings, so that the first is the one that the verdict names.
+  // The links are in the order of the findings, so that the first link is the failure that the
+  // verdict names.
   const all = run.findings.failures.map((told, i): Failure => ({ ...told, ...run.failures[i]! }));
   const links = all.map((failure, i) =>
     html(

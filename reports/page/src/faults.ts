@@ -1,4 +1,4 @@
-// Planted faults: which the harness has found, and how many cases each took.
+// Shows which planted faults the harness found, and how many cases it needed for each fault.
 import { folded, html, section, table } from "./dom";
 import { barPlot, shares } from "./plots";
 import type { Findings } from "./report";
@@ -13,7 +13,8 @@ function verdict(f: Fault): string {
   return f.found ? "FOUND, but equivalent" : "survives, rightly";
 }
 
-// The worst of all runs: one that was not found is worse than any number of cases.
+// Returns a sentence about the canary that took most cases in any run. A canary that was not found
+// counts as more than any number of cases.
 function canaryText(canaries: Power["canaries"]): string {
   const cases = (c: { found_after: number | null }): number => c.found_after ?? Infinity;
   const worst = [...canaries].sort((a, b) => cases(b) - cases(a))[0];
@@ -23,7 +24,7 @@ function canaryText(canaries: Power["canaries"]): string {
     : `The canary (${worst.fault}) was found after ${counted(worst.found_after, "case")}.`;
 }
 
-// "1", "2 to 9", "10 to 99": how many faults took so many random cases.
+// Returns how many faults took "1", "2 to 9", "10 to 99" ... random cases.
 function byCases(faults: Fault[]): { label: string; value: number }[] {
   const medians = faults.flatMap((f) => (f.median_cases === null ? [] : [f.median_cases]));
   const rows: { label: string; value: number }[] = [];

@@ -1,4 +1,4 @@
-// The gates in their order, each as a sentence with its reasons.
+// Shows the gates in their order, each as a sentence with its reasons.
 import { failurePlace } from "./address";
 import { folded, html, section, type Child } from "./dom";
 import type { Findings } from "./report";
@@ -33,13 +33,13 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
     const place = failurePlace + names[signatures.indexOf(longest)]!;
     return [html("a", { href: address(place) }, longest), reason.slice(longest.length)];
   };
-  // Each in a line, those beyond the third behind a click.
+  // Returns the reasons, a line each. After the third reason the others are folded.
   const reasons = (lines: string[]): HTMLElement[] => {
     const few = 3;
     const all = lines.map((line) => html("span", { class: "reason" }, ...linked(line)));
     return all.length <= few ? all : [...all.slice(0, few), folded(`${all.length - few} more`, ...all.slice(few))];
   };
-  // What is missing, and what no further run of the same mends.
+  // Says which reasons vanish if the same run goes on, and which do not.
   const remedy = (gate: Gate): HTMLElement[] =>
     gate.remedy === undefined ? [] : [html("span", { class: "reason" }, `${capital(gate.remedy)}.`)];
   return section(

@@ -1,4 +1,4 @@
-// Several runs side by side, in the order in which they were given.
+// Shows several runs side by side, in the order in which they were given.
 import { addressIn } from "./address";
 import { folded, html, section, table } from "./dom";
 import { kindOf, named, seedsText, verdictWord } from "./overview";
@@ -11,12 +11,12 @@ const worst = ({ findings: { strata } }: Run): number => Math.max(0, ...strata.f
 
 const trials = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.trials));
 const withDefect = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.with_defect));
-// Of each family the configuration that has most of them.
+// Sums over the families the undecided cases of the configuration that has most of them.
 const undecided = ({ findings: { strata } }: Run): number => sum(strata.map((s) => Math.max(0, ...s.bounds.map(open))));
 
 const nameOf = ({ findings: { campaign } }: Run): string => `${campaign.name}, ${seedsText(campaign)}`;
 
-// Which kinds of failure were met in which run: what is new, and what is gone.
+// Shows which kinds of failure were met in which run, so that new and vanished kinds are seen.
 function kinds(runs: Run[]): HTMLElement | null {
   const met = runs.map((run) => new Map(run.findings.failures.filter((f) => f.met > 0).map((f) => [f.signature, f.met])));
   const all = [...new Set(met.flatMap((of) => [...of.keys()]))].sort();

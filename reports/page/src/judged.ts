@@ -6,7 +6,7 @@ import { seedsText } from "./overview";
 import type { Findings, Stratum } from "./report";
 import { count, counted } from "./words";
 
-// Configurations that claim the same are one line.
+// Puts configurations with the same claims into one line.
 function claimsOf(f: Findings): string[] {
   const groups = new Map<string, string[]>();
   for (const { name, claims } of f.detector.configurations) {
@@ -17,7 +17,7 @@ function claimsOf(f: Findings): string[] {
   return [...groups].map(([claims, names]) => `${names.join(", ")}: ${claims}`);
 }
 
-// Large meshes on which the plug-in was run again and again.
+// Describes the large meshes on which the plug-in was run several times.
 function repeated(list: NonNullable<Findings["repeated"]>): string[] {
   const most = Math.max(...list.map((one) => one.triangles));
   const threads = Math.max(...list.flatMap((one) => one.threads), 1);
@@ -31,22 +31,23 @@ function repeated(list: NonNullable<Findings["repeated"]>): string[] {
   ];
 }
 
-// What the search asked and found. Its cases are no trials.
+// Says how many cases the search made, and what it found. Its cases are no trials.
 const searched = (s: NonNullable<Findings["search"]>): string =>
   `${count(s.cases)} aimed cases, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; its archives hold ${count(s.causes.length)} causes of contact`;
 
-// Sizes with the claims that were tried up to them, the largest first.
+// Returns each size with the claims that were tried on meshes up to this size, the largest size
+// first.
 function sizesOf(list: Findings["judged_up_to"]): string[] {
   const sizes = new Map<number, string[]>();
   for (const { claim, triangles } of list) sizes.set(triangles, [...(sizes.get(triangles) ?? []), claim]);
   return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `${triangles === 0 ? "none yet" : `up to ${count(triangles)} triangles`}: ${claims.join(", ")}`);
 }
 
-// How far the meshes went that were judged.
+// Returns the largest value of each measure among the judged meshes.
 const triedText = ({ largest: most, relations }: NonNullable<Findings["tried"]>): string =>
   `${counted(most.steps_in_a_row, "step")} between two starts, ${counted(most.valence, "triangle")} at a vertex, ${counted(most.bodies, "body", "bodies")}, ${counted(most.components, "component")}, ${counted(most.pairs, "pair")} in a step, ${counted(most.triangles, "triangle")}; relations: ${counted(relations, "case")}`;
 
-// What nobody judged: claims, parts of the library, families.
+// Returns what was not judged: claims, parts of the library, families.
 const notJudged = (f: Findings): string[] => [
   ...f.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`),
   ...f.detector.unjudged_parts.map((part) => `the ${part} of this library`),
@@ -85,7 +86,7 @@ const rate = ({ of, in: all, interval }: Rate): HTMLElement | string =>
   all === 0 ? "\u2013" : lines(`${count(of)} of ${count(all)}`, `${percent(interval[0])} to ${percent(interval[1])}`);
 const percent = (x: number): string => `${(100 * x).toPrecision(2)} %`;
 
-// Lines of a cell.
+// Returns the lines of a table's cell.
 const lines = (...of: string[]): HTMLElement => html("span", {}, ...of.map((line) => html("span", { class: "line" }, line)));
 
 const off = ({ steps, median, p99, worst }: TimesOff): HTMLElement | string =>
@@ -93,11 +94,13 @@ const off = ({ steps, median, p99, worst }: TimesOff): HTMLElement | string =>
     ? "none"
     : lines(`${counted(steps, "step")}`, `median ${median.toPrecision(2)}`, `99 of 100 ${p99.toPrecision(2)}`, `worst ${worst.toPrecision(2)}`);
 
-// Beside the least possible: the pairs in contact.
+// Compares the number of candidates with the least possible number, which is the number of pairs in
+// contact.
 const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
   steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
 
-// How much of the time until a contact a limiter uses, and where it stays although it could go.
+// Says how much of the time until a contact a limiter uses, and how often it stays although the
+// step has room.
 const limitsText = ({ free, cut, contact, used, stalls }: NonNullable<Stratum["measures"]>["limits"]): string =>
   free + contact === 0
     ? "\u2013"
@@ -107,7 +110,7 @@ const limitsText = ({ free, cut, contact, used, stalls }: NonNullable<Stratum["m
         ...stalls.map(({ cause, steps }) => `stalled ${count(steps)}: ${cause}`),
       ].join("; ");
 
-// What a plug-in does, be it claimed or not.
+// Shows the measures of a plug-in, which do not depend on its claims.
 function measures(f: Findings): HTMLElement[] {
   const rows = f.strata.flatMap(({ family, measures }) => (measures === null ? [] : [{ family, measures }]));
   if (rows.length === 0) return [];

@@ -1,5 +1,5 @@
-// The legend: the colours of the view sets, each with its number of triangles at the shown step.
-// For a detector that shows no view sets it has the colours of the pair's two triangles.
+// Shows the colours of the view sets, each with its number of triangles in the shown step. For a
+// detector that shows no view sets, the legend has the colours of the pair's two triangles.
 import { html } from "./dom";
 import type { Scene, SetName } from "./report";
 import { pairSets, setClass, setNames } from "./viewer/palette";

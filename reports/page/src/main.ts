@@ -1,4 +1,4 @@
-// The page as a whole: the sections of a run, and the choice among several runs.
+// Makes the whole page: the sections of a run, and the choice among several runs.
 import { addressIn, contents, failurePlace, goTo, namesOf, onFollow, parseAddress, remember } from "./address";
 import { cases, laws, worlds } from "./cases";
 import { certificate } from "./certificate";
@@ -93,7 +93,8 @@ function show(page: HTMLElement, report: Report): void {
     if (first !== undefined) shown.failures.open(first);
   };
 
-  // Shows what an address names; without a run in it, of the run that is shown.
+  // Shows the place that an address names. If the address names no run, the place is in the shown
+  // run.
   const open = (hash: string, withFocus = true): void => {
     const { run, place: at } = parseAddress(hash);
     if (run !== null && run !== index && report.runs[run]) choose(run);

@@ -1,4 +1,5 @@
-// The first screen: the verdict of a run, its detector and campaign, and the mesh of a defect.
+// Shows the first screen: the verdict of a run, its detector and campaign, and the mesh of a
+// defect.
 import { failurePlace } from "./address";
 import { facts, html } from "./dom";
 import type { Failure, Findings, Run } from "./report";
@@ -16,7 +17,8 @@ const sentences: Record<Run["verdict"], string> = {
   unverified: "The certificate does not verify",
 };
 
-// Good, bad, open: never by colour alone, the word stands beside.
+// Returns the kind of a verdict, which gives its colour. The word of the verdict is always shown
+// too.
 export const kindOf = (verdict: Run["verdict"]): string =>
   verdict === "certified" || verdict === "holds"
     ? "good"
@@ -26,7 +28,7 @@ export const kindOf = (verdict: Run["verdict"]): string =>
 
 export const verdictWord = (verdict: Run["verdict"]): string => sentences[verdict] ?? verdict;
 
-// A plug-in is called by its name and its version, and its first configuration by its name alone.
+// Splits the name of a plug-in, which is "NAME VERSION". Its first configuration is named "NAME".
 export function named({ detector, versions }: Findings): { name: string; version: string | null } {
   if (detector.built_in) return { name: detector.name, version: versions?.assay ?? null };
   const name = detector.configurations[0]?.name ?? "";
@@ -35,14 +37,15 @@ export function named({ detector, versions }: Findings): { name: string; version
     : { name: detector.name, version: null };
 }
 
-// What tells a page from others in a row of tabs comes first.
+// Returns a title that begins with what differs most between pages, because a row of tabs shows
+// only that.
 export function titleOf({ verdict, findings }: Run): string {
   const { name, version } = named(findings);
   const { campaign } = findings;
   return `${verdictWord(verdict)}: ${name}${version ? ` ${version}` : ""} \u2013 ${campaign.name}, ${seedsText(campaign)} \u2013 Assay report`;
 }
 
-// "seed 3, share 1/8", "seeds 1, 2, 3".
+// Returns "seed 3, share 1/8" or "seeds 1, 2, 3".
 export const seedsText = ({ parts }: Findings["campaign"]): string =>
   parts.length > 1
     ? `seeds ${parts.map((part) => part.seed).join(", ")}`
@@ -52,7 +55,7 @@ const dirty = "-dirty";
 const commitText = (commit: string): string =>
   commit.endsWith(dirty) ? `${commit.slice(0, -dirty.length)}, and changes that are in no commit` : commit;
 
-// "2026-01-31T12:00:00Z" is "2026-01-31, 12:00 UTC".
+// Turns "2026-01-31T12:00:00Z" into "2026-01-31, 12:00 UTC".
 const dayText = (issued: string): string => issued.replace(/T(\d\d:\d\d):\d\dZ$/, ", $1 UTC");
 
 function about(run: Run): HTMLElement {
@@ -99,7 +102,8 @@ export interface Overview {
   close: () => void;
 }
 
-// The mesh is drawn in 3D once `start` is called, when the page has its place.
+// Returns the place for the mesh. `start` draws the mesh in 3D, and is called once the page shows
+// the place.
 function smallestMesh(failure: Failure, address: string): { element: HTMLElement; start: () => Viewer | null } {
   const place = html("div", {});
   const element = html(

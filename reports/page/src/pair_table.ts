@@ -1,5 +1,5 @@
-// The pairs in contact of a scene, by the oracle and by the detector, and how the detector's claims
-// and contract judge each pair.
+// Lists the pairs of a scene that are in contact by the oracle or by the detector, and how the
+// detector's claims and contract judge each pair.
 import { html, table } from "./dom";
 import type { Contact, Scene } from "./report";
 import { time } from "./words";
@@ -10,7 +10,7 @@ interface Row {
   exact: Contact | null;
   detector: Contact | null;
   ran: boolean;
-  candidate: boolean | null; // null: it gives none
+  candidate: boolean | null; // null: the detector gives no candidates
   isLeftOut: boolean;
   difference: string;
 }
@@ -18,7 +18,7 @@ interface Row {
 const of = (pairs: Contact[] | undefined, [a, b]: [number, number]): Contact | null =>
   pairs?.find((c) => c.triangles[0] === a && c.triangles[1] === b) ?? null;
 
-// Those that count come first in each step.
+// In each step, pairs that count under the contract come first.
 function rowsOf(scene: Scene): Row[] {
   return scene.steps.flatMap((step, index) => {
     const rows = step.differences.map(({ triangles: pair, difference }): Row => {

@@ -8,7 +8,8 @@ export function unfoldOnPaper(): void {
     for (const part of opened) part.open = onPaper;
     if (!onPaper) opened.length = 0;
   };
-  // Not every browser tells both of them, and not each of them says when paper is only looked at.
+  // Browsers differ: some send only one of these events, and some send an event only for a print
+  // preview.
   matchMedia("print").addEventListener("change", (event) => set(event.matches));
   addEventListener("beforeprint", () => set(true));
   addEventListener("afterprint", () => set(false));

@@ -1,5 +1,5 @@
-// Draws small plots by classes of the style sheet. Letters keep their size in a narrow window. The
-// data of each plot also stands in a table or in words.
+// Draws small plots with classes of the style sheet. Letters keep their size in a narrow window. A
+// table or a sentence also shows the data of each plot.
 import { html } from "./dom";
 
 export interface LogRow {
@@ -13,7 +13,7 @@ export interface LogRow {
 const power = (n: number): string =>
   String(n).replace("-", "\u207b").replace(/[0-9]/g, (d) => "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(d)]!);
 
-// Whole decades around all numbers.
+// Returns the first and the last power of ten of an axis that has all numbers of the rows.
 function decades(rows: LogRow[]): [number, number] {
   const numbers = rows.flatMap((r) => [r.value, r.limit]).filter((n): n is number => n !== null && n > 0);
   const lo = Math.floor(Math.log10(Math.min(...numbers)) + 1e-9);
@@ -27,21 +27,21 @@ const plotOf = (title: string, rows: HTMLElement[]): HTMLElement =>
 const rowOf = (label: string, words: string, ...marks: HTMLElement[]): HTMLElement =>
   html("div", { class: "row", title: words }, html("span", { class: "label" }, label), html("span", { class: "scale" }, ...marks));
 
-// A mark whose place or width is a percentage of the scale.
+// Makes a mark whose place or width is a percentage of the scale.
 function mark(kind: string, side: "left" | "width", percent: number, words = ""): HTMLElement {
   const made = html("span", { class: kind }, words);
   made.style[side] = `${percent.toFixed(2)}%`;
   return made;
 }
 
-// A disc a row on a logarithmic axis, a bar where the limit is.
+// Draws a disc for each row on a logarithmic axis, and a bar at the row's limit.
 export function logPlot(title: string, rows: LogRow[]): HTMLElement | null {
   if (!rows.some((r) => r.value !== null && r.value > 0)) return null;
   const [lo, hi] = decades(rows);
   const at = (n: number): number => (100 * (Math.log10(n) - lo)) / (hi - lo);
   const rules: { n: number; words: string; fine: boolean }[] = [];
   for (let d = lo; d <= hi; ++d) rules.push({ n: 10 ** d, words: d === 0 ? "1" : `10${power(d)}`, fine: false });
-  // Few decades: their inner lines help.
+  // If there are few decades, lines inside them help.
   if (hi - lo <= 2)
     for (let d = lo; d < hi; ++d)
       for (const digit of [2, 5])
@@ -64,10 +64,10 @@ export function logPlot(title: string, rows: LogRow[]): HTMLElement | null {
   ]);
 }
 
-// Bars of counts, from zero.
+// Draws counts as bars that begin at zero.
 export function barPlot(title: string, rows: { label: string; value: number }[]): HTMLElement {
   const most = Math.max(1, ...rows.map((r) => r.value));
-  const longest = 80; // percent, so that the number has its place behind it
+  const longest = 80; // percent, so that the number fits after the bar
   return plotOf(
     title,
     rows.map(({ label, value }) => {
@@ -77,7 +77,7 @@ export function barPlot(title: string, rows: { label: string; value: number }[])
   );
 }
 
-// The parts of a whole side by side, and what each is. Those of nothing are left out.
+// Draws the parts of a whole side by side, with a legend. Parts of size 0 are left out.
 export function shares(title: string, parts: { kind: string; words: string; value: number }[]): HTMLElement {
   const shown = parts.filter((part) => part.value > 0);
   const whole = shown.reduce((sum, part) => sum + part.value, 0);

@@ -1,5 +1,6 @@
 // The data of the page: schema assay-report/3, reports/schemas/report.schema.json. The findings of
-// a run are the predicate of a certificate, whose types are made from its schema (types.mjs).
+// a run are the predicate of a certificate. Its types are made from the schema of certificates
+// (types.mjs).
 import type { Statement } from "../made/certificate";
 
 export type Point = [number, number, number];
@@ -12,8 +13,9 @@ export interface Contact {
   time: Interval;
   feature: string;
   vertices: number[];
-  places: [Point, Point] | null; // the nearest points of the two; in a contact they coincide
-  distance: number | null; // of these
+  // The nearest points of the two triangles; in a contact they coincide.
+  places: [Point, Point] | null;
+  distance: number | null; // between these points
 }
 
 export interface Answer {
@@ -34,33 +36,34 @@ export interface Step {
   from: number;
   to: number;
   commit: boolean;
-  oracle: Answer; // what counts under the detector's contract
-  left_out: Contact[]; // by the contract
-  differences: { triangles: [number, number]; difference: string }[]; // of each pair that meets or is reported
+  oracle: Answer; // the pairs that count under the detector's contract
+  left_out: Contact[]; // contacts that the contract leaves out
+  // For each pair that meets or is reported.
+  differences: { triangles: [number, number]; difference: string }[];
   detector: Answer | null;
-  candidates: [number, number][] | null; // of a plug-in that gives some
+  candidates: [number, number][] | null; // null: the detector gives no candidates
   views: Views | null;
 }
 
 export interface Scene {
   triangles: [number, number, number][];
-  bodies: number[] | null; // by triangle; null: the case has none
+  bodies: number[] | null; // by triangle; null: the case has no bodies
   frames: Point[][];
   steps: Step[];
   reports_pairs: boolean;
-  asked: string | null; // what the contract wants of distances: "d 0.01, slack 0.002"
+  asked: string | null; // the distances of the contract: "d 0.01, slack 0.002"
   ended: string | null;
   shown: { step: number; pair: [number, number] | null };
 }
 
-// What is shown of a failure beside what the findings say of it.
+// What the page shows of a failure besides its entry in the findings.
 export interface ShownFailure {
   stage: string | null;
   now: string | null;
   scene: Scene | null;
   svg: string | null;
   not_shown: string | null;
-  printed: string | null; // by a plug-in when it failed
+  printed: string | null; // what a plug-in printed when it failed
   others: { id: string; configuration: string; what: string; replay: string }[];
 }
 
@@ -70,14 +73,14 @@ export type Stratum = Findings["strata"][number];
 
 export interface Run {
   folder: string;
-  library: string | null; // from that folder
+  library: string | null; // its path, relative to the folder
   verdict: Findings["verdict"] | "unverified";
   why: string;
-  begun: string | null; // in UTC; null: not stored
+  begun: string | null; // when, in UTC; null: not stored
   subject: Statement["subject"] | null; // null: no certificate that verifies
   findings: Findings;
-  law_statements: Record<string, string>; // by the names of the laws
-  failures: ShownFailure[]; // in the order of those of the findings
+  law_statements: Record<string, string>; // by the name of the law
+  failures: ShownFailure[]; // in the order of the failures in `findings`
 }
 
 export interface Report {

@@ -1,4 +1,4 @@
-// Strata with their counts and bounds.
+// Shows the strata with their counts and bounds.
 import { html, section, table } from "./dom";
 import { logPlot } from "./plots";
 import type { Findings, Stratum } from "./report";
@@ -12,10 +12,10 @@ interface Row {
   who: string;
 }
 
-// Without a verdict.
+// Returns the number of cases without a verdict.
 export const open = ({ undecided, errors }: Bound): number => undecided + errors;
 
-// One row for configurations that agree, else a row for each.
+// Makes one row for all configurations of a stratum if they agree, and otherwise a row for each.
 const rowsOf = (f: Findings): Row[] =>
   f.strata.flatMap((stratum) => {
     const rows = stratum.bounds.map((bound) => ({ stratum, bound, who: bound.configuration }));

@@ -1,4 +1,4 @@
-// Numbers and times as people read them.
+// Writes numbers and times in the form that people read.
 import type { Size } from "../made/certificate";
 import type { Interval } from "./report";
 
@@ -11,13 +11,13 @@ export const count = (n: number): string => n.toLocaleString("en-US");
 export const counted = (n: number, one: string, many = `${one}s`): string =>
   `${count(n)} ${n === 1 ? one : many}`;
 
-// A share below one, with as many digits as tell bounds apart.
+// Writes a share below one with enough digits to tell two bounds apart.
 export function share(p: number): string {
   if (p >= 1) return "1";
   return p === 0 ? "0" : p >= 0.01 ? p.toPrecision(2) : p.toExponential(1).replace("e-", "e\u2212");
 }
 
-// One double where it is exact, else both that lie around the time.
+// Writes a time as one double if it is exact, and otherwise as the two doubles around it.
 export const time = (t: Interval | null): string =>
   t === null ? "none" : t[0] === t[1] ? `${t[0]}` : `between ${t[0]} and ${t[1]}`;
 

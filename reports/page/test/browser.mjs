@@ -1,4 +1,4 @@
-// Starts Chromium for the tests: without a network, drawn by the processor.
+// Starts Chromium for the tests: without a network, and with pictures drawn by the processor.
 import { chromium } from "playwright-core";
 
 const drawnByProcessor = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];

@@ -1,7 +1,7 @@
-// Tests how pages look: a certificate, a defect of a plug-in with a contract, a night with missing
-// shares, a run without a trial, and a built-in detector that fails; in light, in dark, on a
-// telephone and on paper. ASSAY_LOOKS is the folder of the pages. The pictures go into its folder
-// `looks`, for the eyes of a reviewer.
+// Tests how pages look: a certificate, a defect of a plug-in with a contract, a campaign with
+// missing shares, a run without a trial, and a built-in detector that fails; each in light colours,
+// in dark colours, on a telephone and on paper. ASSAY_LOOKS is the folder of the pages. The
+// pictures are written into its folder `looks`, for a reviewer.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { after, before, describe, test } from "node:test";

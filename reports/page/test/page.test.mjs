@@ -1,6 +1,6 @@
 // Tests the page in a headless browser. ASSAY_PAGE: a page of two runs; the second run is of a
 // plug-in with wrong times, and has failures. ASSAY_NEAR_PAGE: a page of a plug-in that is asked
-// for pairs within 0.01 and answers which pairs touch. See tests/page/run.
+// for pairs within 0.01, and answers with the pairs that touch. See tests/page/run.
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 import { open, state } from "./browser.mjs";

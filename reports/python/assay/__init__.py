@@ -97,5 +97,5 @@ __all__ = [
 
 
 def __dir__() -> List[str]:
-    """What is for users; the modules of the package are its own."""
+    """Returns the names for users, without the modules of the package."""
     return [*__all__, "__version__", "__doc__", "__file__"]

@@ -1,4 +1,4 @@
-"""`python -m assay`, and the command `assay` that pip installs: the program, run as it is."""
+"""Runs the program `assay`, for `python -m assay` and for the command that pip installs."""
 
 import os
 import sys
@@ -8,7 +8,7 @@ from .places import program
 
 
 def main() -> None:
-    """Becomes the program. Detectors in Python are then of this Python."""
+    """Replaces this process by the program. Detectors in Python then run in this Python."""
     os.environ.setdefault("ASSAY_PYTHON", sys.executable)
     try:
         file = program()

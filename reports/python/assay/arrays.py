@@ -1,19 +1,18 @@
 """Converts arguments that are not yet arrays of the right kind.
 
-A number that float64 or int32 cannot hold exactly is refused, because answers are those of exact
-arithmetic on the numbers given.
+A number without exact float64 or int32 is refused, because answers are exact for given numbers.
 """
 
 import numpy as np
 
 
 def positions(given, name):
-    """float64, n x 3. TypeError: no array of real numbers. ValueError: another shape; inexact."""
+    """Returns float64 (n, 3). TypeError: no real numbers. ValueError: another shape; not exact."""
     return _rows(_real(given, name), given, name, np.float64)
 
 
 def triangles(given, name):
-    """int32, m x 3. TypeError: no array of integers. ValueError: another shape; beyond int32."""
+    """Returns int32 (m, 3). TypeError: no integers. ValueError: another shape, or beyond int32."""
     array = _array(given, name)
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError(f"{name}: integers are wanted, not dtype {array.dtype}")
@@ -21,7 +20,7 @@ def triangles(given, name):
 
 
 def queries(given, name):
-    """float64, k x 4 x 3, contiguous, finite."""
+    """Returns float64 (k, 4, 3), contiguous and finite. Errors are those of positions()."""
     array = _real(given, name)
     if array.ndim != 3 or array.shape[1:] != (4, 3):
         raise ValueError(f"{name}: shape {array.shape} is not (k, 4, 3)")

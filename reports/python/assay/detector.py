@@ -14,11 +14,11 @@ OPTIONS = _detector.OPTIONS  # the words of each option
 
 
 class State:
-    """What a detector carries from step to step, as a value: Detector.restore() takes it back."""
+    """The state that a detector carries from step to step. Detector.restore() sets it again."""
 
     def __init__(self, saved: _detector.State):
         if not isinstance(saved, _detector.State):
-            raise TypeError("a state is what Detector.state() gives")
+            raise TypeError("a State comes from Detector.state()")
         self._saved = saved
 
     def __eq__(self, other: object) -> bool:
@@ -28,23 +28,23 @@ class State:
 class Detector:
     """The built-in detector of one deforming mesh.
 
-    triangles: integers (m, 3), vertices of each, counter-clockwise seen from outside.
-    positions: real numbers (n, 3), in your units: the first frame is best.
+    triangles: integers (m, 3), three vertices each, counter-clockwise as seen from outside.
+    positions: real numbers (n, 3), in your units; best those of the first frame.
     culling, start, pairs, arithmetic: words of assay.OPTIONS, explained in detector/README.md.
-    separation: 0 looks for contacts, a distance for pairs of triangles without a common vertex that
-    come within it; culling "bvh" or "none" then.
-    threads: how many a step may use; 0: all cores. What comes out does not depend on it.
+    separation: 0 looks for contacts. A distance looks for pairs of triangles that share no vertex
+    and come within this distance; culling is then "bvh" or "none".
+    threads: how many threads a step may use; 0: all cores. It does not change results.
 
-    int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats are
-    converted once where that is exact.
+    int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats
+    are converted once; each number must have an exact int32 or float64.
 
-    InputError (a ValueError): a mesh that is refused, by name. ValueError: another shape, an unknown
-    word, a number without exact float64. TypeError: no numbers.
+    InputError (a ValueError): a mesh that is refused; its name says why. ValueError: another shape,
+    an unknown word, a number without exact float64. TypeError: no numbers.
 
-    Calls release the interpreter, and ctrl-C ends them: the state stays as it was. A detector is used
-    by one thread at a time (RuntimeError otherwise); different detectors are independent. Arrays must
-    not change during a call. After os.fork() each process has a detector of its own; one with several
-    threads is refused there (RuntimeError) if the process that forked had one with several threads.
+    Calls release the interpreter. Ctrl-C ends a call and leaves the state as it was. Only one
+    thread at a time may use a detector (else RuntimeError); two detectors do not affect each other.
+    Arrays must not change during a call. After os.fork() a process has to make its own detector. It
+    cannot have several threads (RuntimeError) if the parent's detector had several.
     """
 
     def __init__(
@@ -74,61 +74,61 @@ class Detector:
         return f"<assay.Detector: {len(self._triangles)} triangles, {self._words}>"
 
     def evaluate(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
-        """The step from x_t0 to x_t1, real numbers (n, 3) each; the state stays as it is."""
+        """Answers the step from x_t0 to x_t1, real numbers (n, 3) each, and keeps the state."""
         return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def commit(self) -> None:
-        """Advances the state to the end of the last step or limit. InputError: there is none to commit."""
+        """Advances the state to the end of the last step or limit. InputError: there is none."""
         self._detector.commit()
 
     def step(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
-        """evaluate() and commit()."""
+        """Calls evaluate() and commit()."""
         return step_result(self._detector.step(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def first_contact(self, x_t0: ArrayLike, x_t1: ArrayLike, until: float = 1.0) -> StepResult:
-        """Whether there is a contact in [0, until], and which is first; the state stays as it is.
+        """Finds the first contact in [0, until], and keeps the state.
 
-        Pairs are those of pairs="first", whatever `pairs` says. "free" says that there is no contact up
-        to `until`; one at `until` counts. Nothing later is looked at, so a caller that knows a contact
-        can give its time. Only after until = 1 is there something to commit. InputError: `until` is not
-        from 0 to 1.
+        The result has pairs as with pairs="first", whatever `pairs` is. "free" means that there is
+        no contact in [0, until]. Nothing later is looked at, so a caller that knows a contact can
+        give its time. commit() is possible only if `until` is 1. InputError: `until` is not in [0,
+        1].
         """
         return step_result(self._detector.first_contact(x_t0, x_t1, until), self._triangles, x_t0, x_t1)
 
     def limit(self, x_t0: ArrayLike, x_t1: ArrayLike) -> Limit:
-        """How far the step may be taken; the state stays as it is.
+        """Finds how far the step may be taken, and keeps the state.
 
-        To limit.positions the straight way is free, rounding included; commit() then goes there. A
-        step that is free is taken whole; else 0.95 of the time until the contact, or less where
-        rounding asks for it (is_short). Share 0: a contact at the start, or at all places tried.
-        InputError: arithmetic "double" or "float", which prove nothing.
+        The straight way to limit.positions has no contact, rounding included; commit() then goes
+        there. A free step is taken whole. Otherwise the share is 0.95 of the time of the contact,
+        or less if rounding requires it (is_short). It is 0 if there is a contact at the start, or
+        at each place that was tried. InputError: arithmetic "double" or "float" proves nothing.
         """
         return Limit(*self._detector.limit(x_t0, x_t1))
 
     def state(self) -> State:
-        """What later steps rest on, as a value to keep."""
+        """Returns the state on which later steps rest. The state can be kept and compared."""
         return State(self._detector.state())
 
     def restore(self, state: State) -> None:
-        """Goes on from this state. InputError: it is the state of another mesh or culling."""
+        """Continues from this state. InputError: the state is of another mesh or culling."""
         if not isinstance(state, State):
             raise TypeError(f"a State is wanted, not {type(state).__name__}")
         self._detector.restore(state._saved)
 
     def reset(self) -> None:
-        """Forgets the state: the next step is a new start."""
+        """Forgets the state. The next step is a new start."""
         self._detector.reset()
 
 
 def vertex_face(
     x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
 ) -> Contacts:
-    """Whether and when vertices and faces first meet, exactly; about a microsecond a query.
+    """Tells whether and when vertices and faces first meet, exactly; about a microsecond a query.
 
-    x_t0, x_t1: real numbers (k, 4, 3), the vertex and the three corners of the face at both ends of
-    the step. arithmetic: other words of OPTIONS["arithmetic"] are less than exact. separation: above 0,
-    whether and when they come within this distance, exactly. ValueError: another shape or word, a
-    coordinate that is not finite, or a distance that is no length.
+    x_t0, x_t1: real numbers (k, 4, 3): the vertex and the three corners of the face, at both ends
+    of the step. arithmetic: words of OPTIONS["arithmetic"]; only "exact" is exact. separation: if
+    above 0, tells whether and when the two come within this distance, exactly. ValueError: another
+    shape or word, a coordinate that is not finite, a separation that is no length.
     """
     return Contacts(*_detector.vertex_face(x_t0, x_t1, *_question(arithmetic, separation)))
 
@@ -136,7 +136,7 @@ def vertex_face(
 def edge_edge(
     x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
 ) -> Contacts:
-    """The same for two edges: (k, 4, 3) are the two ends of one, then the two ends of the other."""
+    """Does the same for two edges: (k, 4, 3) are the two ends of one edge, then of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1, *_question(arithmetic, separation)))
 
 
@@ -144,12 +144,12 @@ def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
     if not (math.isfinite(separation) and separation >= 0):
         raise ValueError("separation: a length is wanted, finite and not below 0")
     if separation > 0 and arithmetic != "exact":
-        raise ValueError("separation: only exact arithmetic answers it")
+        raise ValueError("separation: only exact arithmetic has one")
     return arithmetic, separation
 
 
 def contact_places(result: Union[StepResult, Judgement]) -> ContactPlaces:
-    """Where the pairs of a result meet, for a response. Contacts of a CheckedStep have their places."""
+    """Returns where the pairs of a result meet. The contacts of a CheckedStep have their places."""
     mesh = arrays.triangles(result.triangles, "triangles")
     x_t0, x_t1 = arrays.positions(result.x_t0, "x_t0"), arrays.positions(result.x_t1, "x_t1")
     return ContactPlaces(

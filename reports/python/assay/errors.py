@@ -2,7 +2,7 @@
 
 
 class InputError(ValueError):
-    """A mesh or a step that the detector does not take; `name` says why in a word.
+    """A mesh or a step that the detector refuses; `name` names the reason in one word.
 
     The names are those of detector/mesh/problem.h: "index_out_of_range", "wrong_frame_size",
     "non_finite_coordinate", "foreign_state", ...
@@ -17,7 +17,7 @@ class InputError(ValueError):
 
 
 class AssayError(RuntimeError):
-    """What the program `assay` could not do, in its own line; `code` is its exit code."""
+    """The line with which the program `assay` gave up; `code` is its exit code."""
 
     def __init__(self, message: str, code: int):
         super().__init__(message)

@@ -1,4 +1,4 @@
-"""Frames of one mesh, from files or arrays."""
+"""Frames of one mesh, from files or from arrays."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _NO_SURFACE = {"vertex", "line", "line3"}
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frames:
-    """One mesh that deforms; consecutive frames are the ends of a step.
+    """One mesh that deforms. Two consecutive frames are the start and the end of a step.
 
-    triangles: int32 (m, 3); positions: a list of float64 (n, 3), one a frame; files: where from.
+    triangles: int32 (m, 3); positions: a list of float64 (n, 3), one a frame; files: the sources.
     """
 
     triangles: Int32Array
@@ -39,15 +39,15 @@ class Frames:
 
 
 def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
-    """The frames in these files, a file each.
+    """Reads frames, one from each file.
 
-    paths: names of files, or patterns such as "sim_*.vtu", whose matches are put in order by their
-    numbers: sim_2 before sim_10. Files in the order of a shell (sim_1, sim_10, sim_2) are put in order,
-    too; any other order stays. OBJ, PLY and OFF (.gz too) are read by Assay's own readers, which keep
-    every bit; others by meshio. A warning tells what was put in order, changed or skipped.
+    paths: names of files, or patterns such as "sim_*.vtu". The matches of a pattern are sorted by
+    their numbers: sim_2 before sim_10. So are files in the order of a shell (sim_1, sim_10, sim_2);
+    any other order is kept. Assay's own readers read OBJ, PLY and OFF (.gz too), and keep every
+    bit; meshio reads other formats. A warning tells what was sorted, changed or skipped.
 
-    FileNotFoundError: no such file. ValueError: a file that is not in its format, has no triangles, or
-    has other triangles than the first file.
+    FileNotFoundError: no such file. ValueError: a file that is not in its format, that has no
+    triangles, or whose triangles differ from those of the first file.
     """
     from . import _judge
 
@@ -66,14 +66,14 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
         return first
     for file, (part, _) in zip(files, parts):
         if not np.array_equal(part.triangles, first.triangles):
-            raise ValueError(f"{file}: not the triangles of {files[0]}")
+            raise ValueError(f"{file}: its triangles differ from those of {files[0]}")
         if len(part.positions[0]) != len(first.positions[0]):
-            raise ValueError(f"{file}: not as many vertices as {files[0]}")
+            raise ValueError(f"{file}: it has more or fewer vertices than {files[0]}")
     return Frames(first.triangles, [part.positions[0] for part, _ in parts], files)
 
 
 def as_frames(given) -> Frames:
-    """Frames as they are; else a pair of triangles and positions, frames by n by 3."""
+    """Returns Frames as they are, or Frames of a pair: triangles, and positions (frames, n, 3)."""
     if isinstance(given, Frames):
         return given
     try:

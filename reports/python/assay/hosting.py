@@ -6,15 +6,15 @@
         def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): copies
         def evaluate(self, x_t0, x_t1): ...               # float64 (n, 3) each
 
-evaluate() answers with None (free) or a result: a dict, or an object that has at least one of these
-members (so False, or a number, is an error and not an answer):
+evaluate() returns None (free) or a result: a dict, or an object with at least one of these members.
+Anything else, such as False or a number, is an error:
 
     answer   "free", "collision", "undecided"; if missing, "collision"
     first    (lo, hi), or one number; if missing, not known
     pairs    (k, 2) triangles; if missing, none
-    times    (k, 2) or (k,) their first times; if missing, not stated
+    times    (k, 2) or (k,), the first times of the pairs; if missing, not stated
 
-A result of assay.Detector has them. Besides, a class may have name, version, commit(self) and
+A result of assay.Detector has these members. A class may also have name, version, commit(self) and
 
     def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
     def limit(self, x_t0, x_t1): ...                      # how far the step may be taken
@@ -23,9 +23,9 @@ A result of assay.Detector has them. Besides, a class may have name, version, co
     @staticmethod
     def use_threads(count): ...
 
-limit() answers with a share (a number), with positions (n, 3), with both (a tuple), or with an
-assay.Limit or the like. An exception is an error of its step. create() may raise Refused for a mesh,
-and every function but query() BeyondCapacity for a mesh or a step that is more than it holds.
+limit() returns a share (a number), positions (n, 3), a tuple of both, or an object like
+assay.Limit. An exception is an error of the step. create() may raise Refused for a mesh; all
+functions but query() may raise BeyondCapacity for a mesh or a step that is too large.
 """
 
 import importlib
@@ -39,16 +39,16 @@ KINDS = ("vertex-face", "edge-edge")
 
 
 class Refused(Exception):
-    """Of create(): a mesh that the detector does not take, and why."""
+    """Raised by create() for a mesh that the detector does not take. The message says why."""
 
 
 class BeyondCapacity(Exception):
-    """The mesh or the step is more than the detector holds: `refused: capacity`."""
+    """Raised for a mesh or a step that is too large for the detector: `refused: capacity`."""
 
 
 class AskedAgain(BaseException):
-    """The module that is imported asks for a judgement: a script without a guard. What it has
-    defined by then is all that its class can use, so nothing more of it is run."""
+    """Raised if the imported module itself asks for a judgement: a script without a guard. Its
+    class can use only what is defined by then, because the rest of the script is not run."""
 
     def __init__(self, module):
         super().__init__()
@@ -59,13 +59,13 @@ _imported = None  # the module that is being imported for its class
 
 
 def stop_if_imported():
-    """Ends the import of a module that judges its own class as it is imported."""
+    """Ends the import of a module that judges its own class while it is imported."""
     if _imported is not None:
         raise AskedAgain(sys.modules.get(_imported))
 
 
 def class_of(module, name):
-    """The class of that name. ValueError: the module has none, or not yet when it judges one."""
+    """Returns the class. ValueError: there is none, or the module judges a detector before it."""
     global _imported
     _imported = module
     try:
@@ -82,10 +82,10 @@ def class_of(module, name):
 
 
 class Hosted:
-    """A class by its word "MODULE:CLASS", described in numbers of the plug-in interface.
+    """The class named "MODULE:CLASS", described by numbers of the plug-in interface.
 
-    `claims` are the words of the claims, in the order of their bits; `members` are those of the
-    contract, each with its words in the order of their numbers, or none if it is a number itself.
+    `claims`: the words of all claims, in the order of their bits. `members`: the members of a
+    contract, each with its words in the order of their numbers; a number has no words.
     """
 
     def __init__(self, word, claims, members):
@@ -112,7 +112,7 @@ class Hosted:
 
 
 def described(claims, contract, claim_words, members):
-    """Words of claims and of a contract in numbers of the plug-in interface; ValueError: no such word."""
+    """Turns words of claims and of a contract into numbers. ValueError: there is no such word."""
     numbers = dict.fromkeys(members, 0)
     for member, value in contract.items():
         if member not in members:
@@ -139,7 +139,7 @@ class Created:
         return pairs_of(self.detector.candidates(x_t0, x_t1))
 
     def limit(self, x_t0, x_t1):
-        """The share, -1 if it is not told, and positions, none if they are not."""
+        """Returns the share (-1: not stated) and the positions (empty: not stated)."""
         told = self.detector.limit(x_t0, x_t1)
         if isinstance(told, tuple):
             share, positions = told
@@ -159,7 +159,7 @@ class Created:
 
 
 def parts_of(result, answers=ANSWERS):
-    """Of an answer: its number, lo, hi, pairs, times or None."""
+    """Returns the parts of an answer: its number, lo, hi, pairs, and times or None."""
     if result is None:
         return 0, 0.0, 0.0, pairs_of(None), None
     get = result.get if isinstance(result, dict) else lambda name: getattr(result, name, None)
@@ -182,7 +182,7 @@ def parts_of(result, answers=ANSWERS):
 
 
 def tell(error):
-    """Prints the traceback of an error; what kind it is, and a line that says what and where."""
+    """Returns the kind of an exception, and a line about it. Prints the traceback of an error."""
     if isinstance(error, Refused):
         return "refused", str(error)
     if isinstance(error, BeyondCapacity):
@@ -211,7 +211,7 @@ def _interval(first):
 
 
 def pairs_of(pairs):
-    """Pairs as int32, (k, 2)."""
+    """Returns pairs as int32 (k, 2)."""
     if pairs is None:
         return np.zeros((0, 2), np.int32)
     given = np.asarray(pairs)
@@ -223,7 +223,7 @@ def pairs_of(pairs):
 
 
 def int32_of(numbers, name, dimensions=1):
-    """Whole numbers from 0 on as int32, of so many dimensions. ValueError: others."""
+    """Returns whole numbers from 0 on as an int32 array. ValueError: other numbers or shapes."""
     given = np.asarray(numbers)
     most, are_whole = np.iinfo(np.int32).max, given.dtype.kind in "iu" and given.ndim == dimensions
     if not are_whole or (given.size and not 0 <= given.min() <= given.max() <= most):

@@ -1,4 +1,4 @@
-"""Judges meshes, and the steps of a detector, by the oracle."""
+"""Lets the oracle judge meshes and the steps of a detector."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ Interval = Tuple[float, float]
 class Contact:
     """A pair of triangles, the first time of their contact, and the features that meet then.
 
-    time: (lo, hi); feature: "vertex-face", ..., with its vertices (FEATURE_KINDS). bodies, if there
-    are some: of each triangle its body, and its number there. The rest is of contacts of a
-    CheckedStep alone. meeting: "touching" or "crossing"; crosses_at_end: whether they cross when
-    the step ends (None at rest); point (3,), barycentric (2, 3), error, normal (3,): as ContactPlaces.
+    time: (lo, hi). feature: "vertex-face", ..., with its vertices (FEATURE_KINDS). bodies: for each
+    triangle its body and its number in it; None without bodies. Only contacts of a CheckedStep have
+    the rest. meeting: "touching" or "crossing". crosses_at_end: whether the two cross when the step
+    ends (None at rest). point (3,), barycentric (2, 3), error, normal (3,): as in ContactPlaces.
     """
 
     triangles: Tuple[int, int]
@@ -45,7 +45,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class WrongTime:
-    """A pair whose first time the detector has wrong. bodies: as of Contact."""
+    """A pair for which the detector's first time is wrong. bodies: as in Contact."""
 
     triangles: Tuple[int, int]
     detector: Interval
@@ -55,11 +55,11 @@ class WrongTime:
 
 @dataclass(frozen=True)
 class StepDiff:
-    """What a detector answered of a step against what the oracle found.
+    """How the detector's answer to a step differs from the oracle's answer.
 
-    outcome: "holds", "defect", "undecided" or "error"; broken: the claims that the step refutes.
-    missing, excused, spurious: pairs; excused are missing ones that are not claimed.
-    late, early: pairs with a wrong time; late is unsafe.
+    outcome: "holds", "defect", "undecided" or "error"; broken: the claims that the step breaks.
+    missing, excused, spurious: pairs. An excused pair is missing, but no claim promises it.
+    late, early: pairs with a wrong time. A late time is unsafe.
     """
 
     outcome: str
@@ -78,9 +78,9 @@ class StepDiff:
 
 @dataclass(frozen=True)
 class CheckedStep:
-    """A step: the detector's answer and time, the oracle's, and the diff (None without an oracle).
+    """A step: answers and first times of detector and oracle, and the diff (None without oracle).
 
-    contacts: the pairs in contact, by the oracle; its repr leaves them out.
+    contacts: the pairs in contact, by the oracle; repr() does not show them.
     """
 
     answer: str
@@ -108,10 +108,10 @@ class _Report:
 
 @dataclass(frozen=True, repr=False)
 class CheckReport(_Report):
-    """What `assay check` says of the steps of a mesh.
+    """The report of `assay check` about the steps of a mesh.
 
-    outcome: "holds", "defect", "undecided"; steps: a CheckedStep each; text: as it is printed;
-    json: as `--json` writes it (assay-check/1, reports/README.md); code: the exit code.
+    outcome: "holds", "defect", "undecided"; steps: a CheckedStep each; text: the printed text;
+    json: the report of `--json` (assay-check/1, reports/README.md); code: the exit code.
     """
 
     outcome: str
@@ -125,8 +125,8 @@ class CheckReport(_Report):
 class LeastDistance:
     """How near two triangles that share no vertex come during a step.
 
-    distance: the least double that some two come within; it is 0 where they touch. contact: the
-    first pair, by its triangles, that comes within it, when first, and by which features.
+    distance: the least double within which two of them come; 0 if two touch. contact: the first
+    pair, by its triangles, that comes within this distance, with its first time and features.
     """
 
     distance: float
@@ -135,11 +135,11 @@ class LeastDistance:
 
 @dataclass(frozen=True)
 class SeparationStep:
-    """A step: what comes within the separation, when first, and how near any two triangles come.
+    """A step: which pairs come within the separation, when first, and how near any two come.
 
     answer: "near", "apart" or "undecided"; first: None unless near; near_at_start: the number of
-    pairs that are near at t = 0; pairs: each with its first time within the separation; least:
-    None where no two triangles count, or a limit was reached.
+    pairs that are near at t = 0; pairs: each with its first time within the separation; least: None
+    if no two triangles count, or if a limit was reached.
     """
 
     answer: str
@@ -151,10 +151,10 @@ class SeparationStep:
 
 @dataclass(frozen=True, repr=False)
 class SeparationReport(_Report):
-    """What `assay check --separation` says of the steps of a mesh.
+    """The report of `assay check --separation` about the steps of a mesh.
 
-    outcome: "near", "apart", "undecided"; least_distance: over all steps, None where no two
-    triangles count; steps: a SeparationStep each; text, json, code: as of CheckReport.
+    outcome: "near", "apart", "undecided"; least_distance: the least of all steps, None if no two
+    triangles count; steps: a SeparationStep each; text, json, code: as in CheckReport.
     """
 
     outcome: str
@@ -174,13 +174,13 @@ def judge(
     separation: Union[float, Tuple[float, float]] = 0,
     jobs: Optional[int] = None,
 ) -> Judgement:
-    """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
+    """Returns the oracle's answer to a step: all pairs in contact, by exact arithmetic.
 
-    Without x_t1 the mesh is at rest: "collision" says that it meets itself.
-    separation: above 0, all pairs of triangles that share no vertex and come within this distance,
-    each with its first time within it; "collision" says that there are some. Two doubles stand for
-    their exact sum. Arrays and errors are those of Detector; jobs: threads, all cores if None.
-    Ctrl-C ends it. Only check() can be told which pairs count.
+    Without x_t1 the mesh is at rest: "collision" means that the mesh meets itself.
+    separation: if above 0, finds all pairs of triangles that share no vertex and come within this
+    distance, each with the first time at which they do; "collision" means that there is a pair. A
+    tuple of two doubles means their exact sum. jobs: threads; None: all cores. Arrays and errors:
+    as in Detector. Ctrl-C ends the call. Only check() has options for which pairs count.
     """
     from . import _judge
 
@@ -205,10 +205,10 @@ def first_time_within(
     *,
     jobs: Optional[int] = None,
 ) -> Optional[Interval]:
-    """When two triangles that share no vertex first come within the distance; None: never.
+    """Returns when two triangles that share no vertex first come within a distance; None: never.
 
-    separation: a length in units of the positions; the other arguments are those of judge(). The
-    time is both ends of the interval, or lies strictly between them: two adjacent doubles.
+    separation: a length in units of the positions. Other arguments are those of judge(). The two
+    doubles of the interval are the time, or are adjacent and have the time between them.
     """
     from . import _judge
 
@@ -221,9 +221,9 @@ def first_time_within(
 def least_distance(
     triangles: ArrayLike, x_t0: ArrayLike, x_t1: ArrayLike, *, jobs: Optional[int] = None
 ) -> Optional[LeastDistance]:
-    """The least distance over a step, exactly; None if no two triangles share no vertex.
+    """Returns the least distance over a step, exactly; None if every two triangles share a vertex.
 
-    Arguments are those of judge(), but x_t1 has to be given: at rest it is x_t0.
+    Arguments are those of judge(). x_t1 is required; for a mesh at rest it is x_t0.
     """
     from . import _judge
 
@@ -258,25 +258,25 @@ def check(
     weld: bool = False,
     progress: Progress = None,
 ) -> Union[CheckReport, SeparationReport]:
-    """Each step through the detector and the oracle, and the diff: `assay check`.
+    """Runs `assay check`: detector and oracle answer each step, and their answers are compared.
 
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
-    file; one frame alone is a mesh at rest. detector: None for the built-in one, which the next four
-    options are for; the name of a plug-in's library; "python:MODULE:CLASS"; or a class, which another
-    process imports by its module. jobs: threads of the oracle; threads: of the detector, 0: all
-    cores, or 1 for a plug-in. time: seconds; memory ("6GB"), isolation: as on the command line.
-    progress: called with each printed text; True prints it to stderr.
-    bodies: integers (n,), the number of each vertex's body, from 0 on; apart: pairs of bodies that
-    do not meet, or a body paired with itself. rings: triangles that fewer edges join do not count
-    (1: those that share a vertex); rest_distance, a length: nor do those that are nearer in the
-    first frame. weld: vertices of a body that stand at one place in every frame count as one. A case
-    file takes none of these options, because it states what counts.
-    separation: the oracle alone says which triangles that share no vertex come within this distance,
-    when first, and how near any two come; the answer is then a SeparationReport.
+    file; a single frame is a mesh at rest. detector: None for the built-in detector, the name of a
+    plug-in's library, "python:MODULE:CLASS", or a class, which another process imports by its
+    module. culling, start, pairs, arithmetic: for the built-in detector. jobs: threads of the
+    oracle. threads: those of the detector; 0: all cores, or 1 for a plug-in. time: seconds. memory
+    ("6GB"), isolation: as on the command line. progress: a function for printed text; True: stderr.
+    bodies: integers (n,), the body of each vertex, from 0 on. apart: pairs of bodies that do not
+    meet, or a body paired with itself. rings: pairs of triangles that a path of fewer edges joins
+    do not count (1: those that share a vertex). rest_distance: pairs nearer than this length in the
+    first frame do not count. weld: vertices of a body that are at one place in every frame count as
+    one. A case file takes none of these options, because it states what counts.
+    separation: no detector runs. The oracle says which triangles that share no vertex come within
+    this distance, when first, and how near any two come, in a SeparationReport.
 
-    ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
-    plug-in's process, which ends with its step or at `time`. A class that is slow may take long:
-    `time` is a limit in seconds, and `progress=True` shows each step as it is judged.
+    ValueError: input that is refused; the message says why. Ctrl-C ends the call; a plug-in's
+    process ends with its step, or at `time`. For a slow class, `time` is a limit in seconds, and
+    `progress=True` shows each step as it is judged.
     """
     from . import _judge, hosting
 

@@ -1,4 +1,4 @@
-"""Where the programs of Assay are: beside the package, as it was built or installed."""
+"""Finds the programs of Assay: beside the package, as it was built or installed."""
 
 import os
 from pathlib import Path
@@ -12,7 +12,7 @@ _FOLDERS = (_HERE / "bin", _HERE.parent.parent, *(up / "bin" for up in _HERE.par
 
 
 def program(name: str = "assay") -> Path:
-    """The program `assay`, or its `assay-worker`. ASSAY_PROGRAM names another `assay`."""
+    """Returns the path of this program. ASSAY_PROGRAM names another `assay`."""
     named = os.environ.get("ASSAY_PROGRAM")
     for folder in (Path(named).parent,) if named else _FOLDERS:
         for workers in (folder, folder.parent / "libexec" / "assay"):

@@ -1,4 +1,4 @@
-"""Errors beside times, as a picture; matplotlib draws it."""
+"""Draws errors beside times with matplotlib."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _PANELS = {
 
 
 def plot(*outcomes: Outcome) -> Any:
-    """Errors beside times of own detectors that run() or certify() judged: a matplotlib Figure.
+    """Draws errors beside times of detectors that run() or certify() judged: a matplotlib Figure.
 
     A point is a family of cases: the detector's processor time for a step, and the share of the
-    steps with this error, with its interval of 95 %. Each outcome has a colour.
+    steps with this error, with its interval of 95 %. Each outcome has its own colour.
 
-    ImportError: matplotlib is not there. ValueError: an outcome has no such counts.
+    ImportError: there is no matplotlib. ValueError: an outcome has no counts of errors.
     """
     try:
         from matplotlib import pyplot
@@ -49,6 +49,6 @@ def _points(outcome: Outcome) -> Tuple[str, List[Tuple[float, Dict[str, Any]]]]:
     # The elementary query of a detector has no steps.
     judged = [s for s in findings["strata"] if s["steps"] and s["measures"] is not None]
     if not judged:
-        raise ValueError("plot: errors are counted only of an own detector that answers steps")
+        raise ValueError("plot: errors are counted only for a detector of yours that answers steps")
     points = [(used[s["family"]] / s["steps"] / 1000, s["measures"]) for s in judged]
     return findings["detector"]["name"], points

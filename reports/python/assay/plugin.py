@@ -1,7 +1,7 @@
-"""Names a detector for the programs, and asks a plug-in by hand.
+"""Names a detector for the programs, and asks a plug-in about single cases.
 
-Another process imports a class in Python by its module, so the class has to stand in a file. There
-hosting.py calls it, and says what the class must have.
+Another process imports a class in Python by its module, so the class has to be in a file. There
+hosting.py calls the class, and says which members the class must have.
 """
 
 import contextlib
@@ -17,7 +17,7 @@ from .places import program
 
 
 def detector_word(detector: Any) -> str:
-    """What `--detector` is given: a library's name, "python:MODULE:CLASS", or that of a class."""
+    """Returns the word for `--detector`: the name of a library, or "python:MODULE:CLASS"."""
     hosting.stop_if_imported()
     if isinstance(detector, type):
         module, _ = _place(detector)
@@ -30,7 +30,7 @@ def detector_word(detector: Any) -> str:
 
 
 def environment(detector: Any) -> Dict[str, str]:
-    """Variables by which a plug-in's process finds the class, and this Python."""
+    """Returns the variables by which a plug-in's process finds the class and this Python."""
     folders = [os.environ.get("PYTHONPATH", "")]
     if isinstance(detector, type):
         folders.insert(0, _place(detector)[1])
@@ -39,7 +39,7 @@ def environment(detector: Any) -> Dict[str, str]:
 
 @contextlib.contextmanager
 def surroundings(detector: Any) -> Iterator[None]:
-    """Sets these variables in this process, whose children inherit them, and puts them back."""
+    """Sets the variables of environment() in this process for its children, and restores them."""
     if detector is None:
         yield
         return
@@ -56,10 +56,10 @@ def surroundings(detector: Any) -> Iterator[None]:
 
 
 class Plugin:
-    """A plug-in that is asked by hand: steps, limits and queries, in a process of its own.
+    """A plug-in that answers single cases: steps, limits and queries, in a process of its own.
 
-    detector: as of check(). seconds: processor time that a case may take. name, version: what it says
-    of itself. ValueError: it cannot serve, with the line that says why.
+    detector: as for check(). seconds: the limit of processor time for a case. name, version: as the
+    plug-in states them. ValueError: the plug-in cannot be used; the message says why.
     """
 
     def __init__(self, detector: Any, *, seconds: float = 10):
@@ -75,19 +75,19 @@ class Plugin:
     def answers(
         self, case: Dict[str, Any], *, separation: float = 0, limits: bool = False
     ) -> Optional[List[Dict[str, Any]]]:
-        """What it answers to each step of a case: a dict each, as results of corpus/vectors hold it.
+        """Returns a dict for each step of a case, as in the results of corpus/vectors.
 
-        case: what a case file holds (corpus/README.md); with the option `query` it is one of two
-        features. separation: the distance that is asked about, 0 for contacts; limits: how far each
-        step may be taken. None: the detector does not serve this question, or its contract leaves out
-        the case as it is.
+        case: the content of a case file (corpus/README.md); with the option `query` the case is one
+        query of two features. separation: the distance that is asked about, 0 for contacts. limits:
+        asks how far each step may be taken. Returns None if the detector cannot answer the
+        question, or if its contract leaves out the case.
         """
         with surroundings(self._detector):
             return self._plugin.answers(json.dumps(case), separation, limits)
 
 
 def _place(kind: type) -> Tuple[str, str]:
-    """The module of a class, and the folder in which it is found."""
+    """Returns the module of a class, and the folder in which Python finds the module."""
     try:
         file = Path(inspect.getfile(kind)).absolute()
     except (OSError, TypeError):

@@ -1,4 +1,4 @@
-"""Verbs of the program `assay`, run as it is: campaigns, certificates, replays and pages."""
+"""Runs verbs of the program `assay`: campaigns, certificates, replays and pages."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ _USAGE = 2
 
 
 class Failure(Dict[str, Any]):
-    """A kind of failure, as the run's findings have it: signature, claim, met, what, file, ...
+    """A kind of failure, as the run's findings describe it: signature, claim, met, what, file, ...
 
-    file: the smallest mesh that shows it, a case file. The schema of certificates has the others.
+    file: the case file of the smallest mesh that shows it. The schema of certificates has the rest.
     """
 
     def frames(self) -> Frames:
-        """The smallest mesh: its triangles (m, 3), and positions (n, 3) of each frame."""
+        """Returns the smallest mesh: its triangles (m, 3), and positions (n, 3) of each frame."""
         from . import _judge
 
         return Frames(*_judge.read_case(self["file"]), [self["file"]])
@@ -39,9 +39,9 @@ class Failure(Dict[str, Any]):
 
 @dataclass(frozen=True, repr=False)
 class Outcome:
-    """What a verb came to: a word for its exit code, what it printed, and its folder or file.
+    """The result of a verb: a word for its exit code, the printed text, and its folder or file.
 
-    strata, failures: of run() and certify(), a dict each: pandas.DataFrame(outcome.strata).
+    strata, failures: after run() and certify(), lists for pandas.DataFrame(outcome.strata).
     """
 
     outcome: str
@@ -51,13 +51,14 @@ class Outcome:
 
     @property
     def strata(self) -> List[Dict[str, Any]]:
-        """Each family of cases: how many were judged, failed, ..., and the bound on the risk."""
+        """A dict for each family of cases: how many were judged, failed, ..., and a bound on the
+        risk."""
         strata: List[Dict[str, Any]] = self._findings()["strata"]
         return strata
 
     @property
     def failures(self) -> List[Failure]:
-        """Each kind of failure, with the smallest mesh that shows it; empty if nothing failed."""
+        """A dict for each kind of failure, with the smallest mesh that shows it."""
         folder = Path(self.out or "").absolute()
         found = [Failure(failure) for failure in self._findings()["failures"]]
         for failure in found:
@@ -68,7 +69,7 @@ class Outcome:
         from . import _judge
 
         if self.out is None or not self.out.is_dir():
-            raise ValueError("only run() and certify() have strata and failures")
+            raise ValueError("only outcomes of run() and certify() have strata and failures")
         findings: Dict[str, Any] = json.loads(_judge.findings(os.fspath(self.out)))
         return findings
 
@@ -95,13 +96,13 @@ class Page(Outcome):
 def run(
     campaign: str, detector: Any = None, *, out: PathLike, progress: Progress = None, **options: Any
 ) -> Outcome:
-    """`assay run`: a campaign of random cases.
+    """Runs `assay run`: a campaign of random cases.
 
-    campaign: "smoke", "quick", ..., or a file. detector: as of check(). out: the folder of the run.
-    progress: called with each line as it is printed; True prints it to stderr. options: as on the
-    command line, without the dashes: seed=1, time=60, jobs=2, power="proof", ...
+    campaign: "smoke", "quick", ..., or a file. detector: as in check(). out: the folder of the run.
+    progress: a function for printed lines; True: stderr. options: as on the command line, without
+    the dashes: seed=1, time=60, jobs=2, power="proof", ...
 
-    AssayError: it could not begin, with its line. Ctrl-C stops it; the same call goes on with it.
+    AssayError: the run could not begin, and why. After Ctrl-C the same call continues the run.
     """
     return _of_campaign("run", campaign, detector, out, progress, options)
 
@@ -114,9 +115,9 @@ def certify(
     progress: Progress = None,
     **options: Any,
 ) -> Outcome:
-    """`assay certify`: corpus, campaign, planted faults, self-test and speed; as run().
+    """Runs `assay certify`: corpus, campaign, planted faults, self-test and speed.
 
-    The certificate is out/certificate.json.
+    Arguments are as in run(). The certificate is out/certificate.json.
     """
     return _of_campaign("certify", campaign, detector, out, progress, options)
 
@@ -124,12 +125,12 @@ def certify(
 def replay(
     case: PathLike, detector: Any = None, *, progress: Progress = None, **options: Any
 ) -> Outcome:
-    """`assay replay`: one case by its id or file; why="0,5", export="folder", ..."""
+    """Runs `assay replay` on a case, by its id or file; why="0,5", export="folder", ..."""
     return _called(["replay", os.fspath(case)], detector, progress, options)
 
 
 def report(folder: PathLike, out: Optional[PathLike] = None, **options: Any) -> Page:
-    """`assay report`: the page of a run's folder, folder/report.html unless `out` names another."""
+    """Runs `assay report`: writes the page of a run to `out`, or to report.html in its folder."""
     file = Path(out) if out is not None else Path(folder) / "report.html"
     ended = _called(["report", os.fspath(folder), "--out", str(file)], None, None, options)
     return Page(ended.outcome, ended.code, ended.text, file)

@@ -9,7 +9,7 @@ Progress = Union[None, bool, Callable[[str], None]]
 
 
 def listener(progress: Progress, end: str = "") -> Optional[Callable[[str], None]]:
-    """The function that gets each printed text; True stands for stderr, with `end` after it."""
+    """Returns the function that gets each printed text: for True, one that prints it to stderr."""
     if progress is True:
         return lambda text: print(text, end=end, file=sys.stderr, flush=True)
     return progress or None

@@ -15,25 +15,23 @@ UNTOLD = object()  # in place of an answer: there is none
 
 
 class Recorder:
-    """A log of a simulator's steps and of what its own collision detector answered.
+    """A log of a simulator's steps and of the answers of the simulator's own collision detector.
 
-    path: the file. triangles: integers (m, 3). positions: real numbers (n, 3), those that the
-    detector was made from. name, version, claims, contract: of that detector, in the words of a
-    detector in Python (assay/hosting.py); without claims there is nothing that `assay check` could
-    judge. bodies: (n,) the number of each vertex's body, from 0 on; apart: pairs of bodies that
-    do not meet, or a body paired with itself. rings, rest_distance: pairs that do not count, as of
-    assay.check; at rest the mesh is at `positions`.
+    path: the file. triangles: integers (m, 3). positions: real numbers (n, 3), from which the
+    detector was made. name, version, claims, contract: of that detector, in the words of
+    assay/hosting.py; without claims `assay check` can judge nothing. bodies: integers (n,), the
+    body of each vertex, from 0 on. apart: pairs of bodies that do not meet, or a body paired with
+    itself. rings, rest_distance: which pairs do not count, as in assay.check; at rest the mesh is
+    at `positions`. every: 10 records one step in ten. overwrite: replaces an existing file.
 
-    every: with 10, one step in ten is recorded. overwrite: whether an existing file may be lost.
-
-    Arrays of float32 are recorded as float32, others as float64 where that is exact; positions that
-    are not finite are recorded too, and an answer that can be none, as a time outside of [0, 1], is
+    Arrays of float32 are recorded as float32, others as float64 where that is exact. Positions that
+    are not finite are recorded too. An impossible answer, such as a time outside of [0, 1], is
     refused. Calls write at once: a process that is killed loses at most the record that it was
-    writing. A recorder is of one thread at a time.
+    writing. Only one thread at a time may use a recorder.
 
-    ValueError: an argument that is refused; TypeError: no numbers; FileExistsError, OSError: a file
-    that is there, or cannot be written. After ValueError and TypeError nothing is written; an
-    OSError of a step ends the log, so that each later call fails too.
+    ValueError: an argument that is refused. TypeError: no numbers. FileExistsError, OSError: the
+    file exists, or cannot be written. After ValueError and TypeError nothing is written. An OSError
+    of a step ends the log, so each later call fails too.
     """
 
     def __init__(
@@ -86,15 +84,15 @@ class Recorder:
         share: Optional[float] = None,
         positions: Optional[ArrayLike] = None,
     ) -> None:
-        """Records the next step, real numbers (n, 3) each.
+        """Records the next step. Positions are real numbers (n, 3).
 
-        x0: where it starts; None: where the last step ended, its `committed` or else its `x1`.
-        x1 or dx: where it would go, or by how much. committed: where the simulator really went.
-        answer: "free", "collision", "undecided" or "error"; first, pairs, pair_times: (lo, hi) or a
-        number, (k, 2) triangles, their times (k, 2) or (k,); message: a line. Or answer is what a
-        detector in Python answers, such as the result of assay.Detector, which has all of these.
-        None is "free", as there; without it no answer is recorded. share, positions: how far a
-        limiter let the step go.
+        x0: where the step starts; None: where the last step ended, at its `committed` or else `x1`.
+        x1 or dx: where the step would go, or by how much. committed: where the simulator went.
+        answer: "free", "collision", "undecided" or "error", with first: (lo, hi) or a number,
+        pairs: (k, 2) triangles, pair_times: (k, 2) or (k,), message: a line. Or answer is that of a
+        detector in Python, such as the result of assay.Detector, which has all of these; None is
+        "free". Without `answer` none is recorded. share, positions: how far a limiter let the step
+        go.
         """
         told = None
         if answer is not UNTOLD:
@@ -141,7 +139,7 @@ class Recorder:
 
 
 def _frame(given: ArrayLike, name: str, may_be_float32: bool) -> npt.NDArray[Any]:
-    """Adjacent rows of three numbers, of float32 if they are that already and may be."""
+    """Returns adjacent rows of three numbers: float32 if they are float32 already and may be."""
     if may_be_float32 and type(given) is np.ndarray and given.dtype == np.float32:
         if given.ndim == 2 and given.shape[1] == 3:
             return np.ascontiguousarray(given)

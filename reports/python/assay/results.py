@@ -1,7 +1,7 @@
 """The results of a step and of a judgement. Each result has arrays of its own.
 
 Triangles are numbered as the rows of the mesh. Times are shares of the step, in [0, 1]. A time is a
-pair of doubles: twice the same if the time is a double, else the two adjacent doubles around it.
+pair of doubles: twice the time if it is a double, else the two adjacent doubles around it.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class MarkingCounts:
 
 @dataclass(frozen=True)
 class NarrowCounts:
-    """Elementary tests, and which rung of the ladder decided feature pairs."""
+    """Elementary tests, and how many feature pairs each rung of the filter decided."""
 
     elementary_tests: int
     axis: int
@@ -53,7 +53,7 @@ class NarrowCounts:
 
 @dataclass(frozen=True)
 class ViewCounts:
-    """Triangles whose view sign each rung settled."""
+    """How many view signs of triangles each rung of the filter decided."""
 
     lanes: int
     filter: int
@@ -80,7 +80,7 @@ class ReleaseCounts:
 
 @dataclass(frozen=True)
 class StepCounts:
-    """What a step did. Counts do not depend on the machine."""
+    """Counts of the work in a step. They do not depend on the machine."""
 
     search: SearchCounts
     marking: MarkingCounts
@@ -95,7 +95,7 @@ class StepCounts:
 
 @dataclass(frozen=True)
 class StepTimes:
-    """Milliseconds by the clock, no part of the answer."""
+    """Milliseconds of the wall clock. They are not part of the answer."""
 
     view_test: float
     start: float
@@ -107,7 +107,7 @@ class StepTimes:
 
 
 class _Step:
-    """A step that was answered, in a line."""
+    """Shows the answer to a step in one line."""
 
     answer: str
     first: Optional[Tuple[float, float]]
@@ -120,17 +120,17 @@ class _Step:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StepResult(_Step):
-    """What the detector answers of a step.
+    """The detector's answer to a step.
 
     answer: "free" or "collision".
     first: (lo, hi), the first contact time; None without a collision.
     pairs: int32 (k, 2), triangles in contact, ascending; times: float64 (k, 2), their first times.
-    features: int32 (k, 6), which features meet then: a kind (FEATURE_KINDS) and their vertices.
+    features: int32 (k, 6), the features that meet then: a kind (FEATURE_KINDS) and their vertices.
     view_positive, view_negative, view_zero, against_all, violated, dirty: sizes of the view sets.
-    views: whether the step was made with views, else why not.
+    views: whether the step used views, or else why not.
     signs: int8 (m + ghosts,), view signs of the triangles, then of the ghosts; empty without views.
     doubts: uint8 (m,), VIOLATED and DIRTY; empty without views.
-    triangles, x_t0, x_t1: what was asked, as it was given: no copies.
+    triangles, x_t0, x_t1: the arguments of the call, not copied.
     """
 
     answer: str
@@ -158,7 +158,7 @@ class StepResult(_Step):
 
 
 def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) -> StepResult:
-    """Of the fields as the extension module gives them."""
+    """Makes a StepResult of the fields that the extension module returns."""
     fields = dict(raw, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
     fields["milliseconds"] = StepTimes(*raw["milliseconds"])
     kinds: Any = dict(search=SearchCounts, marking=MarkingCounts, narrow=NarrowCounts)
@@ -173,9 +173,9 @@ class Limit:
     """How far a caller may go in a step.
 
     share: of the step, 0 (stay) to 1 (whole); positions: float64 (n, 3), where the caller stops.
-    first: (lo, hi), the first contact time of the whole step; None if it has no contact.
-    is_short: whether less than 0.93 of that time is taken, because rounding brought each place beyond
-    that was tried into contact.
+    first: (lo, hi), the first contact time of the whole step; None if there is no contact.
+    is_short: whether less than 0.93 of the first contact time is taken, because rounding brought
+    every farther place that was tried into contact.
     """
 
     share: float
@@ -189,9 +189,9 @@ class Limit:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Contacts:
-    """Answers of k elementary queries.
+    """Answers to k elementary queries.
 
-    hit: bool (k,), whether the two features meet; lo, hi: float64 (k,), first time, NaN without.
+    hit: bool (k,), whether the two features meet; lo, hi: float64 (k,), first time, NaN if not.
     """
 
     hit: npt.NDArray[np.bool_]
@@ -204,14 +204,14 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactPlaces:
-    """Where k pairs meet, each at the first time (its lower bound).
+    """Where k pairs meet, each at the lower end of its first time.
 
-    point: float64 (k, 3); barycentric: float64 (k, 2, 3), its weights in both triangles.
-    error: float64 (k,): no coordinate of the point is farther from the weighted corners of either.
-    normal: float64 (k, 3), unit: of the face, on the side from which its corners go
-    counter-clockwise; of two edges along (a1 - a0) x (b1 - b0); NaN where there is none.
-    normal_error: float64 (k,): no coordinate of the normal is off by more.
-    All of a pair is NaN where its feature has no name. Lengths are in units of the positions.
+    point: float64 (k, 3); barycentric: float64 (k, 2, 3), weights of the point in both triangles.
+    error: float64 (k,), bounds how far a coordinate of the point is from the weighted corners.
+    normal: float64 (k, 3), a unit vector: of a face, on the side from which its corners are
+    counter-clockwise; of two edges, along (a1 - a0) x (b1 - b0); NaN if there is no normal.
+    normal_error: float64 (k,), bounds how far a coordinate of the normal is off.
+    A pair whose features have no names has only NaN. Lengths are in units of the positions.
     """
 
     point: Float64Array
@@ -226,7 +226,7 @@ class ContactPlaces:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Judgement(_Step):
-    """The oracle's answer: fields as of StepResult; feature_candidates: feature pairs looked at."""
+    """The oracle's answer; fields as in StepResult. feature_candidates: feature pairs tested."""
 
     answer: str
     first: Optional[Tuple[float, float]]

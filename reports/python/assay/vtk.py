@@ -1,4 +1,4 @@
-"""Results for ParaView."""
+"""Writes results for ParaView."""
 
 import os
 from typing import Union
@@ -14,12 +14,12 @@ from .results import DIRTY, VIOLATED, Judgement, StepResult
 def write_vtk(result: Union[StepResult, Judgement], path: Union[str, "os.PathLike[str]"]) -> None:
     """Writes the step of a result as an unstructured grid, by meshio: .vtu or .vtk.
 
-    Points are those of the mesh at the first contact time (at t = 0 without one), then one for each
-    pair, where it meets (left out where that is no place). Cells are the triangles, then a vertex for
-    each of those points.
-    Fields of points: displacement (x_t1 - x_t0; 0 of contact points).
-    Fields of cells: is_contact, in_contact, first_time (NaN without), pair_a and pair_b (-1 of
-    triangles), and of a result of the detector view_sign (2: none), violated, dirty.
+    Points are the vertices of the mesh at the first contact time (at t = 0 without a contact), then
+    the place where each pair meets. A pair without a place is left out. Cells are the triangles,
+    then a vertex for each place.
+    Fields of points: displacement (x_t1 - x_t0; 0 at places of contact).
+    Fields of cells: is_contact, in_contact, first_time (NaN without), pair_a and pair_b (-1 for
+    triangles); for a result of the detector also view_sign (2: none), violated, dirty.
     """
     import meshio
 

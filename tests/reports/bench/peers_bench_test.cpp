@@ -99,8 +99,8 @@ TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
     EXPECT_EQ(row.counts.errors.undecided, 2u) << row.subject->name;
     EXPECT_FALSE(row.over) << row.subject->name;
   }
-  tests::expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it holds no steps",
-                                   "absent: fcl_elementary: libfcl-dev was not there",
+  tests::expect_says(run.remarks, {"hung", "absent: plugin_query_alone: it answers no steps",
+                                   "absent: fcl_elementary: libfcl-dev was not installed",
                                    "absent: arcsim: its source was not found"});
 }
 
@@ -113,7 +113,7 @@ TEST(PeersBench, OneThatIsAskedForADistanceTakesNoPart) {
   EXPECT_EQ(peers.subjects.size(), 6u) << "the built-in ones alone";
   ASSERT_FALSE(peers.absent.empty());
   EXPECT_EQ(peers.absent.front().name, "plugin_keeps_distance");
-  EXPECT_EQ(peers.absent.front().why, "it is asked for a distance");
+  EXPECT_EQ(peers.absent.front().why, "it answers about distances");
 }
 
 TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {

@@ -98,7 +98,7 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
   expect(" --rest-distance 0.001", 0, "no collision");
   expect(" --rings 1", 5, "collision at t = 0");
   // Welded, all four faces have an edge in common.
-  expect(" --weld --rings 1 --separation 0", 0, "least distance: none, because no pair counts");
+  expect(" --weld --rings 1 --separation 0", 0, "least distance: none: no pair counts");
 }
 
 TEST_F(CheckedBodies, BadWordsAreOneLine) {

@@ -222,7 +222,7 @@ def test_options_and_detectors_are_checked(pair):
         assay.check(frames, 3)
     with pytest.raises(TypeError, match="Frames"):
         assay.check(3)
-    with pytest.raises(ValueError, match="a frame or more"):
+    with pytest.raises(ValueError, match="at least one frame"):
         assay.check((pair.triangles, []))
 
 

@@ -123,7 +123,7 @@ def test_errors_stand_beside_times_in_a_picture(mine):
     assert "answered collision" in Path("errors.svg").read_text()
     with pytest.raises(ValueError, match="name an outcome"):
         assay.plot()
-    with pytest.raises(ValueError, match="own detector"):
+    with pytest.raises(ValueError, match="a detector of yours"):
         assay.plot(assay.run("few.json", out="shipped"))
 
 
@@ -154,7 +154,7 @@ def test_a_run_has_its_strata_and_failures_as_lists(mine):
 
 def test_a_run_without_failures_has_none_and_a_replay_has_no_strata(mine):
     assert assay.run("few.json", out="right", jobs=2).failures == []
-    with pytest.raises(ValueError, match="only run"):
+    with pytest.raises(ValueError, match="only outcomes of run"):
         assay.replay("quick:1:closed-generic:5").strata
 
 

@@ -164,7 +164,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
 
   // The trials again, some of them and all.
   const auto some = expect_ended("verify --again 0.3 --seed 7 " + certificate, 0,
-                                 {"again: 15 of 48 trials, seed 7: all as they are stored\n"});
+                                 {"again: 15 of 48 trials, seed 7: all results are as stored\n"});
   EXPECT_EQ(run_assay("verify --again 0.3 --seed 7 " + certificate).out, some.out);
   expect_ended("verify --again 1 " + certificate, 0, {"again: 48 of 48 trials, seed "});
 
@@ -258,7 +258,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   write(certificate, old.dump(1) + "\n");
   expect_ended("verify " + certificate, 1,
                {"of schema assay-certificate/1, this assay verifies "
-                "assay-certificate/8: verify it with the assay that issued it"});
+                "assay-certificate/8: use the assay that issued the certificate"});
 }
 
 TEST_F(Certify, BadInputIsOneLine) {

@@ -187,7 +187,7 @@ TEST_F(CheckLog, LinesPointsAndLooseVerticesAreCounted) {
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nl 1 2\nl 2 3\np 4\n";
   const auto file = scratch_.write("a.obj", mesh);
   expect_ended("check " + file + " " + file, 0,
-               {"4 vertices (1 of no triangle)", "not looked at: 2 lines (l), 1 point (p)"});
+               {"4 vertices (1 in no triangle)", "not looked at: 2 lines (l), 1 point (p)"});
 }
 
 TEST_F(CheckLog, JUnitHasEachClaim) {
@@ -218,7 +218,7 @@ TEST_F(CheckLog, APluginOfTheSameCodeIsAskedAgain) {
   EXPECT_TRUE(says(same.out, "reproduced; smallest: ")) << same.err;
   const auto smallest = fmt::format("{}/step-{}/smallest.json", out, collision_ + 1);
   EXPECT_LE(read_json(smallest)["triangles"].size(), 3u);
-  expect_refused("check " + log + " --detector " + plugin("always_free"), "folder by --keep");
+  expect_refused("check " + log + " --detector " + plugin("always_free"), "for them by --keep");
   std::filesystem::remove_all(out);
   const auto other =
       run_assay("check " + log + " --keep " + out + " --detector " + plugin("wrapped_builtin"));
@@ -324,7 +324,7 @@ TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   EXPECT_EQ(read_text(log), bytes);
   expect_refused(
       "check " + log + " " + log + " --detector " + plugin("always_free") + " --junit " + xml,
-      "folder by --keep");
+      "for them by --keep");
 }
 
 // A share is the same in every run; what was killed goes on with a later step.
@@ -361,7 +361,7 @@ TEST_F(CheckLog, WhatALogCannotShowIsNotJudged) {
   auto description = all_claims_description();
   description.claims |= ASSAY_CLAIM_DETERMINISTIC;
   expect_ended("check " + record(answers_, true, description), 0,
-               {"not judged: deterministic, for a log holds each step once"});
+               {"not judged: deterministic, because a log holds each step once"});
   description.claims = ASSAY_CLAIM_DETERMINISTIC;
   EXPECT_EQ(run_assay("check " + record(answers_, true, description)).exit_code, 2);
 }

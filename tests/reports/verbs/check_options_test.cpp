@@ -193,7 +193,7 @@ TEST_F(CheckOptions, TheBytesTellTheKindAndThenTheName) {
        {"1,free,\n", "step,answer,time\n1,free,\n", "# mine\n2,collision,0.5\n"}) {
     const auto file = scratch.write("answers.csv", rows);
     expect_refused("check " + file, file +
-                                        " is a table of answers, which stands beside frames: "
+                                        " is a table of answers, which needs frames: "
                                         "assay check FRAME... --answers " +
                                         file);
   }

@@ -185,7 +185,7 @@ TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {
 
 TEST_F(Repetitions, AFolderWithoutThePublicSequencesIsRefused) {
   const auto refused = expect_ended(judge("run", "threads_matter", 400, "--data /nowhere"), 2);
-  EXPECT_EQ(refused.err, "assay: /nowhere: none of the public sequences is there\n");
+  EXPECT_EQ(refused.err, "assay: /nowhere: this folder has none of the public sequences\n");
 }
 
 TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {

@@ -59,7 +59,7 @@ TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
 }
 
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
-  const std::string line = "\nas in the campaign, the detector is told that its start is clean\n";
+  const std::string line = "\nas in the campaign, the detector is told that the start is clean\n";
   int told = 0, clean_but_even = 0, odd_but_not_clean = 0;
   for (const std::string name : {"closed-generic", "broken"}) {
     for (std::uint64_t index = 0; index < 6; ++index) {

@@ -199,12 +199,12 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
   };
   expect_ended(verdict("wrapped_builtin"), 0, {"\nholds: 0 trials with a defect, 0 undecided"});
 
-  const auto example =
-      expect_ended(verdict("example"), 0,
-                   {"neighbours no-shared-vertex",
-                    "steps it does not report a contact, as its contract allows "
-                    "(neighbours no-shared-vertex): otherwise these would be misses\n"});
-  EXPECT_FALSE(contains(example.out, "in 0 steps it does not report")) << example.out;
+  const auto example = expect_ended(
+      verdict("example"), 0,
+      {"neighbours no-shared-vertex",
+       "steps the detector does not report a contact, as its contract allows (neighbours "
+       "no-shared-vertex): without this contract they would be misses\n"});
+  EXPECT_FALSE(contains(example.out, "in 0 steps the detector does not report")) << example.out;
 
   const auto alarm = expect_ended(verdict("always_collision"), 1, {"DEFECT no-spurious: "});
   // Hardly any is shrunk: the smallest meshes come first.
@@ -278,7 +278,7 @@ TEST_F(Run, WithoutItsWorkerOrItsCorpusItEndsWithALine) {
                    "assay: cannot start " + (scratch / "bin/assay-worker")));
   EXPECT_TRUE(contains(line_of(""), "assay: the shipped corpus is not at " +
                                         (scratch / "share/assay/corpus") +
-                                        "; ASSAY_CORPUS names its folder"));
+                                        "; set ASSAY_CORPUS to its folder"));
   EXPECT_TRUE(contains(line_of("ASSAY_CORPUS=/nowhere "), "assay: ASSAY_CORPUS is /nowhere: "));
 }
 

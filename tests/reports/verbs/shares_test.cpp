@@ -92,7 +92,7 @@ TEST_F(Shares, OfOneSeedDoNotCountTwice) {
                         (good(1, 2), std::filesystem::copy_options::recursive));
   const auto twice = expect_ended(
       judge(scratch / "share1" + (" " + scratch / "share2") + " " + (scratch / "copy") + " "), 2);
-  expect_says(twice.err, {"share2/run.sqlite and ", "copy/run.sqlite: both are of seed 2, "});
+  expect_says(twice.err, {"share2/run.sqlite and ", "copy/run.sqlite: both runs have seed 2, "});
   EXPECT_FALSE(has_a_store());
 }
 

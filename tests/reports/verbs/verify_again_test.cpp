@@ -73,7 +73,7 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   run_and_issue("--detector " + library);
   // Its verdict is a defect.
   expect_ended(verify("--again 0.5 --seed 1"), 1,
-               {"again: 16 of 32 trials, seed 1: all as they are stored\n"});
+               {"again: 16 of 32 trials, seed 1: all results are as stored\n"});
   // A defect becomes a success.
   std::string id;
   {
@@ -90,7 +90,7 @@ TEST_F(VerifyAgain, NamesAForgedVerdictOnAPlugIn) {
   // The library as it is named, a copy of it, and another one.
   const auto copy = scratch / "copy.so";
   std::filesystem::copy_file(library, copy);
-  EXPECT_TRUE(contains(verify("--again 0.1 --detector " + copy).out, "all as they are stored"));
+  EXPECT_TRUE(contains(verify("--again 0.1 --detector " + copy).out, "all results are as stored"));
   expect_problem(verify("--again 0.1 --detector " + plugin("always_collision")),
                  "not the library that was certified");
   expect_ended(verify("--again 0.1 --detector " + (scratch / "none.so")), 2);

@@ -1,5 +1,5 @@
-// Marks over the 3D picture: where the pair meets or is nearest, and how near; its numbers; places of
-// the view primitive.
+// Draws marks over the 3D picture: where the pair meets or is nearest, its distance, the numbers of
+// its triangles, and the places of the view primitive.
 import { svg } from "../dom";
 import type { Contact, Point } from "../report";
 import { shortTime } from "../words";
@@ -14,7 +14,7 @@ export interface MarkedContacts {
 
 const middle = (c: Contact): number => c.time[0] + (c.time[1] - c.time[0]) / 2;
 
-// When a contact is, over all steps.
+// Returns the time of a contact on the axis of all steps.
 export const timeOf = (step: number, contact: Contact): number => step + middle(contact);
 
 export class Marks {
@@ -50,7 +50,8 @@ export class Marks {
     this.primitive.replaceChildren(...(primitive ? this.primitiveMarks(stage, time) : []));
   }
 
-  // A circle if the two places are one in the picture, else two smaller ones and the segment.
+  // Draws one circle if the two places coincide in the picture, and otherwise two smaller circles
+  // with the segment between them.
   private mark(group: SVGGElement, radius: number, stage: Stage, contact: Contact | null, isNow: boolean): void {
     const [a, b] = contact?.places?.map((p) => stage.project(this.motion.place(p))) ?? [];
     group.classList.toggle("now", isNow);
@@ -62,7 +63,7 @@ export class Marks {
     if (!isOne) group.append(svg("line", { x1: a.x, y1: a.y, x2: b.x, y2: b.y }));
   }
 
-  // Above the higher of the two places.
+  // Writes the distance above the higher of the two places.
   private label(stage: Stage, contact: Contact | null): void {
     const { asked } = this.motion.scene;
     const height = (p: Point): number => stage.project(p)?.y ?? 0;
@@ -94,7 +95,7 @@ function put(element: SVGElement, stage: Stage, place: Point): void {
   if (at) element.setAttribute("transform", `translate(${at.x.toFixed(1)} ${at.y.toFixed(1)})`);
 }
 
-// The origin, if there is no point.
+// Returns the mean of the points; the origin if there are no points.
 export function centre(points: Point[]): Point {
   const mean = (k: 0 | 1 | 2): number => points.reduce((sum, p) => sum + p[k], 0) / (points.length || 1);
   return [mean(0), mean(1), mean(2)];

@@ -1,4 +1,4 @@
-// Gives the place of everything at a time of a scene. Times run over the steps: 1.25 is a quarter
+// Computes where everything in a scene is at a given time. Times count steps: 1.25 is a quarter
 // into the second step. Places are scaled into a box of size one about the origin.
 import type { Moving, Point, Scene, Step } from "../report";
 
@@ -7,11 +7,11 @@ export class Motion {
   private readonly largest: number;
   private readonly centre: Point;
   private readonly extent: number;
-  readonly isOnePlace: boolean; // all vertices, at all times
+  readonly isOnePlace: boolean; // all vertices are at one place at all times
 
   constructor(readonly scene: Scene) {
     this.length = scene.steps.length;
-    // Coordinates may be of any size: divided by the largest before anything is added up.
+    // Coordinates can be of any size, so they are divided by the largest before they are added.
     let largest = 0;
     for (const frame of scene.frames)
       for (const p of frame) largest = Math.max(largest, Math.abs(p[0]), Math.abs(p[1]), Math.abs(p[2]));
@@ -31,7 +31,7 @@ export class Motion {
     this.extent = extent || 1;
   }
 
-  // The step that is under way, from 0, and how much of it is over.
+  // Returns the step at this time, its number from 0, and the part of the step that is over.
   at(time: number): { index: number; step: Step; t: number } {
     const index = Math.max(0, Math.min(this.length - 1, Math.floor(time)));
     return { index, step: this.scene.steps[index]!, t: Math.min(1, Math.max(0, time - index)) };
@@ -46,7 +46,7 @@ export class Motion {
     return this.place(between(m[0], m[1], t));
   }
 
-  // Of all vertices, then of the ghosts' apexes.
+  // Returns the places of all vertices, then of the ghosts' apexes.
   places(time: number): Point[] {
     const { step, t } = this.at(time);
     const from = this.scene.frames[step.from]!;

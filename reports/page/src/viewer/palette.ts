@@ -4,7 +4,7 @@ import type { SetName } from "../report";
 
 export const setNames: SetName[] = ["V+", "V-", "V0", "dirty", "violated", "none"];
 
-// The sets whose colours the two triangles of the pair have where a detector shows no view sets.
+// If a detector shows no view sets, the two triangles of the pair have the colours of these sets.
 export const pairSets: [SetName, SetName] = ["V+", "V-"];
 
 const variables: Record<SetName, string> = {
@@ -29,7 +29,7 @@ export class Palette {
   }
 }
 
-// Calls back when the reader's colour scheme changes.
+// Calls `then` when the reader's colour scheme changes.
 export function onSchemeChange(then: () => void): void {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", then);
 }

@@ -13,7 +13,8 @@ const unit = (a: Point): Point => {
   return [a[0] / length, a[1] / length, a[2] / length];
 };
 
-// Around, a little from above and below: never along an axis, where flat meshes are lines.
+// Returns directions all around, from a little above and a little below. None is along an axis,
+// because a flat mesh looks like a line from there.
 function directions(): Point[] {
   const list: Point[] = [];
   for (const height of [0.55, 1.1, -0.55])
@@ -24,8 +25,9 @@ function directions(): Point[] {
   return list;
 }
 
-// The direction in which the smaller of the triangles looks largest; triangles with no area at all,
-// which are lines from everywhere, do not count.
+// Returns the direction from which all triangles are seen best: it makes the smallest visible share
+// of a triangle's area largest. Triangles without area do not count, because they look like lines
+// from everywhere.
 export function bestSide(triangles: [Point, Point, Point][]): Point {
   const normals = triangles
     .map(([a, b, c]) => cross(minus(b, a), minus(c, a)))
@@ -36,7 +38,7 @@ export function bestSide(triangles: [Point, Point, Point][]): Point {
   for (const direction of directions()) {
     const facing = normals.map((n) => Math.abs(dot(n, direction)));
     const least = Math.min(1, ...facing);
-    // Two parallel triangles are seen apart only from a slant.
+    // Two parallel triangles can be told apart only if they are seen at a slant.
     const worth = least > 0.85 ? 1.7 - least : least;
     if (worth > most + 1e-9) {
       most = worth;

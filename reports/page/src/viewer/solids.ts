@@ -57,7 +57,8 @@ export class Solids {
     this.group.add(this.faces, this.edges, this.ghostFaces, this.ghostEdges);
     this.group.add(this.pairLines, this.primitiveLines);
     for (const child of this.group.children) child.frustumCulled = false;
-    this.pairLines.renderOrder = this.primitiveLines.renderOrder = 1; // over faces that are see-through
+    // Drawn over see-through faces.
+    this.pairLines.renderOrder = this.primitiveLines.renderOrder = 1;
     this.recolour(palette);
   }
 

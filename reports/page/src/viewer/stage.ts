@@ -1,4 +1,4 @@
-// Camera, light and canvas. Draws when asked, never on its own.
+// Has camera, light and canvas. Draws only when it is asked to.
 import {
   AmbientLight,
   DirectionalLight,
@@ -19,7 +19,7 @@ export class Stage {
   private readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   private readonly controls: OrbitControls;
 
-  // Throws where there is no WebGL.
+  // Throws if there is no WebGL.
   constructor(
     private readonly canvas: HTMLCanvasElement,
     content: Object3D,
@@ -37,7 +37,7 @@ export class Stage {
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
   }
 
-  // Whoever comes closer then comes closer to `at`.
+  // Zooming in then moves the camera towards `at`.
   lookFrom(direction: Point, at: Point): void {
     const target = this.controls.target.set(...at);
     this.camera.position.set(...direction).setLength(distance * (1 + target.length())).add(target);
@@ -45,7 +45,8 @@ export class Stage {
     this.draw();
   }
 
-  // Radians about the vertical and the horizontal axis; a factor of the distance.
+  // Turns the camera by radians about the vertical and about the horizontal axis, and multiplies
+  // its distance by `closer`.
   turn(around: number, over: number, closer = 1): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     const polar = Math.acos(offset.z / offset.length());
@@ -59,7 +60,7 @@ export class Stage {
     this.draw();
   }
 
-  // Pixels from the upper left corner; null behind the camera.
+  // Returns the point in pixels from the upper left corner; null if it is behind the camera.
   project(p: Point): { x: number; y: number } | null {
     const v = new Vector3(...p).project(this.camera);
     if (v.z > 1) return null;
@@ -82,7 +83,7 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    // A narrow window shows the whole width too.
+    // The whole width is visible in a narrow window too.
     this.camera.zoom = Math.min(1, width / height);
     this.camera.updateProjectionMatrix();
     this.draw();

@@ -1,4 +1,5 @@
-// The slider of the time, play, and buttons for the exact contact and the detector's contact.
+// Makes the slider of the time, the play button, and buttons for the exact contact and the
+// detector's contact.
 import { html } from "../dom";
 import { shortTime } from "../words";
 

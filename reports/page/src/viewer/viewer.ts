@@ -1,4 +1,5 @@
-// One failing mesh in 3D: time slider and play, the pair, contact points, ghosts, view primitive.
+// Shows one failing mesh in 3D, with time slider and play button, the pair, contact points, ghosts,
+// and the view primitive.
 import { html } from "../dom";
 import type { Contact, Failure, Scene } from "../report";
 import { shortTime } from "../words";
@@ -27,7 +28,7 @@ export class Viewer {
   private ghosts = true;
   private primitive = true;
 
-  // Throws where there is no WebGL.
+  // Throws if there is no WebGL.
   constructor(
     private readonly scene: Scene,
     private readonly onShown: (time: number, pair: [number, number] | null) => void,
@@ -49,7 +50,7 @@ export class Viewer {
     this.showPair(scene.shown.step, scene.shown.pair);
   }
 
-  // Marks a pair of a step and goes to where it meets.
+  // Marks a pair of a step, and goes to the time at which it meets.
   showPair(step: number, pair: [number, number] | null): void {
     this.pair = pair;
     const of = (pairs: Contact[] | undefined): Contact | null =>
@@ -58,7 +59,7 @@ export class Viewer {
     const exact = of(at.oracle.pairs) ?? of(at.left_out);
     const detector = of(at.detector?.pairs);
     this.contacts = { step, exact, detector };
-    // A time that a detector does not state is the whole step: nothing to mark.
+    // A time that a detector does not state is the whole step, so it is not marked.
     const stated = detector && detector.time[1] - detector.time[0] < 1 ? detector : null;
     this.controls.setStops(
       exact ? timeOf(step, exact) : null,
@@ -70,13 +71,13 @@ export class Viewer {
       const f = this.scene.triangles[i];
       return f ? [[places[f[0]]!, places[f[1]]!, places[f[2]]!] as [never, never, never]] : [];
     });
-    // Nearest points may be seen apart only from close by.
+    // The camera looks at the nearest points, because only from close by can they be told apart.
     const nearest = this.scene.asked ? (exact ?? detector)?.places : null;
     this.stage.lookFrom(bestSide(shown), centre((nearest ?? []).map((p) => this.motion.place(p))));
     this.refresh();
   }
 
-  // For tests and for other tools: what is shown now.
+  // Returns what is shown now, for tests and for other tools.
   state(): { time: number; vertices: number[][] } {
     return { time: this.controls.time, vertices: this.motion.places(this.controls.time) };
   }
@@ -112,7 +113,8 @@ export class Viewer {
     };
     const views = this.scene.steps.some((s) => s.views !== null);
     const hasGhosts = this.scene.steps.some((s) => (s.views?.ghosts.length ?? 0) > 0);
-    // Where no sets are to be told by their colours, nothing hides a triangle of the pair.
+    // If there are no view sets to show, faces are see-through, so that nothing hides a triangle of
+    // the pair.
     this.solids.seeThrough(!views);
     return html(
       "div",
@@ -140,7 +142,7 @@ export class Viewer {
   }
 }
 
-// The picture of the contact, for paper and for where no 3D can be drawn.
+// Returns the picture of the contact, for paper and for browsers that cannot draw in 3D.
 export function picture(failure: Failure): HTMLElement | null {
   const source = `data:image/svg+xml,${encodeURIComponent(failure.svg ?? "")}`;
   return failure.svg ? html("img", { src: source, alt: `The mesh of ${failure.signature} at its contact` }) : null;
