@@ -164,7 +164,7 @@ std::vector<Fault> elementary_faults() {
       {wrong<Dropped<of_coplanar_points>>, "elementary/coplanar-ignored", "free-sound",
        "F_coplanar_motion", 4, "four points that stay in one plane are never in contact"},
       {wrong<Dropped<of_parallel_edges>>, "elementary/parallel-ignored", "free-sound",
-       "F_parallel_edges", 4, "edges that are parallel where they meet are never in contact"},
+       "F_parallel_edges", 4, "edges that are parallel at their contact are left out"},
       {wrong<Dropped<of_edges>>, "elementary/only-vertex-face", "free-sound", "F_edge_edge_only", 4,
        "no edge-edge tests"},
       {wrong<Dropped<of_vertex_and_face>>, "elementary/only-edge-edge", "free-sound",
@@ -185,7 +185,7 @@ std::vector<Fault> elementary_faults() {
       {wrong<Rounded<to_float>>, "elementary/time-in-single-precision", "first-time",
        "F_inexact_time", 4, "times are rounded to single precision"},
       {wrong<Dropped<beyond_bound_of_result>>, "elementary/bound-of-result", "free-sound",
-       "F_bound_of_result", 4, "the filter's error bound is taken as a share of its result"},
+       "F_bound_of_result", 4, "the filter's error bound is a share of the filter's result"},
       // This fault is planted in a configuration without views, because the tests of a verified
       // start ask for still features first.
       {wrong<TakenForDuplicate>,

@@ -140,7 +140,7 @@ std::vector<Fault> state_faults() {
       {wrong<KeptElsewhere>, "state/kept-elsewhere", "L8", "F_start_elsewhere", 6,
        "the state is kept although the step starts at other positions"},
       {wrong<EvaluationKept>, "state/evaluation-kept", "L8", "F_evaluation_kept", 6,
-       "a free evaluation that was not committed releases what is dirty"},
+       "a free evaluation that was not committed releases dirty triangles"},
   };
 }
 
@@ -263,7 +263,7 @@ std::vector<Fault> release_faults() {
       {wrong<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>, "release/blind-to-ghosts",
        "L9", "D8_release_arm_sequence", 22, "triangles are released without a test against ghosts"},
       {wrong<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>, "release/blind-to-contacts",
-       "L9", "F_contacts_carried", 5, "triangles still in contact with the mesh are released"},
+       "L9", "F_contacts_carried", 5, "triangles in contact with the mesh are released"},
       {wrong<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>,
        "release/released-when-connected", "L9", "F_released_by_connection", 6,
        "a triangle is released beside a clean neighbour, even at an edge of four triangles"},
@@ -275,7 +275,7 @@ std::vector<Fault> release_faults() {
        "a triangle that touches nothing is released, whatever its layer"},
       {wrong<ReleasedWhileTouched>, "release/released-while-touched", "L9",
        "F_released_while_touched", 5,
-       "a triangle that still touches something is released beside a clean neighbour"},
+       "a triangle that touches something is released beside a clean neighbour"},
       {wrong<WitnessesByPlace>, "release/witnesses-by-place", "L9", "F_witness_of_another", 11,
        "the common layer is read from triangles of another component at the same places"},
   };
