@@ -39,9 +39,10 @@ struct ContactRungCounts {
 
 struct SearchCounts {
   std::uint64_t box_tests = 0;
-  // How often the search counted those children of a node that may hold a partner.
+  // How often the search counted the children of a node that can contain a partner for the other
+  // node of the pair.
   std::uint64_t child_counts = 0;
-  // Nodes with one such child only: the search went on to this child without a box test.
+  // How often there was only one such child: the search then went on with it without a box test.
   std::uint64_t skipped = 0;
   std::uint64_t contour_tests = 0;  // contour tests of patches that have a normal cone
   std::uint64_t candidate_pairs = 0;
