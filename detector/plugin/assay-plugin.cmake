@@ -3,7 +3,7 @@
 # the installed package, so find_package(assay COMPONENTS plugin) is enough and asks for no library.
 function(assay_add_plugin name)
   if(NOT ARGN)
-    message(FATAL_ERROR "assay_add_plugin(${name}): it has no sources")
+    message(FATAL_ERROR "assay_add_plugin(${name}): no sources are given")
   endif()
   add_library(${name} MODULE ${ARGN})
   set_target_properties(${name} PROPERTIES PREFIX ""

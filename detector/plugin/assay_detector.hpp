@@ -50,7 +50,7 @@
 
 #include "detector/plugin/assay_detector.h"
 
-static_assert(ASSAY_DETECTOR_ABI_VERSION >= 3, "this header is of a later version");
+static_assert(ASSAY_DETECTOR_ABI_VERSION >= 3, "this header is newer than assay_detector.h");
 
 namespace assay {
 namespace plugin {

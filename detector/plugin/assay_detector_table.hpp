@@ -22,8 +22,8 @@ namespace assay {
 namespace plugin {
 namespace detail {
 
-static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "pairs are handed out as they stand");
-static_assert(sizeof(Interval) == 2 * sizeof(double), "times are handed out as they stand");
+static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "a Pair must be two integers");
+static_assert(sizeof(Interval) == 2 * sizeof(double), "an Interval must be two doubles");
 
 // One line of text that needs no memory from the heap, because there may be none left.
 class Line {
@@ -250,10 +250,10 @@ const assay_detector_api* table() {
                 "Limit limit(Positions x_t0, Positions x_t1)");
   static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value ||
                     has_limit<D>::value,
-                "a detector has evaluate(), query(), candidates() or limit()");
+                "a detector needs evaluate(), query(), candidates() or limit()");
   static_assert(has_count<D>::value || !names_count<D>::value,
                 "void count(const CountedPairs& counted)");
-  static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
+  static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() needs evaluate()");
   static const assay_detector_api api = [] {
     assay_detector_api functions = {};
     functions.abi_version = ASSAY_DETECTOR_ABI_VERSION;

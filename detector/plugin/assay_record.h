@@ -519,7 +519,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   if (!c->description || !c->description->name)
     return assay_record_wrong_(r, "the description or its name is missing");
   if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
-    return assay_record_wrong_(r, "a mesh has positions of 1 to 2^31 - 1 vertices");
+    return assay_record_wrong_(r, "the positions are missing, or are more than 2^31 - 1");
   if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
     return assay_record_wrong_(r, "the triangles are missing, or are more than 2^31 - 1");
   for (i = 0; i < 3 * c->triangle_count; ++i)
@@ -530,7 +530,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
                      (c->counted->triangle_pair_count && !c->counted->triangle_pairs) ||
                      (c->counted->vertex_face_count && !c->counted->vertex_faces) ||
                      (c->counted->edge_pair_count && !c->counted->edge_pairs)))
-    return assay_record_wrong_(r, "a list of the pairs that count is missing");
+    return assay_record_wrong_(r, "an array of the counted pairs is missing");
   return ASSAY_OK;
 }
 
@@ -544,7 +544,7 @@ static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_s
     return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
   memcpy(r->path, s->path, length);
   if (!s->overwrite && assay_record_is_there_(r->path))
-    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "this file exists", r->path, 0);
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is already a file", r->path, 0);
   assay_record_make_tables_(r);
   errno = 0;
   r->file = fopen(r->path, "wb");
@@ -572,7 +572,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   if (!settings || !settings->path || !*settings->path)
     return assay_record_wrong_(recorder, "the path is missing");
   if (settings->overwrite != 0 && settings->overwrite != 1)
-    return assay_record_wrong_(recorder, "overwrite is 0 or 1");
+    return assay_record_wrong_(recorder, "overwrite must be 0 or 1");
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
@@ -603,7 +603,7 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       !assay_record_is_time_(result->first_lo, result->first_hi))
     return assay_record_no_answer_(r, "the first time is no interval in [0, 1]");
   if (result && result->answer == ASSAY_FREE && result->pair_count)
-    return assay_record_no_answer_(r, "a free step has pairs");
+    return assay_record_no_answer_(r, "the answer is free, but pairs are given");
   for (i = 0; is_judged && i < result->pair_count; ++i) {
     const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
     if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
@@ -613,7 +613,7 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");
   }
   if (limit && limit->share != -1 && !(0 <= limit->share && limit->share <= 1))
-    return assay_record_no_answer_(r, "the share of a limit is neither from 0 to 1 nor -1");
+    return assay_record_no_answer_(r, "the share of a limit must be from 0 to 1, or -1");
   for (i = 0; limit && limit->positions && i < 3 * r->vertex_count; ++i)
     if (!(limit->positions[i] - limit->positions[i] == 0))
       return assay_record_no_answer_(r, "the positions of a limit are not finite");
@@ -626,14 +626,14 @@ static inline int32_t assay_record_check_step_(assay_recorder* r,
   if (!r->is_begun)
     return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
   if (!step || !step->x1.data == !step->dx.data)
-    return assay_record_wrong_(r, "a step has either x1 or dx");
+    return assay_record_wrong_(r, "a step needs either x1 or dx");
   if (result && (result->answer < ASSAY_FREE || result->answer > ASSAY_BEYOND_CAPACITY))
-    return assay_record_wrong_(r, "there is no such answer");
+    return assay_record_wrong_(r, "the answer has an unknown value");
   if (result && result->pair_count && !result->pairs)
     return assay_record_wrong_(r, "the pairs are missing");
   if (!step->x0.data && !r->end_is_known)
     return assay_record_fail_(r, ASSAY_RECORD_NO_START,
-                              "x0 is missing: it is not known where the last step ended", "", 0);
+                              "x0 is missing, and the end of the last step is not known", "", 0);
   return assay_record_check_answer_(r, result, step->limit);
 }
 

@@ -109,8 +109,8 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
   const auto components = surface.mesh.components.size();
   if (primitives.size() > 1 && primitives.size() != components) {
     return Problem{InputError::wrong_primitive_count,
-                   std::to_string(primitives.size()) + " view primitives for " +
-                       std::to_string(components) + " components"};
+                   std::to_string(primitives.size()) + " view primitives are given for " +
+                       std::to_string(components) + " components; give none, one, or one for each"};
   }
   for (const auto& primitive : primitives) {
     for (const auto* point :
