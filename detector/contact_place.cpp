@@ -1,5 +1,5 @@
 // Bounds, with u = 2^-53. Places are scaled by a power of two, so that the largest coordinate M of
-// both triangles, at t=0 and at t=1, is in [0.5, 1); it is smaller if it is below 2^-1000 before
+// both triangles, at t=0 and at t=1, is in [0.5, 1); M is smaller if it is below 2^-1000 before
 // scaling.
 // - A place at t, (1 - t) x0 + t x1, is off by at most 4 u. A sum of three weighted places is off
 //   by at most 8 u, and the computed difference between that sum and `point` by at most 10 u.

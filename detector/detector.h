@@ -105,15 +105,15 @@ class Detector {
   // unless the way to that place, once rounded, has a contact. That can happen if two features pass
   // each other at a distance of a few units in the last place of their coordinates. Then up to 18
   // nearer places are tried. If the free places form roughly one interval, the place returned is at
-  // least 0.98 as far as the farthest of them. `is_short` is true if the step is taken up to less
-  // than 0.93 of its first contact time. Share 0 means that the mesh stays: there is a contact at
-  // the start, or on the way to every place that was tried. With a separation, read `within the
+  // least 0.98 as far as the farthest free place. `is_short` is true if the step is taken up to
+  // less than 0.93 of its first contact time. Share 0 means that the mesh stays: there is a contact
+  // at the start, or on the way to every place that was tried. With a separation, read `within the
   // separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
   // Cost: one first_contact for the whole step. If the step is not free, one more for each place
-  // that is tried: nearly always one place, at most 19. Options::keeps_near makes these faster,
-  // because they are about shorter steps from x_t0.
+  // that is tried: nearly always one place, at most 19. Options::keeps_near makes these further
+  // calls faster, because they are about shorter steps from x_t0.
   StepLimit limit(const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop = {});
 
@@ -127,9 +127,8 @@ class Detector {
   // different positions, counts can differ, because normal cones then prove different patches free;
   // false alarms can differ too, unless the arithmetic is exact. A step that was evaluated and not
   // committed is dropped. Errors: foreign_state, if the state is of another mesh or culling, or if
-  // other bodies do not meet themselves (a state does not depend on anything else in
-  // Options::counted); damaged_state, if the state contradicts the mesh. After an error this
-  // detector is unchanged.
+  // pairs within other bodies do not count (a state depends on nothing else in Options::counted);
+  // damaged_state, if the state contradicts the mesh. After an error this detector is unchanged.
   std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state and the kept pairs of features: the next step is a new start.

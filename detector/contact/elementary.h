@@ -40,7 +40,7 @@ class ElementaryTest {
   // Returns 0 if this tests for contacts, or d > 0 if it tests for features that come within d.
   virtual double separation() const { return 0; }
   // Returns kernels that test many queries at once, or null. A query that the kernels decide is not
-  // given to the functions below. If this is not overridden, they are given every query.
+  // given to the functions below. A stage that does not override this is given every query.
   virtual const QueryKernels* first_rungs() const { return nullptr; }
   // Returns whether the axis rung (rungs.h) shows that the features stay apart.
   virtual bool is_apart_along_an_axis(const FourPoints& query) const;

@@ -1,8 +1,8 @@
 // The rungs of the elementary test (elementary.h). The axis rung compares inputs, and the filter
 // rung computes in doubles with proved bounds. Neither ever decides wrongly, and a query that a
-// rung cannot decide goes to the next rung: the integers. This header declares, in this order:
-// these two rungs, the tests without integers (in doubles with proved bounds, and in plain doubles
-// or floats), and the rungs of integers. Only integers without bound allocate.
+// rung cannot decide goes to the next rung. This header declares, in this order: these two rungs,
+// the tests without integers (in doubles with proved bounds, and in plain doubles or floats), and
+// the rungs of integers. Only integers without bound allocate.
 #pragma once
 
 #include <optional>

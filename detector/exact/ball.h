@@ -58,7 +58,7 @@ class Ball {
     if (value.negative()) middle_ = -middle_;
   }
 
-  // Returns the ball with this middle and radius 0. REQUIRES that `value` is finite.
+  // Returns the ball that contains only `value`. REQUIRES that `value` is finite.
   static Ball of(double value) {
     Ball ball;
     int exponent = 0;

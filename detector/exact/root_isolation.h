@@ -31,8 +31,7 @@ inline bool adjacent(double lo, double hi) { return ordinal(hi) == ordinal(lo) +
 //
 // The search starts at the guess and goes towards the root in growing strides of doubles until it
 // has passed the root; then it halves the interval. A guess outside (lo, hi) is ignored. If the
-// guess is next
-// to the root, two signs are enough.
+// guess is next to the root, two signs are enough.
 template <class SignAt>
 TimeEnclosure bracket_root(SignAt sign_at, int sign_lo, double lo, double hi, double guess) {
   if (guess > lo && guess < hi) {

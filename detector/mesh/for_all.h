@@ -5,7 +5,8 @@
 // The bodies run in any order and at the same time, so each may write only to a place of its own.
 // If items must be done in their order, use for_each_paced (paced_stop.h). The loop is split into
 // pieces, and the calling thread works on pieces too. Only the calling thread counts work and calls
-// the stop function: the other threads end within microseconds after it, with their pieces.
+// the stop function; the other threads end within microseconds after it, when their pieces are
+// done.
 #pragma once
 
 #include <atomic>
@@ -77,15 +78,14 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pac
 
 // Returns a sum over all items. Each lane starts from `zero` and calls add(sum, i) for its items i;
 // join(sum, sum) then adds up the lanes. REQUIRES a sum that does not depend on the order of its
-// terms: a sum of doubles does.
+// terms (a sum of doubles depends on it).
 template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
   std::vector<Sum> of_lanes(has_workers(pace) ? pace->workers()->count() : 1, zero);
   for_all_pieces(count, shared_piece, work_of_each, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
-                   // Adds to a copy, because the sums of the lanes lie side by side in memory,
-                   // which is slow.
+                   // Adds to a copy: adding in memory, beside the sums of other lanes, is slow.
                    Sum sum = of_lanes[lane];
                    for (; begin < end; ++begin) add(sum, begin);
                    of_lanes[lane] = sum;

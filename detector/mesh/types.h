@@ -43,9 +43,8 @@ inline Point point_of(const PositionsView& x, std::int32_t vertex) {
 //
 // A SteppedMesh refers to the caller's arrays and copies nothing, so the arrays must outlive it. A
 // copy of a SteppedMesh holds pointers to the same arrays. One case needs care: a view that was
-// made of an
-// expression, such as the mean of two meshes, holds the values of that expression itself. Copies
-// of the view refer to these values, so the first view must outlive its copies.
+// made of an expression, such as the mean of two meshes, holds the values of that expression
+// itself. Copies of the view refer to these values, so the first view must outlive its copies.
 struct SteppedMesh {
   PositionsView vertices_t0, vertices_t1;
 

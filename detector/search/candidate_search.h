@@ -46,7 +46,8 @@ class CandidateSearch {
   // A step calls mark(); then collect_kept(), if feature pairs may be kept; then collect(), unless
   // is_answered(); and then close(), if it needs the closure. Each returns false if it was stopped.
 
-  // Marks the tree with these types, by triangle. REQUIRES that no type is grown or joined.
+  // Marks the tree with these types, by triangle. REQUIRES that no type is one of the grown or
+  // joined types.
   bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
   // pairs that it can prove apart (PatchProofs). With `keeps` it keeps the near feature pairs for a
@@ -77,7 +78,7 @@ class CandidateSearch {
   // found in contact, until H is stable. Contacts between two components add nothing to H, because
   // all pairs of two components were tested, and layers count only the own component (L10).
   // Triangles of V0 and Vv need no round, because they were tested against everything already. The
-  // cost of a round is marking, search and tests around the triangles that joined. It uses no
+  // cost of a round is marking, search and tests around the triangles that joined. A round uses no
   // proofs, because proofs would cost more than the round.
   bool close();
 

@@ -4,7 +4,7 @@
 // (feature_pairs.h). Its contact is then reported for ALL triangle pairs that contain it,
 // candidates or not. A triangle pair with 0, 1 or 2 common vertices has 6 VF + 9 EE, 4 VF + 5 EE or
 // 2 VF + 2 EE feature pairs without a common vertex (VF: vertex-face, EE: edge-edge). It has 6, 2
-// or 0 edges that may pierce the other triangle, which is tested only at t=0.
+// or 0 edges that may pierce the other triangle; piercing is tested only at t=0.
 //
 // If the elementary test looks for features within a distance (L16), only triangle pairs without a
 // common vertex count, because neighbours are within any distance above the lengths of their edges

@@ -179,7 +179,7 @@ class FeaturePoints {
   const FloatGrid& grid() const { return grid_; }
   const FeaturePoint& start(std::int32_t vertex) const { return points_[ends_ * at(vertex)]; }
   const FeaturePoint& end(std::int32_t vertex) const { return (&start(vertex))[ends_ - 1]; }
-  // Returns how many floats after start(vertex) end(vertex) lies in memory.
+  // Returns the distance in memory, in floats, from start(vertex) to end(vertex).
   std::size_t floats_to_end() const { return (ends_ - 1) * floats_of_corner; }
 
  private:
@@ -269,7 +269,7 @@ class FeaturePairs {
   const FloatGrid& grid() const { return points_.grid(); }
   // Proves pairs apart over the whole step, mostly neighbours. It looks for sheets only in a mesh
   // at rest, and only if all triangles have one type, because with several types most pairs are not
-  // asked for. If sheets do not leave few pairs, it looks for fans; before that it calls
+  // asked for. If the sheets leave more than a few pairs, it looks for fans; before that it calls
   // fit_to_motion(), which has to call fit() with `motion` unless that was done.
   template <class Fit>
   void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace,

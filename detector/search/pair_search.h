@@ -83,8 +83,9 @@ struct SearchInput {
   const BoundingVolumeTree& tree;  // fitted to the step
   const Marks& marks;              // of the step's types
   const PairTables& tables;
-  // Its stop function is called during work that gives the sink no pairs, and its workers share the
-  // search. If it is null, no stop function is called, and the calling thread searches alone.
+  // The stop function of `pace` is called during work that gives the sink no pairs, and its workers
+  // share the search. If `pace` is null, no stop function is called, and the calling thread
+  // searches alone.
   PacedStop* pace = nullptr;
   bool uses_proofs = true;  // whether proofs are worth their cost, if the search has any
   // If not null, the search leaves out pairs of components for which components_meet() is false; if

@@ -7,7 +7,7 @@
 // are not needed, so boxes have to cover only the time up to that contact. A round does some of the
 // pairs of nodes into which the descent was cut. Each round has pairs from the whole mesh, because
 // contacts mostly lie close together. Rounds and their order do not depend on the number of
-// workers, and so candidates and counts do not depend on it.
+// workers, so candidates and counts do not depend on this number.
 #pragma once
 
 #include <algorithm>

@@ -217,7 +217,7 @@ class CostModel : public CullingPolicy {
   PolicyState state_;
   bool chose_anchors_ = false;
   double share_of_signs_ = 1;  // the share of pairs that the signs save if all triangles are clean
-  double share_ = 1;           // the share of pairs that the signs save; 1 in a free step
+  double share_ = 1;           // the share that signs of clean triangles save; 1 in a free step
   bool paid_ = true;
   bool proves_ = false;
   ViewUse use_ = ViewUse::used;

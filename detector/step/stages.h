@@ -2,7 +2,7 @@
 //
 // The production detector with its cullings is assembled from the standard stages. For another
 // scheme, or a scheme that is wrong on purpose, derive a class from the stage that differs, and
-// assemble it with the standard ones of the other stages (assembly.h).
+// assemble it with the standard stages for the rest (assembly.h).
 #pragma once
 
 #include <memory>

@@ -27,7 +27,7 @@ class ViewPlanes {
   ViewPlanes thinned(std::size_t most) const;
 
   // Returns the vertices in the order of component.vertices, with coordinates in [-1,1]. If the
-  // component is only a few denormals wide, the middle may be no double, and coordinates are in
+  // component is only a few denormals wide, its middle may not be a double, and coordinates are in
   // [-2,2].
   std::span<const Point> points() const { return points_; }
   std::size_t size() const { return offset_.size(); }
@@ -38,9 +38,9 @@ class ViewPlanes {
   // Returns the score of the point q. Triangles that are positive as seen from q add to it, and a
   // little more if they are positive by more than `margin`. If far more triangles are negative, the
   // negative triangles add to the score instead, each with a smaller weight. The reason: a step is
-  // free if all triangles have one sign (L4), but only with the positive sign does this hold even
-  // if nothing is known at t=0 (L5). Scores of points are comparable with scores of points only,
-  // and scores of lines with scores of lines only.
+  // free if all triangles have one sign (L4). With the positive sign this holds even if nothing is
+  // known at t=0 (L5). Scores of points are comparable with scores of points only, and scores of
+  // lines with scores of lines only.
   std::int64_t score(const Point& q) const;
   // Returns the score of the line q0 q1. It is computed in the same way, except that triangles
   // without a sign reduce it, because they cost most.

@@ -3,8 +3,8 @@
 // function of another header is called, because code for one instruction set must not be linked
 // into code for another.
 //
-// Each lane has one query. It makes the same operations as contact_pieces.h and orientation.cpp, so
-// their error bounds hold.
+// Each lane has one query. A lane does the same operations as contact_pieces.h and orientation.cpp,
+// so their error bounds hold.
 #include <cstddef>
 #include <cstdint>
 
