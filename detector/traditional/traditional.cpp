@@ -21,8 +21,8 @@
 //         pair-test (first child, second child)
 //       pair-test (a, b):                                          TreeSearch
 //         if the boxes are apart, return
-//         if a and b are adjacent, and their union has a normal cone and a contour that does not
-//           cross itself, return                                   PatchCones::are_free
+//         if a and b are adjacent, and their union has a normal cone
+//           and a contour that does not cross itself, return       PatchCones::are_free
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
