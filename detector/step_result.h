@@ -41,13 +41,13 @@ constexpr auto names_of(ViewUse) {
   return std::to_array<Named<ViewUse>>(
       {{used, "used"},
        {not_asked_for, "the culling uses none"},
-       {resting, "they have not paid in the steps before"},
+       {resting, "views have not paid in earlier steps"},
        {start_unknown, "too few triangles are known to be clean at this start"},
        {hopeless, "doubles can tell too few signs in a sample of triangles"},
        {saving_too_little, "too few triangles are of one sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "the steps before have not saved their cost"}});
+       {saving_up, "earlier steps have not saved the cost of views"}});
 }
 
 struct StepResult {
