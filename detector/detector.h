@@ -6,9 +6,9 @@
 //   if (result.answer == Answer::collision) use(result.first, result.pairs);
 //
 // Every vertex moves linearly from x_t0 to x_t1 over t in [0,1]. Answers are those of exact
-// arithmetic on the doubles given, unless another Arithmetic is asked for. Touching counts as
-// contact. Triangles that share a vertex or an edge are in contact when they meet beyond what they
-// share. View primitives may be anywhere, inside the mesh or outside.
+// arithmetic on the doubles given, unless Options::arithmetic is another Arithmetic. Touching
+// counts as contact. Triangles that share a vertex or an edge are in contact when they meet beyond
+// what they share. View primitives may be anywhere, inside the mesh or outside.
 //
 // From step to step the detector carries a state: which triangles are clean and which are dirty
 // (L8, L9). It is valid at exactly the positions where the last committed step ended. evaluate()

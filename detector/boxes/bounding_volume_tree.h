@@ -101,7 +101,7 @@ class WideTree {
   LargeArray<Slot> slots_;
   LargeArray<float> boxes_, own_;    // the first refit writes them
   std::size_t end_ = 0;              // the first row of a box's bounds at t=1 (BoxRows)
-  std::vector<std::int32_t> inner_;  // the nodes that hold nodes, ascending
+  std::vector<std::int32_t> inner_;  // the nodes whose children are nodes, ascending
 };
 
 // What component() returns for a node that holds triangles of several components.

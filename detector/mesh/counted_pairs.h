@@ -60,7 +60,7 @@ struct CountedPairs {
 
   // The two do not count if a path of fewer than `rings` edges of the mesh joins a vertex of one to
   // a vertex of the other. 0 leaves out nothing, 1 leaves out triangles that share a vertex, 2 also
-  // those that an edge joins, and so on.
+  // leaves out triangles that an edge joins, and so on.
   std::int32_t rings = 0;
 
   // The two do not count if their distance at rest is less than this. The comparison is exact: at

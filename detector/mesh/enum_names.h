@@ -39,7 +39,7 @@ inline constexpr auto all_values = [] {
   return values;
 }();
 
-// Returns the value with this number; nothing if there is none.
+// Returns the value with this number; nullopt if no value has it.
 template <Listed Enum>
 constexpr std::optional<Enum> from_number(std::int64_t number) {
   for (const Enum value : all_values<Enum>) {
@@ -57,7 +57,7 @@ constexpr const char* name_of(Enum value) {
   return "unknown";
 }
 
-// Returns the value with this name; nothing if there is none.
+// Returns the value with this name; nullopt if no value has it.
 template <Listed Enum>
 constexpr std::optional<Enum> from_name(std::string_view name) {
   for (const auto& row : names_of(Enum{})) {

@@ -24,9 +24,9 @@ inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 1
 // more apexes than triangles.
 inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most_triangles;
 
-// Returns nothing if all is well, else the first error that applies, in the order no_triangles,
-// mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice. Its message names the
-// lowest triangle that has this error. O(N + M).
+// Returns nullopt if all is well, otherwise the first error that applies, in the order
+// no_triangles, mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice. Its
+// message names the lowest triangle that has this error. O(N + M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
 // The two parts of check_triangles. check_corners finds every error except same_vertices_twice.
 // check_repeated finds same_vertices_twice; it compares triangles and so takes ten times as long as
@@ -36,10 +36,10 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
 std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Index vertex_count,
                                       PacedStop& pace);
 
-// Returns nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
+// Returns nullopt if all is well, otherwise wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);
 
-// Returns nothing if all is well, else the first of these errors that applies:
+// Returns nullopt if all is well, otherwise the first of these errors that applies:
 //   wrong_frame_size: `body` or `rest` does not have one element for each vertex;
 //   index_out_of_range, in a list or a pair of bodies; triangle_of_two_bodies;
 //   non_finite_coordinate, in `rest`;

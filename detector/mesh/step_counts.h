@@ -66,8 +66,8 @@ struct MarkingCounts {
 struct NarrowCounts {
   // Feature pairs that the axis rung did not decide, each counted once.
   std::uint64_t elementary_tests = 0;
-  // For each rung, the number of feature pairs that it decided. Those of `axis` were tested only
-  // because boxes are rounded to floats, so that their boxes met.
+  // For each rung, the number of feature pairs that it decided. `axis` decides only feature pairs
+  // whose boxes meet because boxes are rounded to floats.
   ContactRungCounts rungs;
 
   NarrowCounts& operator+=(const NarrowCounts& other) {

@@ -31,8 +31,8 @@ struct SearchMemory {
 
 class CandidateSearch {
  public:
-  // REQUIRES a stop function that all workers of `pace` may call, such as that of SharedStop. The
-  // references must outlive this object.
+  // REQUIRES that all workers of `pace` may call its stop function (SharedStop makes such a
+  // function). The references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 

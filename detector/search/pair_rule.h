@@ -59,7 +59,7 @@ struct PairTables {
   PairTable within, across;
 };
 
-// Which pairs a step asks for; a stage of the detector.
+// The stage of the detector that says which pairs a step asks for.
 class PairRule {
  public:
   virtual ~PairRule() = default;

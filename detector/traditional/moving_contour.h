@@ -19,8 +19,7 @@
 // on the boundary. But the projection of the boundary is one to one. So there are no such p and q.
 // Two faces without a common vertex that meet would contain such points.
 //
-// L13 need not require that P is connected and a manifold, because any other set has no such
-// boundary (Contour).
+// A set P with such a boundary is connected and a manifold (Contour), so L13 need not require this.
 //
 // If doubles cannot tell whether the contour crosses itself, nothing is proved.
 #pragma once
@@ -110,7 +109,7 @@ class ContourUnion {
   std::vector<std::int32_t> joined_;
 };
 
-// A few patches, spread over a mesh. A step asks how many of them can be proved free (L13).
+// A few patches, spread over a mesh. A step computes how many of these can be proved free (L13).
 //
 // The sample patches depend only on the mesh, not on a tree. So decisions of a step that use them
 // do not depend on the positions with which the detector was made.
