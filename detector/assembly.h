@@ -1,14 +1,14 @@
-// Makes a detector of other stages than the standard ones: with another broad phase, for a scheme
-// under study, or wrong on purpose.
+// Makes a detector in which stages (step/stages.h) are replaced: by another broad phase, by a
+// scheme under study, or by a stage that is wrong on purpose.
 //
 //   Stages stages = standard_stages(options);
 //   stages.pair_search = std::make_shared<MySearch>();
 //   auto detector = assemble(triangles, positions, options, std::move(stages));
 //
-// Here MySearch is derived from PairSearch.
+// In this example MySearch is derived from PairSearch.
 //
-// The interface promised to users is detector.h; stages may change, and their headers are not
-// installed.
+// Users are promised only the interface in detector.h. Stages can change in any version, and their
+// headers are not installed.
 #pragma once
 
 #include "detector/detector.h"
@@ -17,10 +17,10 @@
 
 namespace assay::detector {
 
-// Does what Detector::create does, with these stages. Errors are the same.
+// Does what Detector::create does, with these stages. The errors are those of Detector::create.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop = {});
-// Does the same with these workers, whatever options.threads says.
+// Does the same with these workers. Ignores options.threads.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop,
                             Workers workers);

@@ -1,12 +1,14 @@
 // Bounds, with u = 2^-53. Places are scaled by a power of two, so that the largest coordinate M of
-// both triangles at both ends is in [0.5, 1), or below if it is less than 2^-1000 unscaled.
-// - A place at t, (1 - t) x0 + t x1, is off by at most 4 u; a sum of three weighted places by at
-//   most 8 u, and its difference from the point, as computed, by at most 10 u. `error` is that
-//   difference and 16 u. How the place was computed plays no part in it.
-// - An edge at t is computed from its differences at both ends, of at most D in each coordinate,
-//   and is off by at most 5 u D. A product of two edges is then off by at most 26 u D E in each
-//   coordinate, so its direction by at most 2 sqrt(3) 26 u D E / |N|; dividing by the length adds 4
-//   u, which is at most 12 u D E / |N|. Together this is less than 128 u D E / |N|.
+// both triangles, at t=0 and at t=1, is in [0.5, 1); M is smaller if it is below 2^-1000 before
+// scaling.
+// - A place at t, (1 - t) x0 + t x1, is off by at most 4 u. A sum of three weighted places is off
+//   by at most 8 u, and the computed difference between that sum and `point` by at most 10 u.
+//   `error` is the computed difference plus 16 u. It does not depend on how `point` was computed.
+// - An edge vector at t is computed from the edge vectors at t=0 and t=1, whose coordinates are at
+//   most D; it is off by at most 5 u D. With E for a second edge, the cross product N of two edges
+//   is off by at most 26 u D E in each coordinate, so its direction is off by at most 2 sqrt(3) 26
+//   u D E / |N|. Dividing by the length adds 4 u, which is at most 12 u D E / |N|. The sum is less
+//   than 128 u D E / |N|.
 #include "detector/contact_place.h"
 
 #include <Eigen/Geometry>

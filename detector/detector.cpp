@@ -32,14 +32,14 @@ std::optional<Problem> check_separation(const Options& options) {
     return Problem{InputError::wrong_separation, std::move(message)};
   };
   if (!(d >= 0 && d <= std::numeric_limits<double>::max()))
-    return wrong("the separation is not a finite number of 0 or more");
+    return wrong("the separation is negative or not finite");
   if (d == 0) return std::nullopt;
   if (options.culling != Culling::bvh && options.culling != Culling::none)
     return wrong(std::string("culling ") + name_of(options.culling) +
-                 " does not answer a separation; bvh and none do");
+                 " does not support a separation; use bvh or none");
   if (options.arithmetic != Arithmetic::exact)
     return wrong(std::string("arithmetic ") + name_of(options.arithmetic) +
-                 " does not answer a separation; exact does");
+                 " does not support a separation; use exact");
   return std::nullopt;
 }
 
@@ -206,13 +206,13 @@ StepResult Detector::first_contact(const PositionsView& x_t0, const PositionsVie
     return parts_->answer({x_t0, x_t1}, {Pairs::first, until}, {}, state.in_callers_state(stop));
   parts_->evaluated.reset();
   StepResult refused;
-  refused.problem = {InputError::wrong_bound, "the bound is not a time from 0 to 1"};
+  refused.problem = {InputError::wrong_bound, "`until` is not a time from 0 to 1"};
   return refused;
 }
 
 std::optional<Problem> Detector::commit() {
   if (!parts_->evaluated) {
-    return Problem{InputError::nothing_to_commit, "no evaluated step to commit"};
+    return Problem{InputError::nothing_to_commit, "there is no evaluated step to commit"};
   }
   parts_->committed = std::move(parts_->evaluated);
   parts_->evaluated.reset();
@@ -302,8 +302,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {
     return Problem{InputError::foreign_state,
-                   "the state is of a different mesh, or the bodies that do not meet themselves "
-                   "differ"};
+                   "the state is of another mesh, or leaves out pairs within other bodies"};
   }
   const bool has_views = uses_views(context.options.culling);
   const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,
@@ -313,7 +312,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
     return Problem{InputError::foreign_state, "the state is of a detector with another culling"};
   }
   if (!fits(state, context.surface, anchors)) {
-    return Problem{InputError::damaged_state, "the state contradicts the mesh that it names"};
+    return Problem{InputError::damaged_state, "the state contradicts its mesh"};
   }
   StateFields copy = state;  // copied first, so that nothing has changed if memory fails here
   parts_->committed = std::move(copy.committed);

@@ -1,5 +1,5 @@
-// The vector code of boxes/box_lanes.h, contact/lanes/query_lanes.h and view/view_lanes.h for every
-// machine, and the choice of the instruction set.
+// Compiles the vector code of boxes/box_lanes.h, contact/lanes/query_lanes.h and view/view_lanes.h
+// for any machine, and chooses the instruction set when the program runs.
 #define ASSAY_LANES 2
 #include "detector/boxes/box_lanes_kernel.h"
 #include "detector/contact/lanes/query_lanes_kernel.h"

@@ -2,7 +2,7 @@
 //
 //   Options options;
 //   options.pairs = Pairs::first;
-//   options.threads = 0;  // as many as the machine has
+//   options.threads = 0;  // one for each processor of the machine
 //   Detector detector = Detector::create(triangles, positions, options).value();
 //   const StepResult result = detector.step(x_t0, x_t1);
 //   use(result.first);
@@ -16,11 +16,11 @@
 namespace assay::detector {
 
 enum class Culling : std::uint8_t {
-  view_auto,    // a point or a segment, whichever sees more; bvh in steps where that does not pay
-  view_point,   // each component, closed by its ghosts, seen from a point
-  view_line,    // each component, closed by its ghosts, seen from a segment
-  normal_cone,  // the tree without patches that have a normal cone and a simple contour [VMT94]
-  bvh,          // the tree alone
+  view_auto,    // view_point or view_line for each component; bvh in steps where views do not pay
+  view_point,   // each component, closed by its ghosts, is seen from a point
+  view_line,    // each component, closed by its ghosts, is seen from a segment
+  normal_cone,  // bvh less pairs within a patch that has a normal cone and simple contour [VMT94]
+  bvh,          // pairs whose boxes meet, found by a tree of boxes
   none,         // every pair, no boxes: for small meshes and for comparison
   automatic,    // view_auto and normal_cone in one descent, each if it is expected to pay
 };
@@ -35,7 +35,7 @@ constexpr auto names_of(Culling) {
                                         {none, "none"}});
 }
 
-// Returns whether each step decides for itself if it uses views.
+// Returns whether the detector decides anew in each step if it uses views.
 constexpr bool chooses_views(Culling culling) {
   return culling == Culling::view_auto || culling == Culling::automatic;
 }
@@ -46,12 +46,13 @@ constexpr bool uses_views(Culling culling) {
 }
 
 // The triangles that are known to be clean at a new start: at the first step, and after a jump of
-// positions. With Start::verified, Culling::automatic and view_auto leave out the layers. A step
-// without views then verifies nothing: its pairs tell which triangles are clean afterwards (L15).
+// positions. With Start::verified, Culling::automatic and Culling::view_auto compute no layers. So
+// a step without views verifies nothing at its start: its pairs tell which triangles are clean at
+// its end (L15).
 enum class Start : std::uint8_t {
-  verified,  // those that L5 shows; elsewhere those that static contacts and layers show (L9)
-  clean,     // the caller vouches that nothing is in contact and that layers are common
-  unknown,   // everything is dirty
+  verified,  // those that L5 proves clean, or else those that static contacts and layers do (L9)
+  clean,     // all: the caller vouches that none is in contact and that their layers are common
+  unknown,   // none
 };
 constexpr auto names_of(Start) {
   using enum Start;
@@ -61,12 +62,12 @@ constexpr auto names_of(Start) {
 
 // The pairs in contact that a step reports.
 enum class Pairs : std::uint8_t {
-  all,  // the complete pair set of the step (K with closure, L7)
-  // Pairs in contact by the upper end of the first time: each connected part of the contact graph
-  // at the first time holds one of them (L6). Some may meet later, but within the enclosure of the
-  // first time: their own time is the same enclosure, or its upper end. As soon as a contact is
-  // found, nothing later is looked at. This took 0.1 to 0.45 of the time of `all` on scenes of many
-  // contacts, 0.92 on rod-twist, and a few percent more than `all` where there is no contact.
+  all,  // every pair that is in contact at some time of the step (K with closure, L7)
+  // At least one pair from each connected part of the contact graph at the first contact time (L6).
+  // A reported pair can meet a little later than that time: then its own time is the same
+  // TimeEnclosure, or the upper end of that enclosure. Once a contact is found, no later contact is
+  // looked for. This took 0.1 to 0.45 of the time of `all` on scenes with many contacts, 0.92 on
+  // the scene rod-twist, and a few percent more than `all` on scenes without a contact.
   first,
 };
 constexpr auto names_of(Pairs) {
@@ -78,25 +79,26 @@ struct Options {
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;
-  // How many threads a step and create() may use; 0 means as many as the machine has. Results are
-  // the same for any number, counts included. A library built without oneTBB uses one thread.
+  // The most threads that a step and create() use; 0 means one for each processor of the machine.
+  // Results, counts included, are the same for any number of threads. A library built without
+  // oneTBB uses one thread.
   std::uint32_t threads = 1;
-  // Which pairs count (L19); null: all of them. It is read when a detector is created, which keeps
-  // a copy. A pair that does not count is not reported; its contacts are still found where the
-  // state has to know them.
+  // Which pairs count (L19); null: every pair counts. create() copies it. A pair that does not
+  // count is not reported. The detector finds its contacts all the same if the state depends on
+  // them.
   const CountedPairs* counted = nullptr;
-  // If 0, contacts are looked for, else pairs of triangles that come within this distance, in the
-  // units of the positions (L16). Pairs that share a vertex do not count then. REQUIRES a finite
-  // number >= 0; above 0 it REQUIRES Culling::bvh or none, and exact arithmetic. Otherwise create()
-  // refuses it with wrong_separation.
+  // If 0, contacts are looked for. If above 0, pairs of triangles that come within this distance
+  // are looked for, in the units of the positions (L16); then pairs that share a vertex do not
+  // count. REQUIRES a finite number >= 0. A number above 0 REQUIRES Culling::bvh or Culling::none,
+  // and Arithmetic::exact. Otherwise create() fails with wrong_separation.
   double separation = 0;
-  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. Then
-  // a next question about a shorter step from the same start is answered from these pairs in 0.03
-  // to 0.4 of the time, provided that the arithmetic is exact and the step has no views (L20).
-  // After a first_contact, the first contact of any step in the same direction is found as fast.
-  // Answers, pairs and times do not depend on this option; counts do, and so do decisions of
-  // `automatic` that rest on counts. It takes up to 300 bytes a triangle, 550 during the search,
-  // and up to 2 % of the time of a first question.
+  // Whether evaluate, first_contact and limit keep the pairs of features that they found near. If
+  // the next call is about a shorter step from the same start, it is answered from these pairs in
+  // 0.03 to 0.4 of the time (L20). This needs exact arithmetic and a step without views. After a
+  // first_contact, the first contact of any step in the same direction is found as fast. Answers,
+  // pairs and times do not depend on this option. Counts depend on it, and so do those decisions of
+  // Culling::automatic that use counts. It takes up to 300 bytes a triangle, 550 during the search,
+  // and up to 2 % of the time of the first call.
   bool keeps_near = false;
 };
 

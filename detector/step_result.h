@@ -1,5 +1,5 @@
-// The result of a step. If a separation was asked for (Options::separation), "in contact" means
-// here that two triangles come within that distance. The answer says what else is set:
+// The result of a step. If Options::separation is above 0, "in contact" means here that two
+// triangles come within that distance. The answer tells which other fields are set:
 //
 //   if (result.answer == Answer::error) report(result.problem->message);
 //   if (result.answer == Answer::collision) use(result.first.lo, result.first.hi);
@@ -22,12 +22,12 @@ namespace doubt {
 inline constexpr std::uint8_t violated = 1, dirty = 2;
 }
 
-// Whether a step used views, and if not, why. A step without views tests every pair that its boxes
-// do not tell apart, so this affects only what the step costs.
+// Whether a step used views, and if not, why. The results are the same with and without views; only
+// the cost of the step differs. A step without views tests every pair whose boxes meet.
 enum class ViewUse : std::uint8_t {
   used,
-  not_asked_for,      // the culling has no views, or the step was refused or stopped before
-  resting,            // views have not paid in the steps before
+  not_asked_for,      // the culling has no views, or the step was refused or stopped too early
+  resting,            // views have not paid in earlier steps
   start_unknown,      // too few triangles are known to be clean at a new start (L15)
   hopeless,           // doubles can tell too few signs in a sample of triangles
   saving_too_little,  // too few triangles are of one sign
@@ -41,28 +41,28 @@ constexpr auto names_of(ViewUse) {
   return std::to_array<Named<ViewUse>>(
       {{used, "used"},
        {not_asked_for, "the culling uses none"},
-       {resting, "they have not paid in the steps before"},
+       {resting, "views have not paid in earlier steps"},
        {start_unknown, "too few triangles are known to be clean at this start"},
        {hopeless, "doubles can tell too few signs in a sample of triangles"},
        {saving_too_little, "too few triangles are of one sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "the steps before have not saved their cost"}});
+       {saving_up, "earlier steps have not saved the cost of views"}});
 }
 
 struct StepResult {
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  // The first contact time, set when answer is collision. In exact arithmetic it is the unique
-  // enclosure of that time, in bounded arithmetic an interval that holds that time if there is a
-  // contact at all. The arithmetics double and float promise nothing about it.
+  // The first contact time, set when answer is collision. In exact arithmetic this is the unique
+  // enclosure of the time. In bounded arithmetic it is an interval that contains the time if there
+  // is a contact at all. The arithmetics double and float promise nothing about it.
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
   // Sizes of the view sets. V+, V- and V0 count only triangles outside Vv, so the four sets are
-  // disjoint and make up the mesh. A step without views (Culling::normal_cone, bvh or none, or a
-  // step in which `automatic` or `view_auto` drops its views) has no view sets: all sizes are 0,
-  // and doubts, signs, primitives and apexes are empty.
+  // disjoint and make up the mesh. A step without views has no view sets: all sizes are 0, and
+  // doubts, signs, primitives and apexes are empty. The cullings normal_cone, bvh and none have no
+  // views; in a step of automatic or view_auto, ViewUse says whether it has views.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step
@@ -73,7 +73,7 @@ struct StepResult {
   // The sign over the step of each triangle of the mesh, then of each ghost.
   std::vector<ViewSign> signs;
   std::vector<ViewPrimitive> primitives;  // one for each component
-  std::vector<MovingPoint> apexes;        // one for each loop, see Detector::surface()
+  std::vector<MovingPoint> apexes;        // one for each of Surface::loops (Detector::surface)
 
   StepCounts counts;
   StepTimes times;
@@ -81,20 +81,22 @@ struct StepResult {
 
 // How far a caller may go in a step (L17).
 struct StepLimit {
-  // `free`: the caller may go to the end of the step. `collision`: to `positions`; nothing is
-  // promised beyond. `undecided` (stopped) and `error`: nowhere.
+  // `free`: the caller may go to the end of the step. `collision`: the caller may go to
+  // `positions`. `undecided` (the stop function ended the call) and `error`: the caller may not
+  // move.
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  // The share of the step that was taken: 1 if the step is free, else less than the first contact
+  // The time up to which the step is taken: 1 if the step is free, else less than the first contact
   // time.
   double share = 0;
-  // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 - x_t0)
-  // with its rounding. The straight way from x_t0 to here is free. Equal to x_t0 with share 0.
+  // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 -
+  // x_t0), rounded. The straight way from x_t0 to these positions is free. If share is 0 they equal
+  // x_t0.
   Positions positions;
   TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
-  // Whether less than 0.93 of the time `first` is taken although the mesh starts without a contact.
-  // Rounding then brought every farther place that was tried into contact; a free place may lie
-  // between these.
+  // Whether the step is taken up to less than 0.93 of the time `first`, although the mesh starts
+  // without a contact. This means that each farther place that was tried has, once rounded, a
+  // contact on the way; a farther place that was not tried can be free.
   bool is_short = false;
 };
 

@@ -1,13 +1,14 @@
-// The bounding volume tree over the triangles of a mesh. It is built once for a topology, and
-// fitted to every step that searches. Fitting sets the boxes of its wide form (WideTree), which
-// most searches read. The boxes of the binary nodes are joined from these when a step needs them.
+// The bounding volume tree over the triangles of a mesh. The tree is built once for a topology, and
+// its boxes are fitted to each step in which pairs are searched. Fitting sets the boxes of the wide
+// form of the tree (WideTree), which most searches read. The boxes of the binary nodes are joined
+// from the boxes of the wide form, if a step needs them.
 //
 // Nodes are numbered so that the two children of a node come after it and are neighbours (2k+1 and
-// 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
-// therefore reads both children from neighbouring cache lines, and boxes are joined by a backward
-// pass over one subtree after the other. Components are split from each other before their
-// triangles are, so only the topmost nodes hold triangles of several components. Memory: 92 bytes a
-// triangle, 70 of them the wide form; 128 more once the boxes of binary nodes are joined.
+// 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search therefore
+// reads both children from neighbouring cache lines, and one backward pass over a subtree joins its
+// boxes. Components are split from each other before the triangles of a component are split, so
+// only the topmost nodes hold triangles of several components. Memory: 92 bytes a triangle, 70 of
+// them the wide form; 128 more once the boxes of binary nodes are joined.
 #pragma once
 
 #include <cassert>
@@ -36,19 +37,20 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
   return {three(0), three(3), three(rows.end), three(rows.end + 3)};
 }
 
-// The bounding volume tree as a search reads it: with up to eight children a node, whose boxes lie
-// side by side, so that vector instructions compare one box with all of them at once.
+// The bounding volume tree in the form that searches read: a node has up to eight children. The
+// boxes of the children lie side by side, so that vector instructions compare all of them with
+// another box at once.
 //
-// It is made of the binary tree. A node holds its triangles if they are at most eight, all of one
-// component. Any other node holds up to eight nodes below it; these are found by opening the
-// largest one again and again. Each child keeps the number of its binary node, by which flags,
-// components and patches are found.
+// It is made from the binary tree. The children of a node are triangles if the node has at most
+// eight triangles, all of one component. Otherwise they are up to eight nodes, found by replacing
+// the largest of them by its two binary children again and again. Each child has the number of its
+// binary node, which is the index into flags, components and patches.
 //
-// The boxes of a node with n children are twelve rows of n floats: the three lower bounds at t=0,
-// the upper ones at t=0, and the same at t=1, unless the mesh is at rest. Rows follow each other
-// without gaps. So a mesh of many small components takes no more room than one large component.
-// Code that reads eight floats from a row may read some of the next row, or of the eight floats
-// after the last row.
+// The boxes of a node with n children are twelve rows of n floats: three rows of lower bounds at
+// t=0, three of upper bounds at t=0, and six rows of bounds at t=1. At rest the last six are left
+// out. Rows follow each other without gaps. So a mesh of many small components takes no more room
+// than one large component. Code that reads eight floats from a row of fewer floats also reads
+// floats of the next row; eight unused floats follow the last row.
 // Memory: 70 bytes a triangle, 55 of them boxes.
 class WideTree {
  public:
@@ -59,28 +61,29 @@ class WideTree {
   static constexpr std::int32_t root = 0;
   struct Node {
     std::uint32_t first_slot;
-    std::uint16_t count;  // of its children: 1 to 8
+    std::uint16_t count;  // the number of children: 1 to 8
     bool holds_triangles;
   };
   std::size_t node_count() const { return nodes_.size(); }
   const Node& node(std::int32_t n) const { return nodes_[at(n)]; }
-  // Return the child in a slot: as a node of the binary tree; as a node here, or a triangle.
+  // Return the child in a slot: `binary` returns its binary node; `child` returns its node in this
+  // tree or, if the parent holds triangles, the triangle.
   std::int32_t binary(std::size_t slot) const { return slots_[slot].binary; }
   std::int32_t child(std::size_t slot) const { return slots_[slot].child; }
   // Returns the binary node that holds the same triangles.
   std::int32_t binary_of(std::int32_t n) const { return binary_of_[at(n)]; }
 
-  // Returns the boxes of the last refit.
+  // Returns the boxes of the children of a node, as the last refit has set them.
   BoxRows children(std::int32_t n) const {
     const Node& node = nodes_[at(n)];
     return {boxes_.data() + rows() * node.first_slot, node.count, end_};
   }
   const float* box(std::int32_t n) const { return own_.data() + rows() * at(n); }
 
-  // Allocates memory for the boxes. A mesh that is looked at only at rest takes half as much.
+  // Allocates memory for the boxes: half as much if at_rest, for a mesh that never moves.
   void make_room(bool at_rest);
-  // Fits the boxes to the triangles, each grown by `by` on all sides. Returns false if `pace` was
-  // stopped. REQUIRES room for a motion like that of the points.
+  // Fits the boxes to the triangles, and grows each box by `by` on all sides. Returns false if
+  // `pace` was stopped. REQUIRES a call of make_room, with at_rest only if the points are at rest.
   bool refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by, PacedStop& pace);
 
  private:
@@ -98,20 +101,20 @@ class WideTree {
   LargeArray<Slot> slots_;
   LargeArray<float> boxes_, own_;    // the first refit writes them
   std::size_t end_ = 0;              // the first row of a box's bounds at t=1 (BoxRows)
-  std::vector<std::int32_t> inner_;  // the nodes that hold nodes, ascending
+  std::vector<std::int32_t> inner_;  // the nodes whose children are nodes, ascending
 };
 
-// The component of a node that holds triangles of several components.
+// What component() returns for a node that holds triangles of several components.
 inline constexpr std::int32_t mixed_components = -1;
 
 class BoundingVolumeTree {
  public:
-  // Splits the components, then the triangles of each, at the median of their centres along the
-  // longest side of the box of these centres. A component of more than 65,000 triangles is first
-  // cut at the medians of a sample, so its largest nodes have halves that are not quite equal; then
-  // nodes of up to 8 triangles are split in any way.
-  // Centres of triangles are rounded to 2^-26 of their component. A leaf holds one triangle. O(M
-  // log M). If `pace` was stopped, the tree must not be used.
+  // Splits the set of components, and then the triangles of each component, in halves: at the
+  // median of the centres, along the longest side of the box around the centres. In a component of
+  // more than 65,000 triangles, the largest nodes are split at the medians of a sample, so their
+  // halves are not quite equal, and nodes of up to 8 triangles are split in any way.
+  // Centres of triangles are rounded to 2^-26 of the size of their component. A leaf holds one
+  // triangle. O(M log M). If `pace` was stopped, the tree must not be used.
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);
 
   static constexpr std::int32_t root = 0;
@@ -129,9 +132,10 @@ class BoundingVolumeTree {
   // Returns the node that holds all triangles of the component, and no others.
   std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
-  // Calls body(node) for each node: for children before their parents, otherwise in any order. The
-  // workers of the pace share out subtrees; then one thread does the nodes above these. A call
-  // costs `work_of_node` (paced_stop.h). Returns false if the pace was stopped.
+  // Calls body(node) for each node: for children before their parents, otherwise in any order.
+  // First the workers of the pace share the subtrees; then one thread does the nodes above the
+  // subtrees. A call takes work_of_node of work (paced_stop.h). Returns false if the pace was
+  // stopped.
   template <class Body>
   bool for_each_upward(std::uint64_t work_of_node, PacedStop* pace, Body body) const {
     const auto below = [&](std::size_t block) {
@@ -148,21 +152,23 @@ class BoundingVolumeTree {
                           [&](std::size_t i) { body(above_blocks_[last - i]); });
   }
 
-  // Returns the same tree as a search reads it, with boxes of the last refit.
+  // Returns the wide form of this tree, with the boxes that the last refit has set.
   const WideTree& wide() const { return wide_; }
 
   const FloatGrid& grid() const { return grid_; }
-  // Returns the box over the step of the last refit. REQUIRES join_boxes() since then.
+  // Returns the box of a node over the step of the last refit. REQUIRES a call of join_boxes()
+  // since the last refit.
   const MovingBox& box(std::int32_t node) const {
     assert(boxes_are_joined_);
     return boxes_[at(node)];
   }
-  // Joins the boxes of all nodes from those of the wide tree, unless that was done since the last
-  // refit. Only steps that sweep ghosts or prove patches apart need these boxes. One thread calls
-  // this before several threads ask for boxes. O(M). Returns false if `pace` was stopped.
+  // Joins the boxes of all nodes from the boxes of the wide tree, unless this was done since the
+  // last refit. Only steps that sweep ghosts or prove patches apart need these boxes. REQUIRES that
+  // one thread calls this before several threads call box(). O(M). Returns false if `pace` was
+  // stopped.
   bool join_boxes(PacedStop* pace) const;
-  // Returns the box of any triangle, a ghost for example. It is on the grid of the nodes' boxes, so
-  // it can be compared with them. Corners are rows of the two views.
+  // Returns the box of any triangle, for example of a ghost. It is rounded by grid() like the boxes
+  // of nodes, so it can be compared with them. `corners` are vertices of `motion`.
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
                             const SteppedMesh& motion) const;
 
@@ -176,20 +182,20 @@ class BoundingVolumeTree {
   // Fits the boxes to the triangles as they move over the step. O(M): one pass over the nodes from
   // the last to the first.
   void refit(const Topology& mesh, const SteppedMesh& motion);
-  // Does the same. Returns false if `pace` was stopped; some boxes are then those of another step.
-  // The boxes are grown as if `slack` were added to the distance. With a slack, no later fit_once
-  // reuses them.
+  // Does the same, and grows the boxes as if `slack` were added to the distance. Returns false if
+  // `pace` was stopped; then some boxes are still fitted to another step. Boxes with a slack are
+  // not reused by a later fit_once.
   bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace, double slack = 0);
   // Refits the boxes, unless they were last fitted to the same arrays of positions. So the stages
-  // of a step that search the same motion fit the boxes once. REQUIRES that positions in these
-  // arrays have not changed since forget_fit().
+  // of a step that search the same motion fit the boxes once. REQUIRES that the positions in these
+  // arrays have not changed since the last call of forget_fit().
   bool fit_once(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
   void forget_fit() { fitted_to_.reset(); }
 
  private:
   struct Builder;
-  // Where the positions of a motion lie. Strides are compared too, because two views may begin at
-  // the same address.
+  // Says in which arrays the positions of a motion are. Strides are compared too, because two
+  // different views can begin at the same address.
   struct Arrays {
     explicit Arrays(const SteppedMesh& motion)
         : t0(motion.vertices_t0.data()),
@@ -213,7 +219,7 @@ class BoundingVolumeTree {
   LargeArray<std::int32_t> leaf_;             // by triangle
   std::vector<std::int32_t> component_;       // by node; empty if there is one component
   std::vector<std::int32_t> component_root_;  // by component
-  mutable LargeArray<MovingBox> boxes_;       // by node; nothing until they are first joined
+  mutable LargeArray<MovingBox> boxes_;       // by node; empty until they are first joined
   mutable bool boxes_are_joined_ = false;
   WideTree wide_;
   double separation_ = 0;

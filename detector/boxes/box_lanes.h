@@ -11,21 +11,22 @@ namespace box_lanes {
 inline constexpr std::size_t width = 8, rows = 12;
 }  // namespace box_lanes
 
-// Up to eight boxes as rows of `count` floats (bounding_volume_tree.h). There are twelve rows; at
-// rest there are six, which are the bounds at both ends. Eight floats may be read from each row,
-// whatever the count is.
+// Up to eight boxes as rows of `count` floats (bounding_volume_tree.h). There are twelve rows, or
+// six if the mesh is at rest, where the bounds at t=0 and t=1 are the same. At least eight floats
+// can be read from the beginning of each row, also if `count` is smaller.
 struct BoxRows {
   const float* first;
   std::size_t count;
   std::size_t end = box_lanes::rows / 2;  // the first row of the bounds at t=1; 0 at rest
 };
 
-// A set of boxes of b, as bits, for each box i of a. Before compare_all these are the boxes to
-// compare i with; afterwards only those that i is not apart from.
+// For each box i of a, a set of boxes of b, as bits. Before compare_all it is the set of boxes to
+// compare with box i; after compare_all it has only those of them from which box i is not apart.
 using LaneSets = std::uint8_t[box_lanes::width];
 
-// A corner of a triangle at one end of the step: its rounded coordinates and a 0, then its sums
-// along the four diagonals (feature_pairs.h). TriangleCorners are the corners at t=0.
+// A corner of a triangle at t=0 or at t=1 has eight floats: its rounded coordinates, a 0, and its
+// sums along the four diagonals (feature_pairs.h). TriangleCorners points to the three corners at
+// t=0.
 inline constexpr std::size_t floats_of_corner = 8;
 using TriangleCorners = const float* [3];
 
@@ -48,18 +49,19 @@ namespace feature_bits {
 }  // namespace feature_bits
 
 struct BoxKernels {
-  // Clears the bits of the boxes that are apart. box_of_a bounds all boxes of a, box_of_b all boxes
-  // of b; each has one float for each row. They save comparisons. Returns how many boxes were
-  // compared. REQUIRES that both move, or that both are at rest.
+  // Clears, in `sets`, the bits of pairs of boxes that are apart. box_of_a bounds all boxes of a,
+  // and box_of_b bounds all boxes of b; each has one float for each row. These two save
+  // comparisons. Returns how many boxes were compared. REQUIRES that a and b both move, or that
+  // both are at rest.
   std::uint32_t (*compare_all)(const BoxRows& a, const float* box_of_a, const BoxRows& b,
                                const float* box_of_b, LaneSets& sets);
-  // Returns, as bits, the boxes of b that are not apart from `box`, which has one float for each of
-  // their rows.
+  // Returns, as bits, the boxes of b that are not apart from `box`. `box` has one float for each
+  // row of b.
   std::uint32_t (*compare_one)(const float* box, const BoxRows& b);
   // Returns the bits of `pairs` (feature_bits) whose features have boxes that are not apart by more
   // than the margin; 0 if the two triangles are apart. The margin has eight floats. A corner at t=1
-  // stands to_end floats after the same corner at t=0. An `at_start` bit compares an edge and a
-  // face by their boxes at t=0 alone. Edge i is opposite to corner i.
+  // lies to_end floats after the same corner at t=0. An `at_start` bit compares an edge and a face
+  // by their boxes at t=0 alone. Edge i is opposite to corner i.
   std::uint32_t (*compare_features)(const TriangleCorners& a, const TriangleCorners& b,
                                     std::size_t to_end, const float* margin, std::uint32_t pairs);
 };

@@ -1,6 +1,6 @@
 // The code of box_lanes.h. It is compiled once for each instruction set. Everything here has
 // internal linkage, and no header with inline functions is included, because code for one
-// instruction set must not reach the others.
+// instruction set must not be linked into code for another.
 #include <cstddef>
 #include <cstdint>
 
@@ -33,8 +33,8 @@ ASSAY_INLINE std::uint32_t bits_of(const LaneMask& mask) {
 #endif
 }
 
-// Returns, as bits, the boxes of b that the box is apart from: strictly ordered along an axis, in
-// the same sense at both ends of the step. The bounds of the box are `stride` apart.
+// Returns, as bits, the boxes of b from which `box` is apart: strictly ordered along an axis, in
+// the same sense at t=0 and at t=1. From one bound of `box` to the next there are `stride` floats.
 template <bool moves>
 ASSAY_INLINE std::uint32_t apart_from(const float* box, std::size_t stride, const BoxRows& b) {
   LaneMask apart = {};
@@ -84,7 +84,7 @@ std::uint32_t compare_all_lanes(const BoxRows& a, const float* box_of_a, const B
                : compare_each<false>(a, box_of_a, b, box_of_b, sets);
 }
 
-// The bounds of a feature, the upper ones with the margin.
+// The bounds of a feature. The margin is added to the upper bounds.
 struct FeatureLanes {
   Lanes lo_t0, hi_t0, lo_t1, hi_t1;
 };
@@ -140,7 +140,7 @@ ASSAY_INLINE std::size_t lowest(std::uint32_t bits) {
   return static_cast<std::size_t>(__builtin_ctz(bits));
 }
 
-// Returns those of the corners in corner_bits whose boxes meet the box `other`, as bits.
+// Returns, as bits, the corners in corner_bits whose boxes meet the box `other`.
 ASSAY_INLINE std::uint32_t corners_that_meet(const TriangleCorners& corners, std::size_t to_end,
                                              std::uint32_t corner_bits, const FeatureLanes& other,
                                              const Lanes& margin) {
@@ -166,7 +166,8 @@ std::uint32_t compare_features_lanes(const TriangleCorners& a, const TriangleCor
   std::uint32_t found = corners_that_meet(a, to_end, pairs & three, face_b, by);
   found |= corners_that_meet(b, to_end, pairs >> 3 & three, face_a, by) << 3;
   std::uint32_t edges = pairs >> 6 & 511, starts_a = pairs >> 15 & three, starts_b = pairs >> 18;
-  // The edges of b that some pair asks for, and that meet the face of a.
+  // The edges of b that are in some pair of edges. Those that do not meet the face of a are removed
+  // below.
   std::uint32_t edges_b = (edges | edges >> 3 | edges >> 6) & three, left = edges_b | starts_b;
   FeatureLanes boxes_b[3];
   for (; left != 0; left &= left - 1) {

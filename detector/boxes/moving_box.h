@@ -1,13 +1,15 @@
-// Boxes that move with a step, in floats, and the one test that a search makes of them.
+// Boxes that move over a step, in floats, and the test that searches make: whether two boxes are
+// apart.
 //
 // Coordinates are rounded to floats by functions f_x, f_y, f_z, one for each axis, that keep order
-// (FloatGrid below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y. So two things that
-// touch or meet in doubles are never apart in floats, and no outward rounding is needed.
+// (FloatGrid below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y. Therefore the boxes of
+// features that touch or meet in doubles are never apart in floats, and no outward rounding is
+// needed.
 //
 // A box keeps its bounds at t=0 and at t=1. Two boxes are `apart` when they are strictly ordered
-// along an axis, in the same sense at both ends. Every point moves linearly, so nothing inside the
-// one then meets anything inside the other at any time. This tells more apart than boxes swept
-// over the step, which fail as soon as a motion is longer than the things that move.
+// along an axis, in the same sense at t=0 and at t=1. Every point moves linearly, so no point of
+// one box then meets a point of the other at any time. More pairs are apart in this way than with
+// boxes swept over the step, which overlap as soon as features move farther than their own size.
 #pragma once
 
 #include <array>
@@ -39,12 +41,12 @@ inline bool any(LaneTruth truth) {
 #endif
 }
 
-// A vertex over the step.
+// The rounded places of a vertex at t=0 and at t=1.
 struct RoundedPoint {
   FloatLanes t0, t1;
 };
 
-// A box's bounds at both ends of the step, in one cache line.
+// The bounds of a box at t=0 and at t=1, in one cache line.
 struct alignas(64) MovingBox {
   FloatLanes lo_t0, hi_t0, lo_t1, hi_t1;
 };
@@ -97,14 +99,15 @@ Bounds bounds_of(std::size_t count, PointOf point, PacedStop* pace) {
 // The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
 // once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
 // NaN. The centre lies between positions of the step, so their differences from the centre do not
-// overflow. Differences of other points may overflow, to infinities that are still in order.
+// overflow. The differences of other points from the centre may overflow to infinities, which keep
+// order too.
 class FloatGrid {
  public:
   FloatGrid() = default;
-  // Makes the grid of a step. Its centre is the middle of all positions. Its scale on each axis is
-  // a power of two that brings them near 1. So accuracy does not depend on where a mesh lies or how
-  // large it is. O(N).
-  // If `pace` was stopped, it must not be used.
+  // Makes the grid of a step. The centre is the middle of all positions. The scale of each axis is
+  // a power of two that makes the largest difference from the centre about 1. So accuracy does not
+  // depend on where a mesh lies or how large it is. O(N).
+  // If `pace` was stopped, the grid must not be used.
   explicit FloatGrid(const SteppedMesh& motion, PacedStop* pace = nullptr);
 
   FloatLanes operator()(const PositionsView& x, std::int32_t vertex) const {
@@ -119,14 +122,14 @@ class FloatGrid {
   }
 
   // Returns margins in floats for a distance d, 0 for d = 0. Two points are farther apart than d
-  // along an axis if they are ordered along it by more than margin(d), or if their boxes are apart
-  // although each was grown by half of margin(d). Their distance then exceeds d by 2^-22 or more of
-  // the length that the grid brings to 1.
+  // along an axis if their rounded coordinates on this axis differ by more than margin(d), or if
+  // their boxes, each grown by half of margin(d), are apart along this axis. Then their distance
+  // exceeds d by at least 2^-22 / scale.
   //
-  // f(x) is off by at most 2^-23: |(x - centre) scale| <= 2 is rounded to float, and to double
-  // before. Let D = d scale and m = D (1 + 2^-20) + 2^-20. A margin, or a bound of a grown box, is
-  // rounded by 2^-24 (2 + m) at most. Boxes are compared after two such roundings. So the order
-  // proves that the scaled coordinates differ by more than
+  // f(x) is off by at most 2^-23, because |(x - centre) scale| <= 2 is rounded to double and then
+  // to float. Let D = d scale and m = D (1 + 2^-20) + 2^-20. Rounding changes a margin, or a bound
+  // of a grown box, by at most 2^-24 (2 + m), and a comparison of boxes involves two such
+  // roundings. So boxes that are apart prove that the scaled coordinates differ by more than
   //   m - 2 * 2^-24 (2 + m) - 2 * 2^-23 > D (1 + 2^-20 - 2^-22) + 2^-20 - 2^-21 - 2^-40
   //                                     > D + 2^-22.
   // The rounding of m itself, by 2^-24 m, is covered in the same way. A margin may be infinite.
@@ -134,19 +137,20 @@ class FloatGrid {
     const auto by = [&](int k) { return margin_of(d * scale_[k]); };
     return d == 0 ? FloatLanes{} : FloatLanes{by(0), by(1), by(2), 0};
   }
-  // The least distance that has a margin.
+  // The least distance for which margin() is not 0.
   static constexpr double least_distance = std::numeric_limits<double>::denorm_min();
   // Returns the margin for sums of coordinates along the diagonals (feature_pairs.h). It includes
-  // the margin that sums need for d = 0. At a distance of d, the sums differ by sqrt(3) d at most.
+  // the margin that sums need for d = 0. The sums of two points at a distance of d differ by at
+  // most sqrt(3) d.
   float diagonal_margin(double d) const {
     constexpr double root = 1.7320508075688774;
     return margin_of(root * (d * common_scale_));
   }
 
-  // Returns, by axis, how far positions may move before features can meet that boxes with a margin
-  // told apart: 2^-26 of the unit, less the error of comparing positions (kept_features.h). It is
-  // negative if that error is larger, and NaN if the unit is no double; then no position is near
-  // enough.
+  // Returns, by axis, how far positions may move so that features still cannot meet if their boxes,
+  // grown by a margin, are apart. This is 2^-26 units, less the error of comparing positions
+  // (kept_features.h), where a unit is 1 / scale. The result is negative if that error is larger,
+  // and NaN if the unit is no double; in both cases no position is near enough.
   std::array<double, 3> tolerance() const {
     const auto r = [&](int k) {
       const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;
@@ -155,8 +159,8 @@ class FloatGrid {
     return {r(0), r(1), r(2)};
   }
 
-  // Returns (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2
-  // in size for positions of the step.
+  // Returns x - centre, multiplied by one power of two for all axes. For positions of the step,
+  // each coordinate of the result is at most 2 in size.
   Point scaled(const PositionsView& x, std::int32_t vertex) const {
     const auto y = [&](int k) { return (x(vertex, k) - centre_[k]) * common_scale_; };
     return {y(0), y(1), y(2)};
@@ -169,7 +173,7 @@ class FloatGrid {
 
   double centre_[3] = {0, 0, 0};
   double scale_[3] = {1, 1, 1};
-  double common_scale_ = 1;  // the least of the three
+  double common_scale_ = 1;  // the least element of scale_
 };
 
 // The rounded places of all vertices of a step: two for each vertex, or one if the mesh is at rest.
@@ -180,7 +184,7 @@ class RoundedPositions {
     PacedStop pace(never_stops);
     assign(motion, pace);
   }
-  // Returns false if `pace` was stopped; some points are then not those of this step.
+  // Returns false if `pace` was stopped; then some points are not set for this step.
   bool assign(const SteppedMesh& motion, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }
@@ -199,30 +203,32 @@ class RoundedPositions {
   LargeArray<FloatLanes> points_;
 };
 
-// A step cut off at a time `until`, for boxes that need to cover no more than this part.
+// A step that is cut off at a time `until`, for boxes that have to cover only [0, until].
 //
-// Its ends are the places at t=0 and those at `until`, as doubles compute them:
-//   x0 + until (x1 - x0), or (1 - until) x0 + until x1 if x1 - x0 overflows,
-// and between x0 and x1 in any case. Let M be the largest size of a coordinate of the step, and u
-// = 2^-53. In the first form the difference, at most 2 M, is off by 2 M u; the product by another
-// 2 M u, and by 2^-1075 if it underflows; the sum by M u: less than 8 M u + 2^-1073 in all, with
-// the products of errors. In the second form each product, at most M, is off by 2 M u and
-// 2^-1075, and the sum by M u: less than that too. Moving a computed place to between x0 and x1,
-// where the true place lies, does not take it farther from the true place.
+// It goes from the places at t=0 to the places at `until`, as doubles compute them:
+//   x0 + until (x1 - x0), or (1 - until) x0 + until x1 if x1 - x0 overflows.
+// A computed place that is not between x0 and x1 is moved to the nearer of the two. Let M be the
+// largest size of a coordinate of the step, and u = 2^-53. In the first form the difference, at
+// most 2 M, is off by 2 M u. The product is off by another 2 M u, and by 2^-1075 if it underflows;
+// the sum is off by another M u. Together, with the products of errors, this is less than 8 M u +
+// 2^-1073. In the second form each product, at most M, is off by 2 M u and 2^-1075, and the sum by
+// another M u, which is less than 8 M u + 2^-1073 too. The true place lies between x0 and x1, so
+// moving a computed place there brings it no farther from the true place.
 //
-// So each coordinate is off by e = 2^-50 M + 2^-1073 at most, at `until`, and by less before that,
-// because both motions are linear and begin at one place. A point is off by sqrt(3) e at most, and
-// two features that come within d of each other by `until` do so within d + 2 sqrt(3) e in the
-// motion that is computed. The slack is 4 e or more. If `until` is 0, the places are exact and the
-// slack is 0.
+// So each coordinate is off by at most e = 2^-50 M + 2^-1073 at the time `until`, and by less at
+// earlier times, because the true and the computed motion are linear and begin at the same place. A
+// point is off by at most sqrt(3) e. So two features that come within d of each other by `until`
+// come within d + 2 sqrt(3) e in the computed motion. The slack is 4 e or more. If `until` is 0,
+// the places are exact and the slack is 0.
 
-// Returns the place on the way between two coordinates, computed as above. REQUIRES share in [0,1].
+// Returns the coordinate after this share of the way between two coordinates, computed as above.
+// REQUIRES share in [0,1].
 double place_between(double from, double to, double share);
 
 class ShortenedStep {
  public:
   // REQUIRES until in [0,1). The positions of the step must outlive this object. If `pace` was
-  // stopped, it must not be used.
+  // stopped, this object must not be used.
   ShortenedStep(const SteppedMesh& step, double until, PacedStop& pace);
 
   const SteppedMesh& motion() const { return *motion_; }

@@ -1,9 +1,9 @@
 // At a time r at which the four points are coplanar, the hulls of the two groups meet if and only
 // if the points have a non-zero affine dependency that is >= 0 on the first group and <= 0 on the
-// second. If the lam of one axis (contact_pieces.h) are not all zero, they span all dependencies.
-// If all 12 lam vanish, the points are collinear, and the signed distances along an axis decide.
-// If those vanish too, the points coincide. So parallel edges, slivers, zero-length edges and
-// points at rest are no special cases.
+// second. If the lam of one axis (contact_pieces.h) are not all zero, these lam span all
+// dependencies. If all 12 lam vanish, the points are collinear, and their signed distances along an
+// axis decide. If the distances vanish too, the points coincide. So parallel edges, slivers,
+// zero-length edges and points at rest are no special cases.
 #include "detector/contact/rungs.h"
 #include "detector/exact/real_root.h"
 

@@ -5,12 +5,13 @@
 //   F = u_1 . (u_2 x u_3), a cubic: the four points are coplanar where it vanishes.
 //   lam_1 = u_2 x u_3, lam_2 = u_3 x u_1, lam_3 = u_1 x u_2, lam_0 = -(lam_1 + lam_2 + lam_3);
 //   component k of these is an affine dependency of the points projected along axis k.
-//   L_i = lam_i for points of the first group, -lam_i for those of the second.
+//   L_i = lam_i for points of the first group, -lam_i for points of the second group.
 // At a root of F there is no contact if one L_k,i > 0 and another < 0 for some axis k. There is a
 // contact if for some axis all L_k,i have one sign and are not all zero.
 //
-// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k. A middle coefficient
-// of F has two products; one of them takes n at an end of the step.
+// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k. Here w is u_1 and n is
+// u_2 x u_3. A middle coefficient of F is made of two products w . n; in one of them n is the first
+// or last coefficient of the cross product ("end").
 //
 //   quantity      | operations                      | error in u               | size
 //   lam_1..3      | cross, middle                   | 10 MM                    | 2 MM
@@ -21,7 +22,7 @@
 //   lam_0 halved  | a quadratic with B = 6 MM       | as before + 12 MM        | 6 MM
 //   F halved      | a cubic with B = 6 MxMyMz       | as before + 18 MxMyMz    | 6 MxMyMz
 //
-// quadratic_error (of lam_0) and cubic_error (of F) are these with one u more.
+// quadratic_error (of lam_0) and cubic_error (of F) are these errors plus one u.
 #pragma once
 
 #include "detector/exact/bernstein.h"
@@ -30,8 +31,8 @@
 namespace assay::detector {
 
 // M_k = largest |coordinate k of x_j(0) - x_0(0), x_j(1) - x_0(1)|. After `depth` halvings a
-// computed coefficient of the cubic is off by less than cubic_error(depth) * MxMyMz, one of a
-// dependency by less than quadratic_error(depth) * MpMq.
+// computed coefficient of the cubic is off by less than cubic_error(depth) * MxMyMz, and a computed
+// coefficient of a dependency by less than quadratic_error(depth) * MpMq.
 template <class Bounds = ProvedBounds>
 constexpr auto cubic_error(int depth) {
   return static_cast<typename Bounds::Number>(63 + 18 * depth) * Bounds::unit;
@@ -44,8 +45,8 @@ constexpr auto quadratic_error(int depth) {
 template <class Number>
 struct ContactPiece {
   CubicOf<Number> f;
-  // L_k,i of the notation, by axis k. Each coefficient holds the coefficients of the four points i
-  // side by side.
+  // By axis k, the Bernstein coefficients of L_k,i. Each element holds the coefficient for the four
+  // points i = 0..3 side by side.
   std::array<QuadraticOf<std::array<Number, 4>>, 3> dependencies;
   Number lo, hi;  // dyadic: exact
 };
@@ -57,12 +58,13 @@ struct ContactPiece {
 //   bool open(const Piece&);
 //   void contact(const Piece&, Number f_bound, int f_lo);
 //
-// A piece that is surely without contact is passed over. A piece that the signs do not settle is
-// split if may_halve() returns true; ends_are_sure says whether the signs of F at both ends are
-// sure. If may_halve() returns false, open(piece) is called, and the search ends if that returns
-// true. contact() is called for a piece with a contact at each root of F: F changes its sign over
-// the piece, beginning with the sign f_lo, and its coefficients are off by at most f_bound. After
-// contact() the search ends.
+// A piece that is certainly without a contact is passed over. A piece that the signs do not decide
+// is halved if may_halve() returns true; ends_are_sure says whether the signs of F at the beginning
+// and at the end of the piece are certain. If may_halve() returns false, open(piece) is called; if
+// open() returns true, the search stops. contact() is called for a piece that has a root of F, if
+// there is a contact at each of its roots: F has the sign f_lo at the beginning of the piece and
+// the opposite sign at its end, and the coefficients of F are off by at most f_bound. After
+// contact() the search stops.
 template <class Bounds, class Search>
 class ContactPieces {
  public:
@@ -147,7 +149,7 @@ class ContactPieces {
     }
   }
 
-  // Looks at a piece of this depth. Returns true if the search has to end.
+  // Looks at a piece that `depth` halvings have made. Returns true if the search has to stop.
   bool visit(const Piece& piece, int depth) {
     const Number f_bound = cubic_error<Bounds>(depth) * f_scale_;
     if (sure_sign(piece.f, f_bound) != 0) return false;
@@ -197,7 +199,7 @@ class ContactPieces {
 };
 
 // Guesses a root in [0,1] of a cubic whose values at 0 and 1 differ in sign. It makes Newton steps,
-// and halves where a step would leave the bracket. It promises nothing about its accuracy.
+// and halves the bracket if a step would leave it. It promises no accuracy.
 template <class Number>
 Number guess_root(const CubicOf<Number>& b) {
   const Number c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]);

@@ -2,7 +2,7 @@
 // width. Their Bernstein coefficients are exact up to positive constant factors.
 //
 // Widths. W is the number of limbs of a coordinate, and every coordinate is below 2^c in size,
-// with c = bits() <= 64 W - 8. x and y are entries of two differences, s and e ends of the step.
+// with c = bits() <= 64 W - 8. x and y are entries of two differences; s and e are times, 0 or 1.
 //
 //   quantity                            | below, in size                        | bits
 //   x: a difference of coordinates      | 2 * 2^c                               | c + 1
@@ -14,8 +14,8 @@
 //   3 B0, 3 B3                          | 9 * 2^(3c + 4)                        | 3c + 8
 //   B1 = w0.m + w1.n00, B2 likewise     | 3 * 2^(3c + 5) + 3 * 2^(3c + 4)       | 3c + 8
 //   x at a time k / 16, times 16        | 16 times as much                      | c + 5
-//   a dependency, halved undivided      | 4 times as much a halving             | 2 more a halving
-//   the cubic, halved undivided         | 8 times as much a halving             | 3 more a halving
+//   a dependency, halved undivided      | 4 times as much for each halving      | 2 more for each
+//   the cubic, halved undivided         | 8 times as much for each halving      | 3 more for each
 //
 // After max_fixed_depth = 4 halvings a dependency has at most 2c + 14 <= 128 W - 2 bits and the
 // cubic 3c + 20 <= 192 W - 4: 2 W limbs hold a dependency, 3 W limbs the cubic, signs included.
@@ -192,7 +192,7 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
 //
 // Leave out the zeros among the coefficients of a polynomial over a piece. Then:
 // - If the rest have one sign, the polynomial has that sign throughout the open piece.
-// - The number of sign changes is the number of roots in the open piece, or more by an even number
+// - The number of sign changes is the number of roots in the open piece plus an even number >= 0
 //   (Descartes' rule, by s/(1-s)). So with no change there is no root, and with one change there
 //   is exactly one, a simple one.
 //
@@ -235,11 +235,12 @@ struct FixedPiece {
   using Dependency = std::array<FixedQuadratic<Minor>, 4>;
 
   FixedCubic<Triple> f;
-  std::array<std::optional<Dependency>, 3> dependencies;  // computed when asked for
+  std::array<std::optional<Dependency>, 3> dependencies;  // computed when first needed
   double lo, hi;                                          // dyadic, and so exact
 
-  // Returns the dependency of this axis, computed now if it is not there yet. Only a piece that is
-  // the whole step can lack a dependency, because halves() hands all of them on.
+  // Returns the dependency of this axis, and computes it if the piece does not have it yet. Only
+  // the piece that is the whole step can lack a dependency, because halves() computes all three of
+  // them.
   const Dependency& dependency(std::size_t axis, const FixedProducts<W>& products) {
     auto& l = dependencies[axis];
     if (!l) l = products.dependency(axis);

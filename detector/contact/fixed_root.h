@@ -9,9 +9,9 @@
 //   c2 = B2 - 2 B1 + 3 B0    | 36 * 2^(3c + 4)    | 3c + 10
 //   c3 = B3 - B2 + B1 - B0   | 24 * 2^(3c + 4)    | 3c + 9
 //
-// Its value at t = m 2^-e <= 1, times 2^(3e), is a sum of four terms, each below 2^(3c + 10 + 3e),
-// so it is below 2^(3c + 12 + 3e). As 3c <= 192 W - 24, with e <= 64 it fits 3 W + 3 limbs, which
-// are 192 W + 192 bits, and with e <= 128 it fits 3 W + 6 limbs.
+// The value of the cubic at t = m 2^-e <= 1, times 2^(3e), is a sum of four terms, each below 2^(3c
+// + 10 + 3e), so it is below 2^(3c + 12 + 3e). Because 3c <= 192 W - 24, it fits into 3 W + 3 limbs
+// (192 W + 192 bits) if e <= 64, and into 3 W + 6 limbs if e <= 128.
 #pragma once
 
 #include "detector/contact/contact_pieces.h"
@@ -34,7 +34,7 @@ Integer integer_of(const FixedInteger<limbs>& value) {
 template <std::size_t W>
 class FixedRoot {
  public:
-  // b: B0..B3. bits: the bits of a coordinate; they only scale guesses.
+  // `b` is B0..B3, and `bits` is the number of bits of a coordinate, which only scales guesses.
   FixedRoot(const FixedCubic<FixedInteger<3 * W>>& b, int bits) : bits_(bits) {
     const auto b0_3 = b[0] + b[0] + b[0];
     c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
@@ -101,8 +101,9 @@ class FixedRoot {
 // root.
 //
 // With L = l2 s^2 + l1 s + l0, l2 not 0, l2 Q = q2 L + R, R = a s + b. So at p, Q has the sign of R
-// if l2 > 0, and the opposite sign if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L there
-// tells the order of -b/a and p, as below. If l2 = 0, Q is computed at p = -l0/l1. With c as below:
+// if l2 > 0, and the opposite sign if l2 < 0. If R vanishes at -b/a in (0,1), the sign of L at -b/a
+// tells the order of -b/a and p (see SignAtRoot). If l2 = 0, Q is computed at p = -l0/l1. With c of
+// fixed_products.h:
 //
 //   quantity                          | below, in size            | bits
 //   q0..q2, l0..l2: by powers of s    | 4 * 2^(2c + 14)           | 2c + 16
@@ -110,8 +111,8 @@ class FixedRoot {
 //   a^2 L(-b/a)                       | 3 * 2^(10c + 82)          | 10c + 84
 //   l1^2 Q(-l0/l1)                    | 3 * 2^(6c + 48)           | 6c + 50
 //
-// Each is a sum of products of such q and l. Products add up the limbs of their factors, 2 W + 1
-// each, so all of them fit.
+// Each quantity below the first row is a sum of products of q0..q2 and l0..l2, which have 2 W + 1
+// limbs. A product has as many limbs as its factors together, so all of these fit.
 template <std::size_t W>
 int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
                  const FixedQuadratic<FixedInteger<2 * W>>& other, int l_before) {
@@ -133,12 +134,12 @@ int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
   return l[2].negative() ? -of_remainder : of_remainder;
 }
 
-// The sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that each of them has
-// exactly one root in (0,1). The sign is found by a resultant: no interval has to be made small,
-// and common roots are no special case.
+// Computes the sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that F and L
+// each have exactly one root in (0,1). The sign is found by a resultant: no interval has to be made
+// small, and common roots are no special case.
 //
-// Let p be the root of L. On (0,1) F has the sign f before r and -f after it, and L has the sign l
-// before p and -l after it. So F(p) tells the order of r and p:
+// Let p be the root of L. On (0,1) F has the sign f before r and -f after r, and L has the sign l
+// before p and -l after p. So F(p) tells the order of r and p:
 //
 //   F(p) = 0      r = p, and L(r) = 0
 //   F(p) has f    p < r, and L(r) has -l
@@ -173,7 +174,7 @@ int sign_at_root(const FixedQuadratic<FixedInteger<2 * W>>& quadratic,
 //   quantity                      | operations                         | error in u
 //   a coefficient as a double     | two limbs rounded, one sum         | less than 4
 //   the quotient p = -l0/l1       | a division                         | 4 + 4 + 1 = 9
-//   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
+//   a term                        | a product of at most four factors  | at most 4 (9 + 1) = 40
 //   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
 //
 // The code uses the bound 128 u S. If S is so small that a term may have lost bits by underflow,
@@ -185,7 +186,7 @@ class SignAtRoot {
   using Triple = typename FixedProducts<W>::Triple;
 
   // f: the Bernstein coefficients of F over (0,1). sign_before: the sign of F before its root.
-  // bits: those of the coordinates.
+  // bits: the number of bits of a coordinate.
   SignAtRoot(const FixedCubic<Triple>& f, int sign_before, int bits)
       : f_before_(sign_before), bits_(bits) {
     const FixedCubic<F> b = {F(f[0]), F(f[1]), F(f[2]), F(f[3])};

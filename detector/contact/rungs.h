@@ -1,8 +1,8 @@
-// The rungs of the elementary test (elementary.h). Rung 0 compares inputs; rung 1 computes in
-// doubles with proved bounds. Neither ever decides wrongly; a query that it cannot decide goes to
-// the next rung. After these two comes the test without integers, in doubles with proved bounds
-// (`bounded`) or in plain doubles or floats; then the rungs of integers. Only integers without
-// bound allocate.
+// The rungs of the elementary test (elementary.h). The axis rung compares inputs, and the filter
+// rung computes in doubles with proved bounds. Neither ever decides wrongly, and a query that a
+// rung cannot decide goes to the next rung. This header declares, in this order: these two rungs,
+// the tests without integers (in doubles with proved bounds, and in plain doubles or floats), and
+// the rungs of integers. Only integers without bound allocate.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace assay::detector {
 // The axis rung. Returns whether the two groups are more than `by` apart along an axis, in the same
 // sense at t=0 and at t=1. Then they are more than `by` apart throughout, because every point moves
 // linearly; with `by` 0 this means that there is no contact. Exact, because a difference of doubles
-// is greater than a double if its rounded value is. REQUIRES by >= 0. About 10 ns.
+// is greater than a double if the rounded difference is. REQUIRES by >= 0. About 10 ns.
 bool separated_along_an_axis(const FourPoints& query, double by = 0);
 
 struct FilterResult {
@@ -30,51 +30,51 @@ struct FilterResult {
   double time_guess = 0;  // a double near that root
 };
 
-// The filter rung. Looks at Bernstein coefficients over pieces of [0,1] in time order. 0.1 to 1.5
-// us.
+// The filter rung. Decides a query if Bernstein coefficients over pieces of [0,1] can tell. 0.1 to
+// 1.5 us.
 FilterResult filter_contact(const FourPoints& query, Want want);
 
 // How often pieces are halved. A halving takes 40 ns, and integers (contact_fixed.cpp) take 2 us.
-// If the sign of the cubic is sure at both ends of a piece, halving soon finds the part with the
-// root, and the signs of the dependencies there. These depths leave 37 of 5,171 queries of a
-// simulation open; a depth of two leaves 1,097. If a sign is not sure, as at a contact just at t=0
-// or where points stay coplanar, more halvings are mostly in vain. They are also mostly in vain
-// after a piece that stays open.
+// If the signs of the cubic at the beginning and at the end of a piece are certain, halving soon
+// finds the part with the root, and the signs of the dependencies in that part. With these depths
+// 37 of 5,171 queries of a simulation are not decided; with a depth of two, 1,097 are not. If one
+// of the two signs is not certain, more halvings are mostly useless; for example at a contact just
+// at t=0, or if points stay coplanar. They are also mostly useless once a piece was not decided.
 inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
-// Tests in doubles with proved bounds alone. If they cannot tell, `rung` is `open` and a contact is
-// reported, so no contact is ever missed. The time is an interval of doubles that holds the first
-// contact time if there is a contact. Up to lo it is proved that there is no contact, so lo is
-// never late. hi is a time by which a contact is certain, or 1 if no contact is certain. REQUIRES a
-// query that separated_along_an_axis did not settle. 0.1 to 5 us, no allocation.
+// Tests in doubles with proved bounds alone. If doubles cannot tell, `rung` is `open` and a contact
+// is reported, so no contact is ever missed. The time is an interval of doubles that contains the
+// first contact time if there is a contact. It is proved that there is no contact before lo, so lo
+// is never late. hi is a time by which a contact is certain, or 1 if no contact is certain.
+// REQUIRES a query for which separated_along_an_axis returns false. 0.1 to 5 us, no allocation.
 ContactResult bounded_contact(const FourPoints& query, Want want);
 
 // Encloses in doubles the first root of a cubic whose coefficients are known only up to a bound.
 //
 // f holds the Bernstein coefficients over [lo,hi], each off by at most `bound`. REQUIRES that lo
-// and hi are k / 2^n with n <= 32, and that the cubic has different signs, beyond the bound, at
-// the two ends. For each cubic that f may stand for, the closed interval of the result holds its
-// first root in [lo,hi]: it begins at a time up to which there is surely no root, and ends at one
-// by which the sign has surely changed. It promises nothing about the width of the interval. 0.1
-// us; 1 us if roots are close together.
+// and hi are k / 2^n with n <= 32, and that f has certain and different signs at lo and at hi. The
+// result is a closed interval. For each cubic whose coefficients differ from f by at most `bound`,
+// it contains the first root in [lo,hi]: it begins at a time up to which there is certainly no
+// root, and ends at a time by which the sign has certainly changed. Nothing is promised about the
+// width of the interval. 0.1 us; 1 us if roots are close together.
 TimeEnclosure enclose_first_root(const Cubic& f, double bound, double lo, double hi);
 
-// The elementary test in plain doubles or floats: the ladder with bounds 0 and no integers. It
-// promises nothing; it exists to be measured.
+// Tests in plain doubles or floats: the filter rung with bounds 0, and no integers. It promises
+// nothing; it exists to be measured.
 //
-// `rung` is always `filter`, and the time is one double. Number is double or float; coordinates
-// are rounded to it first. REQUIRES a query that separated_along_an_axis did not settle.
+// `rung` is always `filter`, and the time is one double. Number is double or float; coordinates are
+// first rounded to Number. REQUIRES a query for which separated_along_an_axis returns false.
 // 0.1 to 1 us.
 template <class Number>
 ContactResult plain_contact(const FourPoints& query, Want want);
 
 // The integer rungs of the elementary test: integers of fixed width, and integers without bound for
-// the queries that these leave open. Together they decide every query. They treat every degenerate
-// case by the same few rules (contact_exact.cpp).
+// the queries that integers of fixed width do not decide. Together they decide every query. They
+// treat every degenerate case by the same few rules (contact_exact.cpp).
 
-// Returns whether there is a contact, its first time if that is wanted, and the rung (fixed or
-// unbounded) that decided. If only yes or no is wanted, the time of a contact has no meaning. Exact
-// for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
+// Returns whether there is a contact, its first time with Want::first_time, and the rung (`fixed`
+// or `unbounded`) that decided. With Want::yes_no the time in the result has no meaning. Exact for
+// all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
 ContactResult exact_contact(const FourPoints& query, Want want = Want::first_time);
 
 // Returns the time of a contact that the filter has bracketed. REQUIRES that this time is the only
@@ -82,9 +82,10 @@ ContactResult exact_contact(const FourPoints& query, Want want = Want::first_tim
 // about that time. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// Returns the first contact time, if there is a contact, by integers without bound alone. The
-// functions above fall back on these. 5 to 50 us for coordinates of similar magnitude; the time
-// grows with the spread of their exponents, to 2 ms over all doubles.
+// Do the same as exact_contact and exact_bracketed_time by integers without bound alone. Those two
+// call these if integers of fixed width do not decide. nullopt means that there is no contact. 5 to
+// 50 us for coordinates of similar magnitude; the time grows with the spread of their exponents, to
+// 2 ms over all doubles.
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
@@ -92,10 +93,10 @@ TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double 
 // vanishes identically.
 bool coplanar_throughout(const FourPoints& query);
 
-// The rung `fixed`: exact integers of fixed width. The query's coordinates choose the smallest of a
-// few widths that suffices. This rung never decides wrongly. Its decision is `open` if signs over a
-// few pieces of the step do not tell, or if the exponents of the coordinates spread too far. It
-// allocates nothing.
+// The rung `fixed`: exact integers of fixed width. It computes in the smallest of a few widths into
+// which the coordinates of the query fit. This rung never decides wrongly. Its decision is `open`
+// if signs over a few pieces of the step do not tell, or if the exponents of the coordinates spread
+// too far. It allocates nothing.
 
 struct FixedResult {
   Decision decision = Decision::open;
@@ -105,8 +106,8 @@ struct FixedResult {
 // Decides a query if it can. 0.2 to 1 us for coordinates of similar magnitude.
 FixedResult fixed_contact(const FourPoints& query, Want want);
 
-// Returns the only root of the coplanarity cubic in (lo, hi), with the preconditions of
-// exact_bracketed_time; nothing if exponents spread too far. 0.4 us.
+// Returns the only root of the coplanarity cubic in (lo, hi), or nullopt if the exponents of the
+// coordinates spread too far. The preconditions are those of exact_bracketed_time. 0.4 us.
 std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, double lo, double hi,
                                                   double guess);
 

@@ -1,16 +1,16 @@
-// Real numbers of any magnitude, known up to a bound. They are the filter before the integers
-// without bound: the sign of a sum of products of integers of thousands of bits is told here in
-// some 0.1 us, unless the terms cancel to 2^-50 of their size or less. Then integers decide.
+// Real numbers of any magnitude, known up to a bound. Balls are the filter before the integers
+// without bound: they find the sign of a sum of products of integers of thousands of bits in some
+// 0.1 us, unless the terms cancel to 2^-50 of their size or less. In that case integers decide.
 //
 // A ball is a pair of doubles and an exponent. The number is off by at most radius 2^exponent from
-// middle 2^exponent. Either the larger of |middle| and radius is in [1,2), or both are 0 and so is
-// the number. So the doubles neither overflow nor lose small numbers, whatever the exponent is.
+// middle 2^exponent. Either the larger of |middle| and radius is in [1,2), or both are 0 and the
+// number is 0. So the doubles neither overflow nor lose small numbers, whatever the exponent is.
 //
 // Errors, with u = 2^-53. A sum or product of doubles is off by at most u times its size; the
 // radius grows by 2 u of that size to cover it. The radius itself is rounded a few times in each
-// operation. When the pair is scaled, a number far smaller than the other may underflow (by
-// 2^-1074, where the radius is 2^-260 or more). All of that is far below `slack`, by which each
-// radius is multiplied.
+// operation. When middle and radius are scaled, the one that is far smaller may underflow (by
+// 2^-1074, while the radius is 2^-260 or more). Each radius is multiplied by `slack`, which more
+// than covers both.
 #pragma once
 
 #include <algorithm>
@@ -29,9 +29,10 @@ class Ball {
   Ball() = default;  // exactly 0
 
   // The ball around value 2^exponent, from the two highest limbs of `value`. Let t >= 1 be the
-  // higher and l the lower one, both as integers. Computed in doubles, t + l 2^-64 is off by u t
-  // (0 for t below 2^53) from the first limb, by u from the second, and by u (t + 1) from the sum,
-  // at most. The limbs below are worth less than 2^-64. Together this is less than 4 u t.
+  // highest limb and l the next lower limb, both as integers. Computed in doubles, t + l 2^-64 has
+  // three errors: at most u t from t (0 for t below 2^53), at most u from l, and at most u (t + 1)
+  // from the sum. All lower limbs together add less than 2^-64. The sum of these is less than 4 u
+  // t.
   explicit Ball(const Integer& value, std::int64_t exponent = 0) {
     using Limb = boost::multiprecision::limb_type;
     static_assert(sizeof(Limb) == 8);
@@ -57,7 +58,7 @@ class Ball {
     if (value.negative()) middle_ = -middle_;
   }
 
-  // Returns exactly this double. REQUIRES that it is finite.
+  // Returns the ball that contains only `value`. REQUIRES that `value` is finite.
   static Ball of(double value) {
     Ball ball;
     int exponent = 0;
@@ -67,8 +68,8 @@ class Ball {
   }
 
   // Returns the ball that holds all numbers between two doubles. REQUIRES 0 <= lo < hi, and hi - lo
-  // in the range of normal doubles. The middle and half of the width are each rounded once; the
-  // slack covers that, since the radius grows by a bit of hi as well.
+  // in the range of normal doubles. The middle and half of the width are each rounded once. The
+  // slack and the term 2^-52 hi of the radius cover these roundings.
   static Ball between(double lo, double hi) {
     assert(0 <= lo && lo < hi && hi - lo >= 0x1p-1000);
     Ball ball;
@@ -104,7 +105,7 @@ class Ball {
     return product;
   }
 
-  // Returns the sign of the number, or nothing if the bound leaves it open.
+  // Returns the sign of the number, or nullopt if the ball contains 0 and other numbers.
   std::optional<int> sign() const {
     if (middle_ > radius_) return 1;
     if (-middle_ > radius_) return -1;
@@ -113,7 +114,8 @@ class Ball {
   }
 
  private:
-  // Makes it the ball around the integer of these limbs. REQUIRES that the last limb is not 0.
+  // Sets this to the ball around the integer with these limbs. REQUIRES that the last limb is not
+  // 0.
   template <class Limb>
   void take_limbs(const Limb* limbs, std::size_t size) {
     const Limb top = limbs[size - 1];
@@ -134,9 +136,10 @@ class Ball {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
   }
 
-  // Returns the sum. REQUIRES that neither is 0 and that a has the greater exponent. The middle and
-  // the radius of b are each below 2 of b's units. If b's unit is less than 2^-200 of a's, b is
-  // below 4 2^-200 in a's units, and is added to the radius alone.
+  // Returns a + b. REQUIRES that neither is 0, and that the exponent of b is not the greater one.
+  // Let the unit of a ball be 2^exponent. The middle and the radius of b are each below 2 units of
+  // b. If the unit of b is less than 2^-200 units of a, then b is below 4 2^-200 units of a, and is
+  // added to the radius alone.
   static Ball sum_of(const Ball& a, const Ball& b) {
     constexpr std::int64_t far = 200;
     const std::int64_t shift = a.exponent_ - b.exponent_;

@@ -1,18 +1,19 @@
-// Bernstein coefficients over [0,1] of products of linearly moving vectors, in double or float.
+// Computes Bernstein coefficients over [0,1] of products of linearly moving vectors, in double or
+// float.
 //
 // Over the interval a polynomial lies between the least and the greatest of its Bernstein
-// coefficients. The first and the last coefficient are its values at the ends.
+// coefficients. The first and the last coefficient are the values of the polynomial at 0 and at 1.
 //
 // Error bounds. Every filter of the detector derives its bound from the table below, and writes
 // the derivation in the same notation:
 //   u         2^-53. An operation rounds its result by at most u times the size of that result.
-//   M         bounds the size of an entry: a coordinate of a vector, at both ends of the step.
-//   MM, WMM   products of such bounds, of the entries that the row multiplies.
-//   S, T      sums over the three coordinates: S of MM (x . y), T of WMM (w . n).
+//   M         bounds the size of an entry. An entry is a coordinate of a vector at t=0 or t=1.
+//   MM, WMM   products of the bounds M of the entries that the row multiplies.
+//   S, T      sums over the three coordinates: S sums MM (for x . y), T sums WMM (for w . n).
 //   B         the largest size among the coefficients that are halved.
-//   error     in units of u. First comes what the errors of the operands make of the result, then
+//   error     in units of u. First comes the error that the operands bring into the result, then
 //             the rounding of each operation in turn: 3 + 3 + 2 = 8 MM stands for 8 u MM.
-//   middle    a coefficient that is neither the first nor the last: its error is the larger one.
+//   middle    a coefficient that is neither the first nor the last. Its error is a larger one.
 // A division by 2 and a product with 2 are exact. The table has errors of first order in u. The
 // constants in the code are larger by some u, and these cover errors of second order.
 //
@@ -29,8 +30,8 @@
 //   quadratic halved | (x + y) / 2 at two levels     | as before + 1 + 1 = + 2 B      | B
 //   cubic halved     | (x + y) / 2 at three levels   | as before + 1 + 1 + 1 = + 3 B  | B
 //
-// Halving averages older errors and never adds them up. All of this holds while no product
-// overflows and underflows stay below the bounds. in_range() says whether that is so.
+// Halving averages older errors and never adds them up. The table holds if no product overflows and
+// if underflows stay below the bounds; in_range() says whether this is so.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +45,8 @@ namespace assay::detector {
 // The policy of a filter: in which numbers it computes, and by how much a computed number is
 // assumed to be off. Filters are written once, as templates over this policy.
 //
-// Every error bound is a derived constant times `unit`. With unit 0 the bounds vanish: then the
-// sign of a computed number is taken for the true sign, and a computed zero for zero.
+// Every error bound is a derived constant times `unit`. With unit 0 the bounds are 0: then the sign
+// of a computed number is taken for its true sign, also if the computed number is 0.
 
 inline constexpr double unit_roundoff = 0x1p-53;
 
@@ -160,7 +161,8 @@ void halve(const std::array<std::array<T, m>, n>& b, std::array<std::array<T, m>
   }
 }
 
-// Raises `magnitude` to the largest size of each coordinate of v over the step, where it is less.
+// Raises each coordinate of `magnitude` to the largest size of that coordinate of v over the step,
+// unless it is larger already.
 template <class T>
 void grow(std::array<T, 3>& magnitude, const MovingVectorOf<T>& v) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -181,12 +183,11 @@ int sign_beyond(T value, T bound) {
   return value > bound ? 1 : value < -bound ? -1 : 0;
 }
 
-// Returns 1 or -1 if all coefficients are beyond the bound on that side, else 0. If the
-// coefficients are off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole
-// interval.
+// Returns 1 if all coefficients are > bound, -1 if all are < -bound, else 0. If the coefficients
+// are off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole interval.
 template <class T, std::size_t n>
 int sure_sign(const std::array<T, n>& b, T bound) {
-  // Keeps values and not their places, because places would take branches.
+  // Compares values and not indices, because indices would need branches.
   T least = b[0], greatest = b[0];
   for (std::size_t i = 1; i < n; ++i) {
     least = std::min(least, b[i]);

@@ -1,7 +1,7 @@
 // Doubles side by side, for code that is compiled once for each instruction set
-// (view_lanes_kernel.h, query_lanes_kernel.h). ASSAY_LANES says how many; it is defined before this
-// is included. Everything has internal linkage and is always inlined, because code for one
-// instruction set must not reach the others.
+// (view_lanes_kernel.h, query_lanes_kernel.h). ASSAY_LANES is the number of doubles; a file defines
+// it before it includes this one. Everything here has internal linkage and is always inlined,
+// because code for one instruction set must not be linked into code for another.
 #pragma once
 
 #include <cstddef>

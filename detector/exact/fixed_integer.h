@@ -1,6 +1,7 @@
 // Integers of a fixed number of 64-bit limbs on the stack, in two's complement, for values whose
-// bound is known beforehand. They need no allocation, keep no length and have hardly a branch.
-// Results that do not fit wrap, so whoever uses these integers has to prove that they fit.
+// bound is known beforehand. They need no allocation, store no length and have hardly a branch. A
+// result that does not fit wraps around, so the code that uses these integers has to prove that its
+// results fit.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ class FixedInteger {
     limb_[0] = static_cast<std::uint64_t>(value);
     fill_from(1, value < 0);
   }
-  // The same value in another width. REQUIRES that it fits.
+  // Converts a value from another width. REQUIRES that it fits.
   template <std::size_t others>
   explicit FixedInteger(const FixedInteger<others>& value) {
     for (std::size_t i = 0; i < limbs && i < others; ++i) limb_[i] = value.limb(i);
@@ -85,8 +86,7 @@ class FixedInteger {
     return out;
   }
 
-  // Returns the value divided by 2^scale, off by some units in the last place. It serves for
-  // guesses.
+  // Returns the value divided by 2^scale, off by some units in the last place: good for guesses.
   double approximate(int scale) const {
     const FixedInteger size = negative() ? -*this : *this;
     std::size_t top = limbs - 1;
@@ -104,8 +104,9 @@ class FixedInteger {
   std::array<std::uint64_t, limbs> limb_ = {};  // least significant first
 };
 
-// The whole product. The limbs are multiplied as if the values were unsigned, so that a negative
-// value counts 2^bits too much. To mend that, the other value is subtracted from the upper limbs.
+// Returns the whole product. The limbs are multiplied as if both values were unsigned, and read in
+// this way a negative value is too large by 2^bits. To correct this, the other value is subtracted
+// from the upper limbs of the product.
 template <std::size_t m, std::size_t n>
 FixedInteger<m + n> operator*(const FixedInteger<m>& a, const FixedInteger<n>& b) {
   FixedInteger<m + n> product;

@@ -1,6 +1,6 @@
 // Integers without bound, and polynomials in the step's time that have them as coefficients. The
-// polynomials of contacts and views have degree 5 at most (the middle piece of a view-line), those
-// of distances 6; the class does not limit the degree.
+// polynomials of contacts and views have at most degree 5 (the middle piece of a view-line), and
+// the polynomials of distances have at most degree 6. The class does not limit the degree.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -63,16 +63,16 @@ class Polynomial {
   // Returns a positive multiple of f(lo + s (hi - lo)) as a polynomial in s. REQUIRES lo < hi.
   Polynomial over(const Dyadic& lo, const Dyadic& hi) const;
 
-  // Returns the exact sign (-1, 0, 1) at a time. 0.1 us unless the terms cancel nearly wholly there
-  // (ball.h).
+  // Returns the exact sign (-1, 0, 1) at a time. 0.1 us, unless the terms cancel almost completely
+  // at that time (ball.h).
   int sign_at(const Dyadic& time) const;
-  // Return the signs at t = 0 and t = 1. They need no Dyadic.
+  // Return the exact signs at t = 0 and t = 1, without a Dyadic.
   int sign_at_zero() const;
   int sign_at_one() const;
 
-  // Divides all coefficients by `divisor`. REQUIRES that it divides every one of them.
+  // Divides all coefficients by `divisor`. REQUIRES that `divisor` divides every coefficient.
   void divide_exactly(const Integer& divisor);
-  // Divides all coefficients by the greatest power of two that divides every one of them.
+  // Divides all coefficients by the greatest power of two that divides every coefficient.
   void take_out_powers_of_two();
   // Returns the pseudo-remainder by `divisor`: the remainder of this polynomial times |leading
   // coefficient of divisor|^(difference of degrees + 1). If the degree of this polynomial is lower
@@ -80,23 +80,23 @@ class Polynomial {
   // zero.
   Polynomial remainder(const Polynomial& divisor) const;
   // Returns this polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
-  // `divisor` divides this polynomial up to a constant. The result's integers are longer than those
-  // of this polynomial by some bits at most.
+  // `divisor` divides this polynomial up to a constant. The integers of the result are at most some
+  // bits longer than the integers of this polynomial.
   Polynomial quotient(const Polynomial& divisor) const;
 
   static constexpr std::size_t inline_coefficients = 7;
 
  private:
   void trim();
-  // Ascending powers, the last one not zero.
+  // By ascending powers; the last coefficient is not zero.
   boost::container::small_vector<Integer, inline_coefficients> coefficients_;
 };
 
-// Makes the multiple roots of a polynomial simple, before its roots are told apart.
+// Makes the multiple roots of a polynomial simple. This is done before its roots are isolated.
 //
 // Returns a polynomial with the same distinct roots as f (complex ones too), each of them simple.
-// Its constant factor is any number but 0. REQUIRES that f is not zero. 1 us if f has no multiple
-// root.
+// The result can differ from the square-free part of f by a constant factor. REQUIRES that f is not
+// zero. 1 us if f has no multiple root.
 Polynomial square_free_part(const Polynomial& f);
 
 }  // namespace assay::detector

@@ -1,7 +1,9 @@
-// The regions of L16: signs of polynomials that say when two features are within a distance.
+// The regions of L16. The signs of their polynomials say when two features are within a distance d.
 //
-// The two features are within d at t exactly when one of these regions has f <= 0 with all its
-// conditions at t. There is a region for each pair of closed faces, one of either feature.
+// The two features are within d at t exactly when one of these regions holds at t: when f <= 0 and
+// all conditions of the region hold. There is a region for each pair of a closed face of one
+// feature and a closed face of the other, where a face of a feature is a corner, an edge or the
+// feature itself.
 //
 //   region          | f                       | g >= 0                           | > 0
 //   points p, a     | |p-a|^2 - d^2           | none                             | none
@@ -13,19 +15,21 @@
 //   p, face abc:    N = (b-a) x (c-a)
 //   edges ab, ce:   u = b-a, v = e-c, w = c-a, N = u x v, s = (w x v).N, t = (w x u).N
 //
-// f compares the distance of the points, lines and planes with d. The conditions say that the feet
-// of the perpendicular lie in the faces, and the strict one that the edge, the face or the pair of
-// edges is not degenerate. Where it is degenerate, f vanishes, and lower faces tell the distance.
+// f compares the distance of the points, lines and planes with d. The conditions g >= 0 say that
+// the feet of the perpendicular lie in the two faces. The strict condition says that the edge, the
+// face or the pair of edges is not degenerate. If it is degenerate, f vanishes, and regions of
+// lower dimension tell the distance.
 //
-// The times of a region are 0, if f <= 0 with the conditions at t=0, and the zeros of f at which
-// the conditions hold, unless f is identically zero. The first time within d is the least time of
-// all regions. Let tau > 0 be the first time, in a region of least dimension. Nothing is near
-// before, so the distance at tau is d, and f vanishes there. If f is identically zero, some
-// condition fails just before tau, so its g vanishes at tau: the foot is on a lower face, and the
-// region was not of least dimension.
+// The times of a region are 0, if the region holds at t=0, and the zeros of f at which the
+// conditions hold, unless f is identically zero. The first time within d is the least time of all
+// regions. Proof: let tau > 0 be the first time within d, and take a region of least dimension that
+// holds at tau. Before tau the features are farther apart than d, so at tau their distance is d,
+// and f vanishes at tau. If f is identically zero, some condition fails just before tau, so its g
+// vanishes at tau. Then the foot lies on a face of lower dimension, and the region was not of least
+// dimension.
 //
-// The table is written once, as a template over the kind of number: integers at an instant,
-// polynomials over the step, balls over a piece of it.
+// The code has the table once, as a template over the kind of number: integers at an instant,
+// polynomials over the step, balls over a part of the step.
 #pragma once
 
 #include <array>
@@ -39,8 +43,8 @@ template <class Number>
 struct NearRegion {
   Number f;
   std::array<Number, 4> not_negative;
-  std::size_t conditions = 0;  // number of these
-  Number positive;             // the strict condition; stated if conditions > 0
+  std::size_t conditions = 0;  // how many elements of not_negative are used
+  Number positive;             // the strict condition; used if conditions > 0
 };
 
 template <class Number>
@@ -53,8 +57,8 @@ class NearRegions {
 
   std::size_t size() const { return first_group_ == 1 ? 7 : 9; }
 
-  // The regions by number, those of the highest dimension first: the face or the two edges, a point
-  // and an edge, two points.
+  // Returns region i. Regions of higher dimension come first: first the face or the two edges, then
+  // points and edges, then pairs of points.
   NearRegion<Number> operator[](std::size_t i) const {
     if (first_group_ == 1) {
       if (i == 0) return point_face(x_[0], x_[1], x_[2], x_[3]);
@@ -114,8 +118,9 @@ class NearRegions {
 
 enum class Near { within, nearer };  // at most the distance, or less than it
 
-// Returns whether the features are within the distance (or nearer than it) at the instant of the
-// numbers, which means that some region holds there. Cheap regions are tried first.
+// Returns whether some region holds. This means that the features are within the distance (with
+// Near::nearer: nearer than it) at the instant that `regions` was made for. Cheap regions are tried
+// first.
 template <class Number>
 bool some_region_holds(const NearRegions<Number>& regions, Near near) {
   for (std::size_t i = regions.size(); i-- > 0;) {
@@ -129,11 +134,11 @@ bool some_region_holds(const NearRegions<Number>& regions, Near near) {
   return false;
 }
 
-// Returns whether features of a mesh at rest are nearer to each other than a distance: the part of
-// the relation between pairs (mesh/counted_pairs.h) that takes arithmetic. Exact for all finite
-// inputs: decided by these regions, in integers (exact/polynomial.h).
+// Returns whether two features of a mesh at rest are nearer to each other than r.
+// CountedPairs::rest_distance needs this. Exact for all finite inputs, because the regions are
+// computed in integers (exact/polynomial.h).
 //
-// REQUIRES r finite. 2 to 10 us each, unless the boxes of the two tell: then 10 ns.
+// REQUIRES that r is finite. Takes 2 to 10 us, or 10 ns if the boxes of the two features show it.
 bool vertex_is_nearer_to_face(const Point& p, const std::array<Point, 3>& face, double r);
 bool edges_are_nearer(const std::array<Point, 2>& a, const std::array<Point, 2>& b, double r);
 

@@ -1,5 +1,5 @@
-// The exact sign of a 3x3 determinant of coordinate differences, in doubles with a bound first, in
-// integers if these cannot tell.
+// Computes the exact sign of a 3x3 determinant of coordinate differences: first in doubles with a
+// bound, and in integers if doubles cannot tell.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,12 @@ namespace assay::detector {
 //   term          | an entry times a minor            | 8 + 2 + 2 = 12 MMM        | 2 MMM
 //   determinant   | three terms, two sums             | 36 + 4 + 6 = 46 MMM       | 6 MMM
 //
-// orientation_error is the last error and 2 u more, which cover errors of second order.
+// orientation_error is the error of the determinant plus 2 u, which cover errors of second order.
 template <class Bounds>
 inline constexpr typename Bounds::Number orientation_error = 48 * Bounds::unit;
 
-// Returns the sign of det(b-a, c-a, d-a). With proved bounds 0 means that it is zero or not known.
+// Returns the sign of det(b-a, c-a, d-a). With proved bounds, 0 means that the determinant is 0 or
+// that its sign is not known.
 template <class Bounds>
 int filtered_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using Number = typename Bounds::Number;
@@ -54,12 +55,12 @@ int filtered_orientation(const Point& a, const Point& b, const Point& c, const P
 // for all finite inputs. 10 ns; 1 us if the determinant is near zero.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
-// Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
-// and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
-// (bernstein.h). side_error is this and one u more.
+// Error bound of sure_side. Let p and q be the two axes other than `axis`, and M_p and M_q the
+// largest |difference| along p and q. In the projection, (b-a) x (c-a) is one minor, off by 8 u M_p
+// M_q (bernstein.h). side_error is this error plus one u.
 inline constexpr double side_error = 9 * unit_roundoff;
 
-// Returns the sign of this minor, or 0 if it is not sure.
+// Returns the sign of a minor, or 0 if its sign is not certain.
 inline int sure_sign_of_minor(double minor, double m_p, double m_q) {
   if (!(m_p > least_magnitude && m_p < greatest_magnitude) ||
       !(m_q > least_magnitude && m_q < greatest_magnitude)) {
@@ -68,7 +69,8 @@ inline int sure_sign_of_minor(double minor, double m_p, double m_q) {
   return sign_beyond(minor, side_error * m_p * m_q);
 }
 
-// Returns the sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
+// Returns the sign of (b-a) x (c-a) in the projection along `axis`, or 0 if the sign is not
+// certain.
 inline int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
   const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
   const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
@@ -88,18 +90,18 @@ inline Vector normal_and_sides(const Point& a, const Point& b, const Point& c,
   return normal;
 }
 
-// Returns whether the open segment e0e1 strictly pierces the open triangle, both at rest: its ends
-// are strictly on opposite sides of the triangle's plane, and its line passes strictly inside the
-// three edges. Exact for all finite inputs.
+// Returns whether the open segment e0e1 strictly pierces the open triangle at an instant: e0 and e1
+// are strictly on opposite sides of the triangle's plane, and the line e0e1 passes strictly inside
+// the three edges. Exact for all finite inputs.
 bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 
-// Returns whether a segment strictly pierces a triangle at an instant, in doubles or floats alone.
+// Decides in doubles with proved bounds whether a segment strictly pierces a triangle at an
+// instant.
 //
-// With proved bounds: `no` and `yes` are never wrong, and `open` means that doubles cannot tell.
-// 40 ns, no allocation.
+// `no` and `yes` are never wrong, and `open` means that doubles cannot tell. 40 ns, no allocation.
 Decision bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 
-// Does the same as Number (double or float) computes it. It promises nothing.
+// Does the same in plain doubles or floats (Number), without bounds. It promises nothing.
 template <class Number>
 bool plain_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 

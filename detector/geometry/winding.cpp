@@ -1,17 +1,17 @@
 // Along a ray the winding number drops by 1 where the ray crosses a triangle in the direction of
-// its normal, and it is 0 at the ray's far end. So w(origin) is the sum, over the triangles
-// crossed, of the sign of ray . normal. If a ray meets an edge or a corner its direction is given
-// up, and the next direction is tried.
+// its normal, and it is 0 far out on the ray. So w(origin) is the sum, over the triangles crossed,
+// of the sign of ray . normal. If a ray meets an edge or a corner, the next direction is tried.
 //
-// All rays of a call have the same direction r or its opposite, so that one pass over the
-// triangles serves them all: seen along r, the surface is a plane figure, and a line can meet only
-// triangles whose boxes in that plane hold the line's point. The plane's coordinates are
+// All rays of a call have the same direction r or its opposite, so that one pass over the triangles
+// serves all rays. Projected along r, a ray is a point of a plane, and the ray can meet only
+// triangles whose projected boxes contain this point. The coordinates in the plane are
 //   u = (r1 x - r0 y) 2^-20, v = (r2 x - r0 z) 2^-20,
-// constant along r; 2^-20 keeps them finite. Rounding: with S = reach 2^-20 (X + Y + Z), reach the
-// largest |r_k| and X, Y, Z the largest coordinates, two products and a difference are off by less
-// than 2.1 u S and 2^-1074, and an origin's (2 u0 + u1 + u2) / 4 by less than 4 u S and 2^-1073
-// (two more sums and a quarter): a margin of 8 u S + 2^-1071 around the boxes rejects no triangle
-// that the line meets. The triangles that are not rejected are decided by crossing_signs.
+// which are constant along r; the factor 2^-20 keeps them finite. Rounding: let `reach` be the
+// largest |r_k|, let X, Y, Z be the largest coordinates, and let S = reach 2^-20 (X + Y + Z). Two
+// products and a difference are off by less than 2.1 u S + 2^-1074. The coordinate of a ray's
+// origin, (2 u0 + u1 + u2) / 4, has two more sums and a quarter, and is off by less than 4 u S +
+// 2^-1073. So boxes with a margin of 8 u S + 2^-1071 reject no triangle that the ray meets.
+// crossing_signs decides the triangles that are not rejected.
 
 #include "detector/geometry/winding.h"
 

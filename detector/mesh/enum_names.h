@@ -1,4 +1,4 @@
-// The list of an enum is its values, each with its name, written once beside the enum:
+// Lists the values of an enum with their names. The list is written once, beside the enum:
 //
 //   enum class Start : std::uint8_t { verified, clean, unknown };
 //   constexpr auto names_of(Start) {
@@ -6,8 +6,8 @@
 //         {{Start::verified, "verified"}, {Start::clean, "clean"}, {Start::unknown, "unknown"}});
 //   }
 //
-// Loops over the values, checks of numbers and all words for users take what they need from that
-// list. It stands in the order in which users read it.
+// Loops over the values, checks of numbers and texts for users are all made from this list. The
+// list has the order in which users read the names.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Named {
   const char* name;
 };
 
-// Any enum with such a list, in whatever namespace it stands.
+// Holds for each enum that has such a list, in any namespace.
 template <class Enum>
 concept Listed = requires {
   names_of(Enum{}).front().name;
@@ -39,7 +39,7 @@ inline constexpr auto all_values = [] {
   return values;
 }();
 
-// Returns the value with this number; nothing if there is none.
+// Returns the value with this number; nullopt if no value has it.
 template <Listed Enum>
 constexpr std::optional<Enum> from_number(std::int64_t number) {
   for (const Enum value : all_values<Enum>) {
@@ -57,7 +57,7 @@ constexpr const char* name_of(Enum value) {
   return "unknown";
 }
 
-// Returns the value with this name; nothing if there is none.
+// Returns the value with this name; nullopt if no value has it.
 template <Listed Enum>
 constexpr std::optional<Enum> from_name(std::string_view name) {
   for (const auto& row : names_of(Enum{})) {
@@ -75,7 +75,8 @@ std::string all_names() {
   return text;
 }
 
-// A call with an enum of this namespace looks for name_of here, not in the namespace around it.
+// For an enum of assay::detector, argument-dependent lookup of name_of searches only this
+// namespace, not the namespace assay around it.
 namespace detector {
 using assay::name_of;
 }

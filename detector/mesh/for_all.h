@@ -1,11 +1,12 @@
-// Loops over many things of one kind, shared out to the workers of a pace.
+// Loops over many items. Several threads (the Workers of a PacedStop) share the work.
 //
 //   for_all_paced(vertices, work_of_vertex, pace, [&](std::size_t v) { rounded[v] = round(v); });
 //
 // The bodies run in any order and at the same time, so each may write only to a place of its own.
-// If one thing has to follow another, the loop is for_each_paced (paced_stop.h). The calling
-// thread takes pieces too. It alone counts work and asks whether to stop, because the pieces of
-// the others end within microseconds.
+// If items must be done in their order, use for_each_paced (paced_stop.h). The loop is split into
+// pieces, and the calling thread works on pieces too. Only the calling thread counts work and calls
+// the stop function; the other threads end within microseconds after it, when their pieces are
+// done.
 #pragma once
 
 #include <atomic>
@@ -18,9 +19,10 @@
 
 namespace assay::detector {
 
-// How many items make a piece: about 10 us of work. Fewer items are not worth sharing out.
+// The number of items in a piece: about 10 us of work. The calling thread does a loop of fewer
+// items alone.
 inline constexpr std::size_t shared_piece = 4096;
-// The same for rows of positions that are only read or copied.
+// The number of items in a piece if they are rows of positions that are only read or copied.
 inline constexpr std::size_t rows_of_piece = 32'768;
 
 inline bool has_workers(const PacedStop* pace) {
@@ -28,9 +30,8 @@ inline bool has_workers(const PacedStop* pace) {
 }
 
 // Calls run(begin, end, lane) for pieces of at most `most` items. `run` returns the work that its
-// piece took, so this is for loops whose work is known only when it is done. Returns false if the
-// stop function ended the loop. Without a pace it never ends early, and the calling thread does it
-// all.
+// piece took, so the work need not be known before. Returns false if the stop function ended the
+// loop. If `pace` is null the loop never ends early, and the calling thread makes all calls.
 template <class Run>
 bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run run) {
   if (!has_workers(pace) || count <= most) {
@@ -50,7 +51,7 @@ bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run r
   return !pace->stopped();
 }
 
-// Does the same for items that cost work_of_each each; run returns nothing.
+// Does the same if each item takes work_of_each of work. Here `run` returns nothing.
 template <class Run>
 bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
                     PacedStop* pace, Run run) {
@@ -61,8 +62,8 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
                          });
 }
 
-// Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. Returns false if the stop
-// function ended the loop.
+// Calls body(i) for i = 0 .. count - 1; each call takes work_of_each of work. Returns false if the
+// stop function ended the loop.
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -75,16 +76,16 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pac
   return for_all_paced(count, work_of_each, &pace, body);
 }
 
-// Starts from `zero` in each lane, calls add(sum, i) for all i, and puts the sums of the lanes
-// together with join(sum, sum). REQUIRES a sum that does not depend on the order, so not one of
-// doubles.
+// Returns a sum over all items. Each lane starts from `zero` and calls add(sum, i) for its items i;
+// join(sum, sum) then adds up the lanes. REQUIRES a sum that does not depend on the order of its
+// terms (a sum of doubles depends on it).
 template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
   std::vector<Sum> of_lanes(has_workers(pace) ? pace->workers()->count() : 1, zero);
   for_all_pieces(count, shared_piece, work_of_each, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
-                   // A copy, because adding in place, in memory and beside other lanes, is slow.
+                   // Adds to a copy: adding in memory, beside the sums of other lanes, is slow.
                    Sum sum = of_lanes[lane];
                    for (; begin < end; ++begin) add(sum, begin);
                    of_lanes[lane] = sum;
@@ -94,9 +95,9 @@ Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace,
   return sum;
 }
 
-// Lists the items 0 .. items - 1 by row, ascending in each row. rows_of(item) gives the rows that
-// the item is in. Each worker has rows of its own, and looks at all items for them. Returns false
-// if the pace was stopped.
+// Lists, for each row, the items of 0 .. items - 1 that are in this row, ascending. rows_of(item)
+// gives the rows that an item is in. Each thread fills rows of its own, and looks at all items.
+// Returns false if the pace was stopped.
 template <class RowsOf>
 bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence& lists,
                  PacedStop& pace) {
@@ -121,7 +122,7 @@ bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence&
     return true;
   };
   // The items of row r are counted at place r + 2. After summing up, place r + 1 says where the
-  // next item of row r goes. After the last item, this is where row r + 1 begins.
+  // next item of row r goes. When all items are listed, place r + 1 says where row r + 1 begins.
   auto& starts = lists.starts;
   starts.assign(rows + 2, 0);
   if (!for_all_in_rows([&](std::int32_t, std::size_t row) { ++starts[row + 2]; })) return false;

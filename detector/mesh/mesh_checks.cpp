@@ -41,7 +41,7 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
   if (triangles.rows() > most_triangles || vertex_count > most_vertices) {
     return Problem{InputError::mesh_too_large,
                    "the mesh has " + std::to_string(triangles.rows()) + " triangles and " +
-                       std::to_string(vertex_count) + " vertices; the most are " +
+                       std::to_string(vertex_count) + " vertices; the limits are " +
                        std::to_string(most_triangles) + " and " + std::to_string(most_vertices)};
   }
   std::optional<Eigen::Index> repeated;
@@ -49,9 +49,9 @@ std::optional<Problem> check_corners(const TrianglesView& triangles, Eigen::Inde
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t v = triangles(t, corner);
       if (v < 0 || v >= vertex_count) {
-        return Problem{InputError::index_out_of_range, at_triangle(t) + " names vertex " +
-                                                           std::to_string(v) + " of " +
-                                                           std::to_string(vertex_count)};
+        return Problem{InputError::index_out_of_range,
+                       at_triangle(t) + " names vertex " + std::to_string(v) +
+                           ", but the mesh has " + std::to_string(vertex_count) + " vertices"};
       }
     }
     const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
@@ -100,8 +100,8 @@ std::optional<Problem> check_repeated(const TrianglesView& triangles, Eigen::Ind
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count) {
   if (positions.rows() != vertex_count) {
     return Problem{InputError::wrong_frame_size,
-                   "positions have " + std::to_string(positions.rows()) + " rows, the mesh has " +
-                       std::to_string(vertex_count) + " vertices"};
+                   "positions have " + std::to_string(positions.rows()) +
+                       " rows, but the mesh has " + std::to_string(vertex_count) + " vertices"};
   }
   const bool packed = positions.outerStride() == 3;
   if (packed && all_finite(positions.data(), static_cast<std::size_t>(positions.size()))) {
@@ -126,7 +126,8 @@ Problem wrong_relation(std::string message) {
 
 Problem out_of_range(const char* list, std::int32_t index, Eigen::Index count) {
   return {InputError::index_out_of_range,
-          std::string(list) + " names " + std::to_string(index) + " of " + std::to_string(count)};
+          std::string(list) + " names number " + std::to_string(index) +
+              ", but the numbers go from 0 to " + std::to_string(count - 1)};
 }
 
 std::optional<Problem> check_bodies(const CountedPairs& counted, const TrianglesView& triangles,
@@ -135,7 +136,7 @@ std::optional<Problem> check_bodies(const CountedPairs& counted, const Triangles
   if (!body.empty() && static_cast<Eigen::Index>(body.size()) != vertex_count) {
     return Problem{InputError::wrong_frame_size,
                    "bodies are given for " + std::to_string(body.size()) +
-                       " vertices, the mesh has " + std::to_string(vertex_count)};
+                       " vertices, but the mesh has " + std::to_string(vertex_count) + " vertices"};
   }
   std::int32_t bodies = 1;
   for (const auto b : body) {
@@ -150,7 +151,7 @@ std::optional<Problem> check_bodies(const CountedPairs& counted, const Triangles
   for (Eigen::Index t = 0; !body.empty() && t < triangles.rows(); ++t) {
     const auto a = body[at(triangles(t, 0))];
     if (a == body[at(triangles(t, 1))] && a == body[at(triangles(t, 2))]) continue;
-    return Problem{InputError::triangle_of_two_bodies, at_triangle(t) + " is of two bodies"};
+    return Problem{InputError::triangle_of_two_bodies, at_triangle(t) + " belongs to two bodies"};
   }
   return std::nullopt;
 }
@@ -163,7 +164,7 @@ std::optional<Problem> check_rest(const CountedPairs& counted, Eigen::Index vert
   if (static_cast<Eigen::Index>(counted.rest.size()) != vertex_count) {
     return Problem{InputError::wrong_frame_size,
                    "places at rest are given for " + std::to_string(counted.rest.size()) +
-                       " vertices, the mesh has " + std::to_string(vertex_count)};
+                       " vertices, but the mesh has " + std::to_string(vertex_count) + " vertices"};
   }
   for (std::size_t v = 0; v < counted.rest.size(); ++v) {
     const Point& x = counted.rest[v];
@@ -207,8 +208,8 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "triangle pairs are listed at level features"
-                                      : "feature pairs are listed at level triangles");
+    return wrong_relation(of_features ? "triangle pairs are listed, but the level is features"
+                                      : "feature pairs are listed, but the level is triangles");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {
@@ -231,7 +232,7 @@ std::optional<Problem> check_counted_pairs(const CountedPairs& counted,
                                            const TrianglesView& triangles,
                                            Eigen::Index vertex_count) {
   if (auto problem = check_bodies(counted, triangles, vertex_count)) return problem;
-  if (counted.rings < 0) return wrong_relation("there are fewer than 0 rings");
+  if (counted.rings < 0) return wrong_relation("the number of rings is negative");
   if (auto problem = check_rest(counted, vertex_count)) return problem;
   return check_lists(counted, triangles, vertex_count);
 }

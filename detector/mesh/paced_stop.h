@@ -1,11 +1,11 @@
-// Asks a stop function once in each interval of work: often enough to end in time, and so seldom
-// that asking costs next to nothing.
+// Calls a stop function once in each interval of work: often enough to stop in time, and so seldom
+// that the calls cost next to nothing.
 //
 // The unit of work is the cost of a box test, about 5 ns. Callers count their work roughly. A stop
-// function may ask the system how much memory there is, which takes 10 us. Once it has returned
-// true it is not asked again. The result of stopped work must not be used:
+// function can take 10 us, for example if it asks the system how much memory is used. Once a stop
+// function has returned true it is not called again. The result of stopped work must not be used:
 //
-//   PacedStop pace(stop);  // a StopFunction, which has to outlive it
+//   PacedStop pace(stop);  // `stop` is a StopFunction that must outlive `pace`
 //   const Topology mesh = make_topology(triangles, positions.rows(), pace);
 //   if (!pace.stopped()) use(mesh);
 #pragma once
@@ -27,27 +27,27 @@ inline const StopFunction never_stops;
 
 class PacedStop {
  public:
-  // About a millisecond of work. That is a tenth of the time by which a stop may be late, because
-  // work is counted roughly.
+  // About a millisecond of work. A stop may come ten milliseconds late; the interval is a tenth of
+  // that, because work is counted roughly.
   static constexpr std::uint64_t usual_interval = 200'000;
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
-  // The same, but it also ends once more than `most` work was done.
+  // Stops also when more than `most` work was done.
   PacedStop(const StopFunction& stop, std::uint64_t interval, double most)
       : stop_(stop), interval_(interval), most_(most) {}
-  // Serves work that the workers share (for_all.h). One thread asks for all of them.
+  // Serves work that `workers` share (for_all.h). Only the calling thread calls the stop function.
   PacedStop(const StopFunction& stop, const Workers& workers)
       : stop_(stop), workers_(&workers), interval_(usual_interval) {}
 
-  // Adds `work` to what was done, and says whether to end. It asks the stop function if an
-  // interval of work was done since it last asked.
+  // Adds `work` to the work that was done, and returns whether to stop. Calls the stop function if
+  // an interval of work was done since its last call.
   bool after(std::uint64_t work) {
     if (stopped_) return true;
     done_ += work;
     return done_ >= interval_ && now();
   }
-  // Asks the stop function at once, however little work was done, and says whether to end.
+  // Calls the stop function at once, however little work was done, and returns whether to stop.
   bool now() {
     spent_ += std::exchange(done_, 0);
     return stopped_ = stopped_ || static_cast<double>(spent_) > most_ || (stop_ && stop_());
@@ -56,7 +56,7 @@ class PacedStop {
   double spent() const { return static_cast<double>(spent_ + done_); }
   bool stopped() const { return stopped_; }
 
-  // Returns a pace with the same workers that asks nobody and is never stopped.
+  // Returns a pace with the same workers and without a stop function, so it is never stopped.
   PacedStop unasked() const {
     PacedStop pace(never_stops, usual_interval);
     pace.workers_ = workers_;
@@ -64,7 +64,7 @@ class PacedStop {
   }
 
   const StopFunction& stop() const { return stop_; }
-  const Workers* workers() const { return workers_; }  // null: one thread does it all
+  const Workers* workers() const { return workers_; }  // null: one thread does all work
 
  private:
   const StopFunction& stop_;
@@ -75,7 +75,7 @@ class PacedStop {
 };
 
 // Calls body(i) for i = 0 .. count - 1, and counts work_of_each for each call. The loop runs in
-// pieces, and the pace is asked only between pieces, so that asking does not slow the body down.
+// pieces. Work is counted only between pieces, so that counting does not slow the loop down.
 // Returns false if the pace was stopped after some piece. Without a pace (null) all calls are made.
 template <class Body>
 bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {

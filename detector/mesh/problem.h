@@ -15,7 +15,8 @@
 
 namespace assay::detector {
 
-// Numbers are for ever (assay_builtin_detector.h). 11 was an error that no longer exists.
+// An error never changes its number, because users of assay_builtin_detector.h see the numbers.
+// Number 11 was an error that no longer exists.
 enum class InputError : std::uint8_t {
   no_triangles = 1,             // an empty mesh has no self-collision to detect
   index_out_of_range = 2,       // a triangle names a vertex that does not exist
@@ -28,11 +29,11 @@ enum class InputError : std::uint8_t {
   foreign_state = 9,            // restore() with the state of another mesh or culling
   damaged_state = 10,           // restore() with a state that contradicts its mesh
   mesh_too_large = 12,          // more triangles or vertices than the detector's indices can number
-  stopped = 13,                 // the stop function asked for an end before there was a detector
-  triangle_of_two_bodies = 14,  // its vertices are of two bodies (counted_pairs.h)
-  wrong_relation = 15,          // CountedPairs holds something impossible
-  wrong_separation = 16,        // not a distance, or other options exclude it
-  proves_nothing = 17,          // a limit is asked for in an arithmetic that promises nothing
+  stopped = 13,                 // the stop function returned true before the detector was made
+  triangle_of_two_bodies = 14,  // a triangle has vertices of two bodies (counted_pairs.h)
+  wrong_relation = 15,          // CountedPairs has a value that is impossible
+  wrong_separation = 16,        // the separation is not a distance, or other options exclude one
+  proves_nothing = 17,          // limit() is called with an arithmetic that promises nothing
   wrong_bound = 18,             // `until` of first_contact is not in [0,1]
 };
 constexpr auto names_of(InputError) {

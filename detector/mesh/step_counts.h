@@ -1,5 +1,5 @@
 // Counts how much each stage of a step had to do. Counts do not depend on the machine; times do.
-// Both stand in the result of a step:
+// The result of a step has both:
 //
 //   const ContactRungCounts& rungs = result.counts.narrow.rungs;
 //   use(rungs.by_integers(), rungs.total());  // feature pairs
@@ -39,9 +39,10 @@ struct ContactRungCounts {
 
 struct SearchCounts {
   std::uint64_t box_tests = 0;
-  // How often the search counted those children of a node that may hold a partner.
+  // How often the search counted the children of a node that can contain a partner for the other
+  // node of the pair.
   std::uint64_t child_counts = 0;
-  // Nodes with one such child only: the search went on to this child without a box test.
+  // How often there was only one such child: the search then went on with it without a box test.
   std::uint64_t skipped = 0;
   std::uint64_t contour_tests = 0;  // contour tests of patches that have a normal cone
   std::uint64_t candidate_pairs = 0;
@@ -63,9 +64,10 @@ struct MarkingCounts {
 };
 
 struct NarrowCounts {
-  std::uint64_t elementary_tests = 0;  // feature pairs that the axis rung left open, each once
-  // Feature pairs by the rung that decided. `axis` counts feature pairs whose boxes met only
-  // because boxes are rounded to floats.
+  // Feature pairs that the axis rung did not decide, each counted once.
+  std::uint64_t elementary_tests = 0;
+  // For each rung, the number of feature pairs that it decided. `axis` decides only feature pairs
+  // whose boxes meet because boxes are rounded to floats.
   ContactRungCounts rungs;
 
   NarrowCounts& operator+=(const NarrowCounts& other) {
@@ -76,8 +78,8 @@ struct NarrowCounts {
 };
 
 struct ViewCounts {
-  std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
-  std::uint64_t open = 0;  // triangles whose sign bounded arithmetic cannot tell: taken for zero
+  std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles whose sign this rung decided
+  std::uint64_t open = 0;  // triangles whose sign bounded arithmetic cannot tell: they are in V0
 
   ViewCounts& operator+=(const ViewCounts& other) {
     lanes += other.lanes;
@@ -90,14 +92,14 @@ struct ViewCounts {
 
 struct GhostCounts {
   std::uint64_t box_tests = 0;
-  std::uint64_t pairs = 0;             // ghosts and triangles with moving boxes that are not apart
-  std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order left open
+  std::uint64_t pairs = 0;             // pairs of a ghost and a triangle whose moving boxes meet
+  std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order did not decide
   // The triangles of these pairs, each counted once; only the sweep of the step itself counts them.
   std::uint64_t near_triangles = 0;
 
   // Returns the work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested
   // by axis order, and up to 6 orientations are computed. An elementary test of a feature pair that
-  // axis order left open takes 0.1 to 2 us.
+  // axis order did not decide takes 0.1 to 2 us.
   std::uint64_t work() const { return box_tests + 32 * pairs + 64 * elementary_tests; }
 
   GhostCounts& operator+=(const GhostCounts& other) {
@@ -109,14 +111,16 @@ struct GhostCounts {
   }
 };
 
-// The release of dirty triangles at the start of a step that goes on from a committed one (L9).
+// The release of dirty triangles at the start of a step that begins where the last committed step
+// ended (L9).
 struct ReleaseCounts {
   std::uint64_t in_doubt = 0;  // triangles that L8 does not show to be clean
   std::uint64_t released = 0;  // triangles that L9 shows to be clean again
-  // Pairs tested at the start: pairs that met before, and pairs of a triangle and a ghost near it.
+  // Pairs tested at t=0: pairs of triangles that met in the step before, and pairs of a triangle
+  // and a ghost near it.
   std::uint64_t pairs = 0;
   std::uint64_t elementary_tests = 0;
-  std::uint64_t winding_numbers = 0;  // computed for pieces
+  std::uint64_t winding_numbers = 0;  // computed for pieces of the mesh (L9)
 };
 
 struct StepCounts {

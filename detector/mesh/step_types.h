@@ -1,5 +1,5 @@
-// Plain data of one step: features, contacts, view primitives, answers. No arithmetic. A step is
-// viewed from a place, and its contacts tell which vertices meet:
+// Plain data of one step: features, contacts, view primitives, answers. No arithmetic. This
+// evaluates a step that is viewed from the origin, and reads which vertices meet a face:
 //
 //   const ViewPrimitive origin = {{{0, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
 //   const StepResult result = detector.evaluate(x_t0, x_t1, {&origin, 1});
@@ -19,7 +19,7 @@ namespace assay::detector {
 // The numbers that a step is computed in. detector/README.md says what each arithmetic promises.
 enum class Arithmetic : std::uint8_t {
   exact,             // doubles with proved bounds, integers where these cannot tell: never wrong
-  bounded,           // doubles with proved bounds alone: what they cannot tell counts as contact
+  bounded,           // doubles with proved bounds alone: undecided pairs count as contacts
   double_precision,  // doubles with bounds 0: promises nothing, made to be measured
   single_precision,  // floats with bounds 0, coordinates rounded to float first: promises nothing
 };
@@ -56,18 +56,20 @@ struct TimeEnclosure {
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
 };
 
-// The latest time of contacts that are looked for; until == 1 leaves out none. Unique enclosures
-// tell whether a time is later. With other enclosures, a contact that may be earlier is kept.
+// A bound on the times of contacts that are looked for: later contacts are left out. The bound 1
+// leaves out none. Unique enclosures tell exactly whether a time is later than `until`. Other
+// enclosures may not tell; then the contact is not left out.
 struct TimeBound {
   double until = 1;
-  bool has_unique_times = true;  // as in exact arithmetic
+  bool has_unique_times = true;  // true in exact arithmetic
   bool leaves_out(const TimeEnclosure& time) const {
     return (has_unique_times ? time.hi : time.lo) > until;
   }
 };
 
-// A distance: the exact sum of two doubles, such as the offsets of two bodies. The second may be
-// negative, for a distance just below a double. REQUIRES both finite, and first and sum >= 0.
+// A distance: the exact sum of two doubles, such as the offsets of two bodies. `second` may be
+// negative, so that the sum can lie just below a double. REQUIRES that both are finite, and that
+// `first` and the sum are >= 0.
 struct Separation {
   double first = 0, second = 0;
   friend bool operator==(const Separation&, const Separation&) = default;
@@ -92,8 +94,8 @@ constexpr auto names_of(FeatureKind) {
 //   vertex_face    v, f0 f1 f2
 //   edge_edge      a0 a1, b0 b1
 //   piercing       e0 e1, f0 f1 f2; the edge goes through the triangle at t=0
-//   same_vertices  f0 f1 f2 of two triangles with the same vertices; the oracle alone has these
-// Unused places hold -1.
+//   same_vertices  f0 f1 f2 of two triangles with the same vertices; only the oracle reports it
+// Unused elements of `vertices` are -1.
 struct Feature {
   FeatureKind kind = FeatureKind::vertex_face;
   std::array<std::int32_t, 5> vertices = {-1, -1, -1, -1, -1};
@@ -116,7 +118,7 @@ constexpr auto names_of(Answer) {
 }
 
 // The answer of a method to a question that it may be unable to decide. `no` and `yes` are proved.
-// `open` says that this method cannot tell; another one may.
+// `open` means that this method cannot tell; another method may be able to.
 enum class Decision : std::uint8_t { no, yes, open };
 
 // Sign of a triangle over the whole step, seen from the view primitive (L1, L2).
@@ -129,15 +131,15 @@ struct ViewPrimitive {
   bool is_point() const { return q0.t0 == q1.t0 && q0.t1 == q1.t1; }
 };
 
-// Asked now and then during long work. If it returns true the work stops and the answer is
-// `undecided`. It may be empty: then nothing stops the work.
+// A function that is called now and then during long work. If it returns true, the work stops and
+// the answer is `undecided`. An empty function never stops the work.
 using StopFunction = std::function<bool()>;
 
 // The common form of the two elementary queries: four moving points in two groups.
 //
 // The groups of a vertex-face query are {0} | {1,2,3}, those of an edge-edge query {0,1} | {2,3}.
-// The features are the closed convex hulls of the groups, whatever these have become: a zero-area
-// triangle is the segment or point that is left of it. A contact at t means that the two hulls
+// The features are the closed convex hulls of the groups, also where these are degenerate: the hull
+// of a zero-area triangle is a segment or a point. A contact at t means that the two hulls
 // meet at t.
 struct FourPoints {
   std::array<MovingPoint, 4> points;

@@ -13,19 +13,20 @@
 
 namespace assay::detector {
 
-// The unmatched edges of a mesh as closed walks. A mesh without unmatched edges is a cycle and has
-// no such walks.
+// The unmatched edges of a mesh form closed walks, its boundary loops. A mesh without unmatched
+// edges is a cycle and has no loops.
 //
-// The vertices of a closed walk in order; the last edge leads from the last vertex to the first. A
-// vertex may occur more than once.
+// A loop is the list of its vertices in order; its last edge leads from the last vertex to the
+// first. A vertex can occur more than once.
 using Loop = std::vector<std::int32_t>;
 
-// Splits the unmatched edges into closed walks; there are none for a cycle. If the triangles use
-// the directed edge (u,v) k times more often than (v,u), it is unmatched k times. Whatever the
+// Returns closed walks into which the unmatched edges are split; none for a cycle. If the triangles
+// use the directed edge (u,v) k times more often than (v,u), it is unmatched k times. Whatever the
 // triangles are, as many unmatched edges enter a vertex as leave it, so a split into closed walks
 // exists. Any split would do (L12, detector/LAWS.md). The split made here is the same on every
-// machine: a walk starts with the lowest unused unmatched edge, and from each vertex it takes the
-// lowest unused edge that leaves it, until none is left there. O(N + M).
+// machine: a walk starts with the lowest unused unmatched edge, and from each vertex it goes along
+// the lowest unused edge that leaves the vertex. It ends at a vertex that no unused edge leaves.
+// O(N + M).
 std::vector<Loop> boundary_loops(const Topology& mesh);
 // Does the same with a pace. If `pace` was stopped the result is of no use.
 std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace);
@@ -37,9 +38,9 @@ struct Surface {
   std::vector<Loop> loops;  // the boundary loops of M; none for a cycle
   // S, or empty if there are no loops. First come the mesh's triangles, then for each loop in turn
   // one ghost (v, u, apex) for each of its edges (u, v). The apex of loop l is vertex first_apex +
-  // l. Components are those of M, in the same order; the ghosts of each stand after its own
-  // triangles. A detector whose culling has no views needs no ghosts, and makes them when its
-  // surface is asked for.
+  // l. Its components are the components of M, in the same order; in each, the ghosts come after
+  // the triangles of M. A detector whose culling has no views makes the ghosts only when
+  // Detector::surface is called.
   Topology with_ghosts;
   std::int32_t first_apex = 0;  // the number of the mesh's vertices
 

@@ -1,5 +1,5 @@
-// Adjacency of a triangle mesh: edges, incidences, components, and which components are cycles. It
-// is of use without a detector too:
+// Adjacency of a triangle mesh: edges, incidences, components, and which components are cycles.
+// This needs no detector:
 //
 //   const Topology mesh = make_topology(triangles, positions.rows());
 //   for (const Component& component : mesh.components) use(component.is_cycle);
@@ -31,14 +31,14 @@ struct Incidence {
 struct Component {
   LargeArray<std::int32_t> triangles;  // ascending
   LargeArray<std::int32_t> vertices;   // ascending
-  // True if every directed edge (u,v) occurs as often as (v,u). Only then do L3 to L5 hold as they
-  // stand. 4 or 6 triangles at an edge are fine if they match in this way.
+  // True if every directed edge (u,v) occurs as often as (v,u). Other components need ghosts for L3
+  // to L5. An edge of a cycle can have 4 or 6 triangles, if half of them pass it each way.
   bool is_cycle = false;
 };
 
-// An edge that its triangles pass more often in one direction than in the other. Surplus: the
-// number of triangles that pass it from its lower vertex to the higher one, less the number of
-// those that pass it the other way.
+// An edge that its triangles pass more often in one direction than in the other. `surplus` is a -
+// b, where a triangles pass the edge from its lower vertex to its higher vertex, and b triangles
+// pass it the other way.
 struct UnmatchedEdge {
   std::int32_t edge, surplus;
 };
@@ -51,8 +51,8 @@ struct Topology {
   std::vector<UnmatchedEdge> unmatched;  // ascending by edge
   std::vector<Component> components;     // ascending by their lowest vertices
   std::vector<std::int32_t> component_of_triangle;
-  // If false, no two triangles have the same three vertices: every edge has one triangle, or two
-  // that differ in their third vertex.
+  // If false, no two triangles have the same three vertices. It is false only if every edge has one
+  // triangle, or two that differ in their third vertex.
   bool may_repeat_triangles = false;
 };
 

@@ -1,7 +1,8 @@
 // Plain data that every room shares: positions, triangles, moving points. No arithmetic.
 //
-// Notation: a step runs over t in [0,1]; `_t0`, `_t1` are its two ends and every vertex moves
-// linearly between them. All coordinates are doubles taken as exact numbers, in the user's units.
+// Notation: a step runs over t in [0,1]. Names with `_t0` are values at t=0, names with `_t1`
+// values at t=1. Every vertex moves linearly in between. All coordinates are doubles taken as exact
+// numbers, in the user's units.
 // A program's own arrays are read where they lie:
 //
 //   const std::vector<double> coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -37,13 +38,13 @@ inline Point point_of(const PositionsView& x, std::int32_t vertex) {
 }
 
 // The vertices of a mesh over one step. Both views are N x 3 and have the same number of rows: row
-// v is vertex v, at t=0 in one view and at t=1 in the other. Where a step has ghosts, the rows of
-// their apexes follow those of the mesh.
+// v is vertex v, at t=0 in one view and at t=1 in the other. If a step has ghosts, the rows of
+// their apexes follow the rows of the mesh.
 //
-// It refers to the caller's arrays and copies nothing, so the arrays must outlive it. A copy of it
-// is a few pointers to the same arrays. One case needs care: a view that was made of an
-// expression, such as the mean of two meshes, holds the values of that expression itself. Copies
-// of the view refer to these values, so the first view must outlive its copies.
+// A SteppedMesh refers to the caller's arrays and copies nothing, so the arrays must outlive it. A
+// copy of a SteppedMesh holds pointers to the same arrays. One case needs care: a view that was
+// made of an expression, such as the mean of two meshes, holds the values of that expression
+// itself. Copies of the view refer to these values, so the first view must outlive its copies.
 struct SteppedMesh {
   PositionsView vertices_t0, vertices_t1;
 
@@ -51,7 +52,7 @@ struct SteppedMesh {
   Point start(std::int32_t vertex) const { return point_of(vertices_t0, vertex); }
   Point end(std::int32_t vertex) const { return point_of(vertices_t1, vertex); }
   MovingPoint path(std::int32_t vertex) const { return {start(vertex), end(vertex)}; }
-  // Returns whether both ends are one array: nothing moves.
+  // Returns whether both views are of the same array, so that nothing moves.
   bool is_at_rest() const {
     return vertices_t0.data() == vertices_t1.data() && vertices_t0.rows() == vertices_t1.rows() &&
            vertices_t0.outerStride() == vertices_t1.outerStride();

@@ -1,9 +1,10 @@
-// The threads of one detector, and the state of the processor in which they compute. They work on
-// the pieces of a loop at the same time; everything else is done by the calling thread.
+// The threads of one detector, and the state of the processor in which they compute. The threads
+// work on the pieces of a loop at the same time; the calling thread does everything else.
 //
-// A piece writes only to places of its own or of its lane, and the results of lanes are put
-// together in a way that does not depend on their order. So a result depends neither on the number
-// of threads nor on how the work was shared. A loop returns when all of its pieces are done.
+// A piece writes only to places of its own, or to places of its lane (LoopPiece). The results of
+// the lanes are combined in a way that does not depend on the order of the lanes. So a result
+// depends neither on the number of threads nor on which thread worked on which piece. A loop
+// returns when all of its pieces are done.
 #pragma once
 
 #include <atomic>
@@ -19,7 +20,8 @@
 
 namespace assay::detector {
 
-// The threads themselves. They are those of oneTBB; only thread_arena.cpp names that library.
+// Runs calls in several threads. The threads are those of oneTBB; only thread_arena.cpp uses this
+// library.
 class ThreadArena {
  public:
   // Returns null if the library was built without oneTBB.
@@ -30,10 +32,10 @@ class ThreadArena {
     virtual ~Work() = default;
     virtual void run(std::size_t i, std::size_t lane) const = 0;
   };
-  // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all
-  // calls have. No two calls run in one lane at the same time. The calling thread works too, and
-  // is one of the threads. If calls throw, the exception of one of them is thrown again, and calls
-  // that had not begun by then may be left out.
+  // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all calls
+  // have returned. No two calls run in one lane at the same time. The calling thread is one of the
+  // threads, and makes calls too. If calls throw, throws the exception of one of them; calls that
+  // have not begun by then may be left out.
   virtual void run(std::size_t count, const Work& work) = 0;
 };
 
@@ -45,11 +47,11 @@ struct LoopPiece {
 
 class Workers {
  public:
-  // 0 means as many threads as the machine has. In a library built without oneTBB one thread does
-  // everything.
+  // 0 threads means one for each processor of the machine. In a library built without oneTBB, one
+  // thread does everything.
   explicit Workers(std::uint32_t threads = 1);
-  // Uses this arena, which has `lanes` lanes. It may be one that measures, for example. REQUIRES an
-  // arena, and two lanes or more.
+  // Uses this arena, which has `lanes` lanes; it can be an arena that measures, for example.
+  // REQUIRES that `arena` is not null, and lanes >= 2.
   Workers(std::unique_ptr<ThreadArena> arena, std::size_t lanes);
 
   // Returns how many pieces may be worked on at once, which is also the number of lanes.
@@ -67,8 +69,9 @@ class Workers {
   std::unique_ptr<ThreadArena> arena_;  // null if the calling thread works alone
 };
 
-// A user's stop function made fit for several threads. Only the thread that makes this object ever
-// calls it, so it need not be prepared for other threads; they all hear of its answer.
+// Makes a user's stop function usable in several threads. Only the thread that makes this object
+// calls the user's function, so that function need not be thread-safe. All threads learn what it
+// has returned.
 class SharedStop {
  public:
   // `stop` must outlive this object, and this object must outlive what function() returns.
@@ -76,7 +79,7 @@ class SharedStop {
       : stop_(stop), caller_(std::this_thread::get_id()) {}
 
   // Returns a stop function for all threads. It returns true as soon as the user's function has
-  // returned true, and it is empty if the user's function is.
+  // returned true, and it is empty if the user's function is empty.
   std::function<bool()> function() {
     if (!stop_) return {};
     return [this] {
@@ -93,12 +96,12 @@ class SharedStop {
   std::atomic<bool> is_stopped_ = false;
 };
 
-// The state of the processor that every bound and sign of this room rests on: doubles round to
-// nearest, no denormal number is flushed or read as zero, and nothing traps.
+// Sets the state of the processor that every bound and sign of the detector depends on: doubles
+// round to nearest, no denormal number is flushed or read as zero, and nothing traps.
 //
-// A library that was built for speed changes this state for the thread that loads it and for all
-// threads that this one starts. So each call of the detector that computes begins with one of
-// these objects, and so does each piece of work in another thread.
+// A library that was built for speed changes this state in the thread that loads the library, and
+// in all threads that this thread starts. So each function of the detector that computes makes a
+// ProcessorState first, and each piece of a loop in another thread does so too.
 class ProcessorState {
  public:
 #if defined(__SSE2__)
@@ -106,16 +109,16 @@ class ProcessorState {
 #else
   using State = std::fenv_t;
 #endif
-  // Takes a few ns where the state is right already.
+  // Takes a few ns if the state is set already.
   ProcessorState();
   // Puts back the state that the caller had.
   ~ProcessorState();
   ProcessorState(const ProcessorState&) = delete;
   ProcessorState& operator=(const ProcessorState&) = delete;
 
-  // Returns a function that calls `function` in the state of the caller; it is empty if `function`
-  // is. Both this object and `function` must outlive the result. Whatever `function` does to the
-  // state is undone.
+  // Returns a function that calls `function` in the state of the caller, and then sets this state
+  // again, even if `function` has changed it. The result is empty if `function` is empty. This
+  // object and `function` must outlive the result.
   std::function<bool()> in_callers_state(const std::function<bool()>& function) const;
 
  private:

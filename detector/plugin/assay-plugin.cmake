@@ -1,9 +1,9 @@
 # assay_add_plugin(NAME SOURCE...) makes the shared library NAME.so with one symbol: a detector that
-# `assay --detector` loads. Nothing of Assay is linked to it. It needs only the interface's headers of
-# the installed package, so find_package(assay COMPONENTS plugin) is enough and asks for no library.
+# `assay --detector` loads. No library of Assay is linked to it. It needs only the headers of the plug-in
+# interface from the installed package, so find_package(assay COMPONENTS plugin) is enough.
 function(assay_add_plugin name)
   if(NOT ARGN)
-    message(FATAL_ERROR "assay_add_plugin(${name}): it has no sources")
+    message(FATAL_ERROR "assay_add_plugin(${name}): no sources are given")
   endif()
   add_library(${name} MODULE ${ARGN})
   set_target_properties(${name} PROPERTIES PREFIX ""

@@ -68,10 +68,10 @@ const char* read_options(const assay_builtin_options& input, Options& options) {
   constexpr std::size_t size_before_separation = offsetof(assay_builtin_options, separation);
   if (input.struct_size != sizeof input && input.struct_size != size_before_separation)
     return "struct_size is not the size of the options";
-  if (!choose(options.culling, input.culling)) return "no such culling";
-  if (!choose(options.start, input.start)) return "no such start";
-  if (!choose(options.pairs, input.pairs)) return "no such choice of pairs";
-  if (!choose(options.arithmetic, input.arithmetic)) return "no such arithmetic";
+  if (!choose(options.culling, input.culling)) return "culling has an unknown value";
+  if (!choose(options.start, input.start)) return "start has an unknown value";
+  if (!choose(options.pairs, input.pairs)) return "pairs has an unknown value";
+  if (!choose(options.arithmetic, input.arithmetic)) return "arithmetic has an unknown value";
   options.threads = input.threads;
   if (input.struct_size == sizeof input) options.separation = input.separation;
   return nullptr;
@@ -250,7 +250,7 @@ std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, co
   return guarded(error, [&]() -> std::int32_t {
     if (primitive_count > std::max<std::uint64_t>(1, handle->detector.topology().components.size()))
       return refuse(error, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
-                    "more view primitives than components");
+                    "there are more view primitives than components");
     std::vector<ViewPrimitive> views(static_cast<std::size_t>(primitive_count));
     if (!views.empty()) std::memcpy(views.data(), primitives, views.size() * sizeof views[0]);
     handle->evaluate(x_t0, x_t1, views, stop_function(stop, stop_data));

@@ -1,5 +1,5 @@
 /* The built-in detector in C. It is for programs in C, and for programs that use any detector
- * through the interface of assay_detector.h. C99 or C++; link assay::detector. Make it like this:
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector. For example:
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -7,18 +7,18 @@
  *   if (assay_builtin_create(triangles, m, positions, n, &options, &handle, &error) != ASSAY_OK)
  *     return report(error.message);
  *
- * The table that assay_builtin_detector() returns and the other functions below work on the same
- * handles. Both keep the rules on memory, threads and order of assay_detector.h. The functions do
- * what the table does, but with options and named errors.
+ * The table that assay_builtin_detector() returns and the functions of this header work on the same
+ * handles, under the rules of assay_detector.h on memory, threads and order. The functions of this
+ * header do what the table does, with options and named errors in addition.
  *
  * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
- * evaluate there is nothing to commit. `error` may be NULL. Otherwise the function fills it in;
- * with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must
- * not be NULL unless a function says that they may be.
+ * evaluate there is nothing to commit. `error` may be NULL. If it is not NULL, the function sets
+ * it: with ASSAY_OK to ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must not be
+ * NULL unless the comment of a function says that they may be NULL.
  *
- * THE PROCESSOR. Answers are the same whatever state the caller has set: flushing of denormals,
- * another rounding mode, or traps. Each call puts that state back, and stop() runs in it. */
+ * THE PROCESSOR. Answers do not depend on the state that the caller has set: flushing of denormals,
+ * rounding mode, traps. Each call restores this state when it returns, and calls stop() in it. */
 #ifndef ASSAY_BUILTIN_DETECTOR_H
 #define ASSAY_BUILTIN_DETECTOR_H
 
@@ -32,28 +32,28 @@ extern "C" {
  * is never NULL and always valid. */
 const assay_detector_api* assay_builtin_detector(void);
 
-/* The errors. A number keeps its meaning for ever. New errors get new numbers; 11 and 65 belonged
- * to errors that no longer exist. */
+/* The errors. A number never changes its meaning, and new errors get new numbers. 11 and 65 were
+ * errors that no longer exist. */
 enum {
   ASSAY_BUILTIN_NO_ERROR = 0,
   ASSAY_BUILTIN_NO_TRIANGLES = 1,          /* an empty mesh */
   ASSAY_BUILTIN_INDEX_OUT_OF_RANGE = 2,    /* a triangle names a vertex that does not exist */
   ASSAY_BUILTIN_REPEATED_INDEX = 3,        /* a triangle names one vertex twice */
   ASSAY_BUILTIN_SAME_VERTICES_TWICE = 4,   /* two triangles have the same three vertices */
-  ASSAY_BUILTIN_WRONG_FRAME_SIZE = 5,      /* (not met in C: arrays carry no size) */
+  ASSAY_BUILTIN_WRONG_FRAME_SIZE = 5,      /* (cannot occur in C: arrays have no size) */
   ASSAY_BUILTIN_NON_FINITE_COORDINATE = 6, /* NaN or infinity, also in a view primitive */
-  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* neither none, one, nor one for each component */
+  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* not 0, 1, or the number of components */
   ASSAY_BUILTIN_NOTHING_TO_COMMIT = 8,     /* no step with an answer was evaluated */
-  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* (not met in C: no state is kept there) */
-  ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* (likewise) */
+  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* (cannot occur in C: no function takes a state) */
+  ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* (cannot occur in C: no function takes a state) */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
-  ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
-  ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES = 14, /* (not met in C: create takes no relation) */
-  ASSAY_BUILTIN_WRONG_RELATION = 15,         /* (likewise) */
-  ASSAY_BUILTIN_WRONG_SEPARATION = 16,       /* no distance, or the options exclude it */
-  ASSAY_BUILTIN_PROVES_NOTHING = 17,         /* a limit is asked for in double or float */
-  ASSAY_BUILTIN_WRONG_BOUND = 18,            /* until is no time from 0 to 1 */
-  ASSAY_BUILTIN_WRONG_OPTIONS = 64,          /* an option has no such value; struct_size is wrong */
+  ASSAY_BUILTIN_STOPPED = 13,              /* (cannot occur in C: create has no stop function) */
+  ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES = 14, /* (cannot occur in C: create has no bodies) */
+  ASSAY_BUILTIN_WRONG_RELATION = 15,         /* (cannot occur in C: create has no counted pairs) */
+  ASSAY_BUILTIN_WRONG_SEPARATION = 16,       /* not a distance, or other options exclude one */
+  ASSAY_BUILTIN_PROVES_NOTHING = 17,         /* a limit with arithmetic double or float */
+  ASSAY_BUILTIN_WRONG_BOUND = 18,            /* until is not from 0 to 1 */
+  ASSAY_BUILTIN_WRONG_OPTIONS = 64,          /* a wrong value of an option, or of struct_size */
   ASSAY_BUILTIN_TOO_MANY = 66,               /* more than 2^31 - 1 triangles or vertices */
   ASSAY_BUILTIN_NO_MEMORY = 67
 };
@@ -62,7 +62,7 @@ enum {
  * number. Static text. */
 const char* assay_builtin_error_name(int32_t code);
 
-/* An error. The struct is the caller's own. */
+/* An error. The caller owns the struct. */
 typedef struct assay_builtin_error {
   int32_t code;      /* ASSAY_BUILTIN_... */
   char message[252]; /* one line for a user, cut if it does not fit; ends with 0 */
@@ -71,26 +71,26 @@ typedef struct assay_builtin_error {
 /* The values of the options. The default culling is ASSAY_CULLING_AUTO; every other option has the
  * value 0 by default. detector/README.md says what the options mean for the result. */
 enum {
-  ASSAY_CULLING_VIEW_AUTO = 0,   /* each component seen from a point or a segment, whichever sees
-                                    more; bvh in steps in which that does not pay */
-  ASSAY_CULLING_VIEW_POINT = 1,  /* each component seen from a point */
-  ASSAY_CULLING_VIEW_LINE = 2,   /* each component seen from a segment */
-  ASSAY_CULLING_NORMAL_CONE = 3, /* a tree of boxes, less patches with a normal cone and a simple
-                                    contour */
-  ASSAY_CULLING_BVH = 4,         /* a tree of boxes alone */
+  ASSAY_CULLING_VIEW_AUTO = 0,   /* VIEW_POINT or VIEW_LINE for each component; BVH in steps where
+                                    views do not pay */
+  ASSAY_CULLING_VIEW_POINT = 1,  /* each component is seen from a point */
+  ASSAY_CULLING_VIEW_LINE = 2,   /* each component is seen from a segment */
+  ASSAY_CULLING_NORMAL_CONE = 3, /* BVH less pairs within a patch that has a normal cone and a
+                                    simple contour */
+  ASSAY_CULLING_BVH = 4,         /* pairs whose boxes meet, found by a tree of boxes */
   ASSAY_CULLING_NONE = 5,        /* every pair is tested, without boxes */
-  ASSAY_CULLING_AUTO = 6         /* view_auto and normal_cone in one descent, each used only where
-                                    it is expected to pay */
+  ASSAY_CULLING_AUTO = 6         /* VIEW_AUTO and NORMAL_CONE in one descent, each used only if it
+                                    is expected to pay */
 };
 /* The triangles taken for clean at a new start. detector/LAWS.md defines clean and dirty. */
 enum {
-  ASSAY_START_VERIFIED = 0, /* the detector finds out at each new start what is clean */
-  ASSAY_START_CLEAN = 1,    /* the caller vouches that nothing is in contact and that all triangles
-                               of a component have the same layer */
-  ASSAY_START_UNKNOWN = 2   /* everything is dirty */
+  ASSAY_START_VERIFIED = 0, /* those that the detector proves clean at each new start */
+  ASSAY_START_CLEAN = 1,    /* all: the caller vouches that none is in contact, and that all of a
+                               component have the same layer */
+  ASSAY_START_UNKNOWN = 2   /* none */
 };
 enum {
-  ASSAY_PAIRS_ALL = 0,  /* the complete pair set of the step */
+  ASSAY_PAIRS_ALL = 0,  /* every pair that is in contact at some time of the step */
   ASSAY_PAIRS_FIRST = 1 /* the first contact time, and some pairs that meet by its upper end */
 };
 enum {
@@ -105,91 +105,91 @@ typedef struct assay_builtin_options {
   int32_t start;        /* ASSAY_START_... */
   int32_t pairs;        /* ASSAY_PAIRS_... */
   int32_t arithmetic;   /* ASSAY_ARITHMETIC_... */
-  uint32_t threads;     /* how many it may use; 0: as many as the machine has. The results do not
-                           depend on the number */
-  double separation;    /* 0: contacts are looked for. Above 0: pairs of triangles without a common
-                           vertex that come within this distance; culling is then bvh or none, and
-                           arithmetic exact. 0 if struct_size is too small for this member */
+  uint32_t threads;     /* the most threads that are used; 0: one for each processor of the machine.
+                           The results do not depend on it */
+  double separation;    /* 0: finds contacts. Above 0: finds pairs of triangles without a common
+                           vertex that come within this distance; then culling must be BVH or NONE,
+                           and arithmetic EXACT. 0 if struct_size is too small for this member */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
   { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 1, 0 }
 
-/* Does what the table's create does, with options (NULL: the defaults). *handle is set only with
- * ASSAY_OK. */
+/* Does what the table's create does, with options (NULL: the defaults). Sets *handle only if it
+ * returns ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const double* positions, uint64_t vertex_count,
                              const assay_builtin_options* options, assay_handle** handle,
                              assay_builtin_error* error);
 
-/* A place to view the mesh from, in place of the detector's own choice: a segment, each end with
- * its place at t = 0 and at t = 1. Equal ends are a point. It may be anywhere. */
+/* A place, anywhere, from which the mesh is viewed, instead of the detector's own choice: a segment
+ * from q0 to q1, each given at t = 0 and at t = 1, or a point if q0 and q1 are equal. */
 typedef struct assay_view_primitive {
   double q0_t0[3], q0_t1[3], q1_t0[3], q1_t1[3];
 } assay_view_primitive;
 
-/* Does what the table's evaluate does; the table's result then gives the answer. primitive_count is
- * 0 for the detector's own places, 1 for one primitive that serves all components, or the number of
- * components, with the primitives in the order of the components' lowest vertices. stop is called
- * now and then with stop_data. When it returns anything but 0, the work ends with the answer
+/* Does what the table's evaluate does; then the table's result gives the answer. primitive_count is
+ * 0 (the detector chooses the places), 1 (one primitive for all components), or the number of
+ * components (the primitives are in the order of the components' lowest vertices). stop is called
+ * now and then with stop_data. If it does not return 0, the work stops with the answer
  * ASSAY_UNDECIDED. stop may be NULL. */
 int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const double* x_t1,
                                const assay_view_primitive* primitives, uint64_t primitive_count,
                                int32_t (*stop)(void* stop_data), void* stop_data,
                                assay_builtin_error* error);
 
-/* Answers whether there is a contact by the time `until`, from 0 to 1, and which one is first.
- * Pairs are those of ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE means that there is no
- * contact in [0, until]; a contact at `until` itself counts. Nothing later is looked at, so a
- * caller that knows a contact at some time gives that time. The table's result then gives the
- * answer. The step can be committed only after until = 1. stop may be NULL. */
+/* Answers whether there is a contact by the time `until`, from 0 to 1, and which contact is first.
+ * The pairs are those of ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE means that there
+ * is no contact in [0, until]; a contact at `until` itself counts. Later contacts are not looked
+ * for, so a caller that knows a contact passes its time as `until`. The table's result then gives
+ * the answer. The step can be committed only if until is 1. stop may be NULL. */
 int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, const double* x_t1,
                                     double until, int32_t (*stop)(void* stop_data), void* stop_data,
                                     assay_builtin_error* error);
 
-/* Does what the table's limit does, rounding included. A free step has share 1. Any other step has
- * 0.95 of the first contact time, or less if rounding brings that place into contact
- * (detector/detector.h says how much; assay_builtin_limit_is_short tells). Share 0 means that the
- * mesh stays: there is a contact at the start or at every place that was tried, or stop() ended the
- * work. A commit then goes to *limit; after share 0 it is refused. stop may be NULL. */
+/* Does what the table's limit does: the way to the positions in *limit is free, rounding included.
+ * The share is 1 for a free step, else 0.95 of the first contact time, or less if the way to that
+ * place, once rounded, has a contact (see detector/detector.h). Share 0 means that the mesh stays:
+ * there is a contact at the start or on the way to every place that was tried, or stop() ended the
+ * work. A commit goes to these positions; after share 0 it is refused. stop may be NULL. */
 int32_t assay_builtin_limit(assay_handle* handle, const double* x_t0, const double* x_t1,
                             assay_limit* limit, int32_t (*stop)(void* stop_data), void* stop_data,
                             assay_builtin_error* error);
 
-/* Returns 1 if the last limit takes less than 0.93 of the first contact time, because rounding
- * brought every farther place that was tried into contact; else 0. */
+/* Returns 1 if the share of the last limit is below 0.93 of the first contact time, because the way
+ * to every farther place that was tried has, once rounded, a contact; otherwise 0. */
 int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 
-/* Where a pair of the last result meets, at the lower end of its time: detector/contact_place.h. */
+/* Where a pair of the last result meets, at the lower end of its time (contact_place.h). */
 typedef struct assay_contact_place {
   double point[3];
-  double barycentric[2][3]; /* the weights of the corners of each of the two triangles */
-  double error;             /* no coordinate of the point is farther from either weighted sum */
-  double normal[3];         /* of the face or of both edges, of length 1; 0 where there is none */
-  double normal_error;      /* no coordinate of the normal is off by more; 0 where there is none */
+  double barycentric[2][3]; /* for each of the two triangles, the weights of its corners */
+  double error;             /* the point is off by at most this from either sum, by coordinate */
+  double normal[3];         /* of the face or of both edges, of length 1; 0 if there is none */
+  double normal_error;      /* the normal is off by at most this, by coordinate; 0 without one */
 } assay_contact_place;
 
-/* Fills in the place of a pair of the last result. x_t0 and x_t1 are those that were evaluated.
- * Returns 1, or 0 if the result has no such pair (pairs count from 0). */
+/* Sets *place to the place of a pair of the last result. x_t0 and x_t1 must be the positions that
+ * were evaluated. Returns 1, or 0 if the result has no such pair (pairs are numbered from 0). */
 int32_t assay_builtin_place(const assay_handle* handle, const double* x_t0, const double* x_t1,
                             uint64_t pair, assay_contact_place* place);
 
-/* Does what the table's commit does. It goes to the end of the last step or limit. */
+/* Does what the table's commit does. After a limit, the step ends at the limit's positions. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);
 
 /* The view sets of the step evaluated last. If that step used no views, all sizes are 0 and doubts
- * is NULL. The first four sizes add up to the number of triangles of a step that used views. */
+ * is NULL. If it used views, the first four sizes add up to the number of triangles. */
 typedef struct assay_builtin_sets {
   uint64_t view_positive, view_negative, view_zero; /* sizes of V+, V-, V0, each without Vv */
   uint64_t against_all;  /* size of Vv: the triangles that are violated, dirty or both */
   uint64_t violated;     /* how many triangles a ghost touches during the step */
   uint64_t dirty;        /* how many triangles are dirty at the start of the step */
-  const uint8_t* doubts; /* by triangle, bit 0: violated, bit 1: dirty. The array is the detector's
-                            own */
+  const uint8_t* doubts; /* by triangle, bit 0: violated, bit 1: dirty. The array belongs to the
+                            detector */
 } assay_builtin_sets;
 void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets);
 
-/* Forgets the committed steps: the next one is a new start. The table's result stays as it is. */
+/* Forgets the committed steps: the next step is a new start. The table's result stays the same. */
 void assay_builtin_reset(assay_handle* handle);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// The C interface of assay_detector.h for a detector in C++17, one class and one line:
+// Makes the C interface of assay_detector.h for a detector in C++17, by one class and one line:
 //
 //   class Mine {
 //    public:
@@ -12,30 +12,31 @@
 // A class may have more functions. This header finds them by their names:
 //
 // - void commit(): accepts the step evaluated last;
-// - static void use_threads(std::uint32_t count): called once, before everything but describe();
+// - static void use_threads(std::uint32_t count): called once, before every function except
+//   describe();
 // - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): an elementary query of
-//   four points, given as four rows at t=0 and at t=1; pairs in its result are not read;
+//   four points, given as four rows at t=0 and four rows at t=1; pairs in its result are not read;
 // - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase;
 // - void count(const CountedPairs& counted): which pairs count, called before the first step;
 // - Limit limit(Positions x_t0, Positions x_t1): how far the step may be taken.
 //
-// A library may hold a query, a broad phase or a limiter alone. Such a class has no evaluate(), and
-// one with a query alone needs no constructor either.
+// A library may have only a query, a broad phase or a limiter. Such a class has no evaluate(), and
+// a class that has only a query needs no constructor.
 //
-// No exception gets past this header; each becomes a return code or a result:
+// This header turns every exception into a return code or a result:
 //
 // - std::bad_alloc means out of memory; the step counts as undecided.
 // - Refused, thrown by the constructor, means that the detector does not take this mesh.
-// - BeyondCapacity, thrown by the constructor, evaluate(), candidates() or limit(), means that this
-//   is more than the detector holds (ASSAY_BEYOND_CAPACITY).
-// - Any other exception is a failure, reported with its text. If the constructor throws it, there
-//   is no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
-//   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
+// - BeyondCapacity, thrown by the constructor, evaluate(), candidates() or limit(), means that the
+//   mesh or the step is beyond the capacity of the detector (ASSAY_BEYOND_CAPACITY).
+// - Any other exception is a failure, reported with its text. If the constructor throws it, no
+//   handle is made. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
+//   function throws it, the call returns ASSAY_FAILED, and error_text() returns the text.
 //
-// Results are kept until the next call of the same function of the same handle. An evaluate()
-// that throws leaves no older result behind.
+// Results are kept until the next call of the same function with the same handle. If evaluate()
+// throws, the older result is dropped.
 //
-// If <Eigen/Core> is included before this header, eigen(rows) gives rows as an Eigen map.
+// If <Eigen/Core> is included before this header, eigen(rows) returns the rows as an Eigen map.
 #ifndef ASSAY_DETECTOR_HPP
 #define ASSAY_DETECTOR_HPP
 
@@ -49,18 +50,19 @@
 
 #include "detector/plugin/assay_detector.h"
 
-static_assert(ASSAY_DETECTOR_ABI_VERSION >= 3, "this header is of a later version");
+static_assert(ASSAY_DETECTOR_ABI_VERSION >= 3, "this header is newer than assay_detector.h");
 
 namespace assay {
 namespace plugin {
 
 // An assay_description whose defaults claim nothing, and whose contract leaves nothing out. The
-// texts must live as long as the library: literals do.
+// texts must live as long as the library, which string literals do.
 struct Description : assay_description {
   Description() : assay_description() { name = version = ""; }
 };
 
-// A view of rows of three numbers each. The numbers are the host's and valid during the call only.
+// A view of rows of three numbers each. The numbers belong to the host and are valid only during
+// the call.
 template <class T>
 class Rows {
  public:
@@ -84,13 +86,12 @@ struct Mesh {
   Positions positions;  // of the first frame
 };
 
-// To be thrown by the constructor for a mesh that the detector does not take. The user sees its
-// text.
+// Throw this in the constructor if the detector does not take the mesh. The user sees the text.
 class Refused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// To be thrown where the mesh or the step is more than the detector holds.
+// Throw this if the mesh or the step is beyond the capacity of the detector.
 class BeyondCapacity : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -99,11 +100,11 @@ struct Result {
   std::int32_t answer = ASSAY_FREE;
   Interval first = {{0, 0}};
   std::vector<Pair> pairs;
-  std::vector<Interval> pair_times;  // one for each pair; any other number: times are not known
+  std::vector<Interval> pair_times;  // one for each pair; with any other number times are unknown
   std::string text;                  // says what went wrong, with ASSAY_ERROR
 
   static Result free() { return {}; }
-  // [first_lo, first_hi] holds the first contact time. Without arguments the time is not known.
+  // [first_lo, first_hi] contains the first contact time. Without arguments the time is not known.
   static Result collision(double first_lo = 0, double first_hi = 1) {
     return of(ASSAY_COLLISION, {{first_lo, first_hi}});
   }
@@ -159,7 +160,7 @@ RowsMap<T> eigen(const Rows<T>& rows) {
 
 #include "detector/plugin/assay_detector_table.hpp"
 
-// Defines the one symbol that the library exports. Used in one of its source files.
+// Defines the one symbol that the library exports. Use it in one source file of the library.
 #define ASSAY_EXPORT_DETECTOR(...)                                                  \
   extern "C" ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void) { \
     return ::assay::plugin::detail::table<__VA_ARGS__>();                           \

@@ -1,6 +1,6 @@
 // Makes the C interface's table of functions for a class: each function of the table calls the
-// class in C++. assay_detector.hpp includes this file and says what a class may have; do not
-// include it alone. A test of a class needs no library to be loaded:
+// class in C++. assay_detector.hpp includes this file and says which functions a class may have; do
+// not include this file alone. A class can be tested without loading a library:
 //
 //   const assay_detector_api* detector = assay::plugin::detail::table<Mine>();
 //   if (detector->create(triangles, m, positions, n, &handle, &message) != ASSAY_OK)
@@ -22,8 +22,8 @@ namespace assay {
 namespace plugin {
 namespace detail {
 
-static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "pairs are handed out as they stand");
-static_assert(sizeof(Interval) == 2 * sizeof(double), "times are handed out as they stand");
+static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "a Pair must be two integers");
+static_assert(sizeof(Interval) == 2 * sizeof(double), "an Interval must be two doubles");
 
 // One line of text that needs no memory from the heap, because there may be none left.
 class Line {
@@ -40,7 +40,8 @@ class Line {
   char text_[512] = {};
 };
 
-// Calls work(), which may throw. An exception becomes a return code and leaves its text in `line`.
+// Calls work(), which may throw. Turns an exception into a return code, and puts its text into
+// `line`.
 template <class Work>
 std::int32_t guarded(Line& line, const Work& work) noexcept {
   try {
@@ -63,8 +64,7 @@ std::int32_t guarded(Line& line, const Work& work) noexcept {
   return ASSAY_FAILED;
 }
 
-// Returns the text of the call that failed last in this thread, whichever function of the table it
-// was.
+// Returns the text of the last call in this thread that failed, of any function in the table.
 template <class D>
 Line& last_line() {
   static thread_local Line line;
@@ -76,8 +76,8 @@ const char* error_text() noexcept {
   return last_line<D>().empty() ? nullptr : last_line<D>().c_str();
 }
 
-// names_NAME<D> says whether D has a member of that name, and has_NAME<D> whether it can be called
-// as the interface calls it.
+// names_NAME<D> says whether D has a member named NAME, and has_NAME<D> says whether this member
+// can be called as the interface calls it.
 #define ASSAY_PLUGIN_FINDS(NAME, CALL)                                         \
   template <class D, class = void>                                             \
   struct names_##NAME : std::false_type {};                                    \
@@ -111,7 +111,7 @@ struct Handle {
   Result result;
   std::vector<Pair> candidates;
   Limit limit;
-  Line line;  // text of the exception that ended the last evaluate(); empty if none did
+  Line line;  // text of the exception that the last evaluate() threw; empty if it threw none
 };
 
 template <class D>
@@ -233,8 +233,8 @@ std::int32_t limit(assay_handle* handle, const double* x_t0, const double* x_t1,
   });
 }
 
-// Returns the table of a class. A member whose name is that of an optional function has to be
-// callable as such: else the function would be left out in silence.
+// Returns the table of a class. If a member has the name of an optional function, it must be
+// callable as this function, because it would otherwise be left out silently.
 template <class D>
 const assay_detector_api* table() {
   static_assert(has_evaluate<D>::value || !names_evaluate<D>::value,
@@ -250,10 +250,10 @@ const assay_detector_api* table() {
                 "Limit limit(Positions x_t0, Positions x_t1)");
   static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value ||
                     has_limit<D>::value,
-                "a detector has evaluate(), query(), candidates() or limit()");
+                "a detector needs evaluate(), query(), candidates() or limit()");
   static_assert(has_count<D>::value || !names_count<D>::value,
                 "void count(const CountedPairs& counted)");
-  static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
+  static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() needs evaluate()");
   static const assay_detector_api api = [] {
     assay_detector_api functions = {};
     functions.abi_version = ASSAY_DETECTOR_ABI_VERSION;

@@ -1,6 +1,6 @@
-/* Records what a simulator does: its mesh, each of its steps, and what its own collision detector
- * answered, in a log that `assay check` reads. C99 or C++11; this header and assay_detector.h
- * beside it are all that is needed, and nothing is linked. A simulator uses it like this:
+/* Records what a simulator does, in a log that `assay check` reads: its mesh, each of its steps,
+ * and what its own collision detector answers. C99 or C++11; it needs only this header and
+ * assay_detector.h beside it, and no library. A simulator uses it like this:
  *
  *   assay_recorder recorder;
  *   assay_record_settings settings = {"steps.log", 1, 0};
@@ -9,24 +9,24 @@
  *   while (simulate(&step)) assay_record_step(&recorder, &step);
  *   if (assay_record_end(&recorder) != ASSAY_OK) report(assay_record_error(&recorder));
  *
- * corpus/README.md (Step logs) describes the form of the log. Positions are recorded as they are,
- * even if they are not finite: a log does not mend what a simulator did.
+ * corpus/README.md (Step logs) describes the form of the log. Positions are recorded unchanged,
+ * even if they are not finite, because a log has to show what the simulator did.
  *
- * MEMORY. The caller owns the recorder, about 17 KB, and all arrays; none is needed once the call
- * has returned. The recorder allocates a copy of the path, and the positions of one frame if steps
- * are left out. assay_record_end frees them.
+ * MEMORY. The caller owns the recorder, about 17 KB, and all arrays. No array is needed after the
+ * call. The recorder allocates a copy of the path and, if steps are left out, room for the
+ * positions of one frame. assay_record_end frees both.
  *
- * THREADS. A recorder is used by one thread at a time, and knows nothing of other recorders.
+ * THREADS. A recorder is used by one thread at a time, and is independent of other recorders.
  *
- * ERRORS. Each function that returns int32_t returns ASSAY_OK, or one of the numbers below;
- * assay_record_error gives one line about it. A call that is refused writes nothing and leaves the
- * recorder as it was. A write that fails ends the log, perhaps in the middle of a record. Later
- * records are refused with the same error, because a log is read up to its first damage. End the
- * recorder, and begin another log in another file.
+ * ERRORS. Each function that returns int32_t returns ASSAY_OK or an error number;
+ * assay_record_error returns one line about the error. A call that is refused writes nothing and
+ * does not change the recorder. A write that fails ends the log, perhaps in the middle of a record.
+ * All later records are refused with the same error, because a log is read only up to its first
+ * damage. To go on, call assay_record_end and begin another log in another file.
  *
- * COST. Arrays are written from the caller's memory at once, without a buffer between: a process
- * that is killed loses at most the record that it was writing. A step takes at most about twice
- * the time that fwrite takes for its arrays. */
+ * COST. Arrays are written directly from the caller's memory, without a buffer, so a process that
+ * is killed loses at most the record that it was writing. A step takes at most about twice the time
+ * that fwrite takes for its arrays. */
 #ifndef ASSAY_RECORD_H
 #define ASSAY_RECORD_H
 
@@ -39,27 +39,27 @@
 
 #include "assay_detector.h"
 
-/* The errors besides ASSAY_OK and ASSAY_OUT_OF_MEMORY. A number keeps its meaning. */
+/* The error numbers besides ASSAY_OUT_OF_MEMORY. A number never changes its meaning. */
 enum {
-  ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has no such value */
+  ASSAY_RECORD_WRONG_ARGUMENT = 16, /* refused: an argument is missing or has a wrong value */
   ASSAY_RECORD_NO_START = 17,       /* refused: x0 is absent, and the end of the last step is not
                                        known */
   ASSAY_RECORD_NOT_BEGUN = 18,      /* refused: begin did not succeed, or end was called */
-  ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: a file is there that would be overwritten */
+  ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: the file exists and would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
-  ASSAY_RECORD_NOT_WRITTEN = 21,    /* this record or an earlier one could not be written wholly */
+  ASSAY_RECORD_NOT_WRITTEN = 21,    /* not all of this record or of an earlier one was written */
   ASSAY_RECORD_NO_ANSWER = 23       /* refused: no detector can give this result or limit, such as a
-                                       time outside of [0, 1]; there would be nothing to judge */
+                                       time outside of [0, 1], so that it could not be judged */
 };
 
-/* Where a log goes, and how much of it is kept. */
+/* The file of a log, and which steps are recorded. */
 typedef struct assay_record_settings {
   const char* path;
-  uint64_t every;    /* one step in `every` is recorded, from the first on; 0 and 1: each step */
-  int32_t overwrite; /* 0: a file that is there and not empty is refused; 1: it is emptied */
+  uint64_t every;    /* one step in `every` is recorded, beginning with the first; 0 is like 1 */
+  int32_t overwrite; /* if the file exists and is not empty: 0: it is refused; 1: it is emptied */
 } assay_record_settings;
 
-/* An array of vertex_count x 3 numbers, double or float. data NULL: it is absent. */
+/* An array of vertex_count x 3 numbers, double or float. If data is NULL, the array is absent. */
 typedef struct assay_record_array {
   const void* data;
   int32_t is_float32; /* 0: double */
@@ -67,29 +67,29 @@ typedef struct assay_record_array {
 
 /* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
 typedef struct assay_record_step_data {
-  assay_record_array x0;        /* where it starts. Absent: at the end of the last step: at its
-                                   committed positions, or, if it has none, at its x1 */
-  assay_record_array x1, dx;    /* exactly one of them: where it would go, or by how much */
+  assay_record_array x0;        /* where the step starts. If absent, it starts at the committed
+                                   positions of the last step or, without these, at its x1 */
+  assay_record_array x1, dx;    /* exactly one: the end of the step, or the displacement x1 - x0 */
   assay_record_array committed; /* where the simulator really went, or absent */
-  const assay_result* result;   /* what its detector answered, or NULL */
-  const assay_limit* limit;     /* how far its limiter let it go, or NULL */
+  const assay_result* result;   /* the answer of the simulator's detector, or NULL */
+  const assay_limit* limit;     /* the answer of the simulator's limiter, or NULL */
 } assay_record_step_data;
 
-/* A log that is being written. Its members are the recorder's own. */
+/* A log that is being written. Only the functions of this header use its members. */
 typedef struct assay_recorder {
   uint32_t crc_tables[16][256];
   char error[256];
   /* The record that is being written. */
-  unsigned char staged[256]; /* small pieces, until a large one or the end of the record */
+  unsigned char staged[256]; /* small pieces that are not in the file yet */
   size_t staged_size;
   uint64_t body_size, keys;
-  int32_t is_counted; /* the first pass over the body, to learn body_size and keys */
-  int32_t has_failed; /* something could not be written, for this reason (errno) */
+  int32_t is_counted; /* 1 in the first pass over the body, which computes body_size and keys */
+  int32_t has_failed; /* 1 if a write has failed, with errno `reason` */
   int32_t reason;
   uint32_t crc;
   /* The log. */
   int32_t is_begun;
-  int32_t triangle_count; /* stands here because it takes no padding */
+  int32_t triangle_count; /* at this place the struct needs no padding */
   uint64_t every, vertex_count;
   char* path;
   FILE* file;
@@ -99,11 +99,12 @@ typedef struct assay_recorder {
   void* end;
 } assay_recorder;
 
-/* Opens the file and records the mesh and what its detector claims. A recorder that records must
- * be ended before it begins anew; otherwise its contents do not matter.
+/* Opens the file, and records the mesh and the claims of the simulator's detector. If the recorder
+ * is recording, call assay_record_end first; if not, it need not be initialized.
  *
  * description: as for a detector that is certified. triangles: triangle_count x 3 vertex indices.
- * positions: those that the detector was made from. counted: which pairs count, or NULL: all. */
+ * positions: those from which the detector was made. counted: which pairs count; NULL: every pair
+ * counts. */
 static inline int32_t assay_record_begin(assay_recorder* recorder,
                                          const assay_record_settings* settings,
                                          const assay_description* description,
@@ -111,24 +112,23 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
                                          assay_record_array positions, uint64_t vertex_count,
                                          const assay_counted_pairs* counted);
 
-/* Records the next step, or counts it if it is one of those that `every` leaves out. If x0 is
- * absent and the step before is not in the file, the recorder writes x0 from a copy of its own. A
- * step without x0 is refused if it is the first one, or if the step before has a dx and no
- * committed positions. */
+/* Records the next step, or only counts it if `every` leaves it out. If x0 is absent and the step
+ * before is not in the file, the recorder writes x0 from its own copy. A step without x0 is refused
+ * if it is the first step, or if the step before has a dx and no committed positions. */
 static inline int32_t assay_record_step(assay_recorder* recorder,
                                         const assay_record_step_data* step);
 
-/* Records a line of text before the next step. Bytes that are no UTF-8 become question marks. */
+/* Records a line of text before the next step. Bytes that are not UTF-8 become question marks. */
 static inline int32_t assay_record_note(assay_recorder* recorder, const char* text);
 
-/* Records how many steps there were, closes the file and frees what the recorder allocated, even
- * if it could not write. A recorder that was begun is ended once. */
+/* Records the number of steps, closes the file and frees the memory of the recorder, also if a
+ * write fails. Call it once for each successful call of assay_record_begin. */
 static inline int32_t assay_record_end(assay_recorder* recorder);
 
-/* Returns one line about the call that failed last, or "". Valid until the next call. */
+/* Returns one line about the last call that failed, or "". It is valid until the next call. */
 static inline const char* assay_record_error(const assay_recorder* recorder);
 
-/* The rest is the recorder's own; its names end with an underscore. */
+/* All names below end with an underscore and are internal to this header. */
 
 static inline int32_t assay_record_fail_(assay_recorder* r, int32_t code, const char* what,
                                          const char* name, int32_t reason) {
@@ -151,7 +151,7 @@ static inline void assay_record_make_tables_(assay_recorder* r) {
     }
 }
 
-/* Returns four bytes of the stream, the first one lowest, on any machine. */
+/* Returns four bytes as one number. The first byte is the lowest one on every machine. */
 static inline uint32_t assay_record_four_(const unsigned char* p) {
   return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
@@ -161,7 +161,7 @@ static inline uint32_t assay_record_four_at_(uint32_t (*tables)[256], uint32_t x
          tables[0][x >> 24];
 }
 
-/* Adds bytes to the sum, 16 at a time. */
+/* Adds bytes to the check sum r->crc, 16 bytes at a time. */
 static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char* p, size_t n) {
   uint32_t(*const t)[256] = r->crc_tables;
   uint32_t c = r->crc;
@@ -175,14 +175,14 @@ static inline void assay_record_sum_few_(assay_recorder* r, const unsigned char*
   r->crc = c;
 }
 
-/* The sum is the remainder of the bytes, taken as a polynomial, by a polynomial of degree 32. The
- * remainder by any multiple of that polynomial has the same sum; one such multiple has the powers
- * 300, 155, 117, 89 and 0 of x^64. Division by this multiple takes four additions a word of 64
- * bits, whatever the order of its bytes, and leaves 300 words. It is several times as fast as
- * tables. */
-enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* words */
+/* The sum is the remainder when the bytes, read as a polynomial, are divided by a polynomial of
+ * degree 32. The remainder after division by any multiple of that polynomial has the same sum; one
+ * such multiple has the powers 300, 155, 117, 89 and 0 of x^64. Division by this multiple takes
+ * four additions for each word of 64 bits, in any byte order, and leaves 300 words. This is several
+ * times as fast as tables. */
+enum { ASSAY_RECORD_LEFT_ = 300, ASSAY_RECORD_BLOCK_ = 1024 }; /* numbers of words */
 
-/* Appends `words` words of the quotient to the last 300, with which `quotient` begins. */
+/* Appends `words` words of the quotient. REQUIRES the last 300 words at the start of `quotient`. */
 static inline void assay_record_divide_(uint64_t* quotient, const unsigned char* p, size_t words) {
   size_t i;
   for (i = 0; i < words; ++i) {
@@ -198,7 +198,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
   const size_t left = ASSAY_RECORD_LEFT_, block = ASSAY_RECORD_BLOCK_;
   uint64_t quotient[ASSAY_RECORD_LEFT_ + ASSAY_RECORD_BLOCK_], word;
   size_t words = n / 8 - left, part, i;
-  /* The sum until now is added to the first four bytes. No word is before the first one. */
+  /* The sum so far is added to the first four bytes. The words before the first word are 0. */
   unsigned char first[8];
   memcpy(first, p, 8);
   for (i = 0; i < 4; ++i) first[i] = (unsigned char)(first[i] ^ (r->crc >> 8 * i & 255u));
@@ -212,7 +212,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
       assay_record_divide_(quotient, p + 8 * i, part);
     memmove(quotient, quotient + part, 8 * left);
   }
-  /* The remainder: no words follow the last one of the quotient. */
+  /* Computes the remainder. The words after the last word of the quotient are 0. */
   memset(quotient + left, 0, 8 * left);
   p += 8 * words;
   n -= 8 * words;
@@ -225,7 +225,7 @@ static inline void assay_record_sum_many_(assay_recorder* r, const unsigned char
   assay_record_sum_few_(r, p + 8 * left, n - 8 * left);
 }
 
-/* The CRC-32 of zlib, without its first and last step. */
+/* Adds bytes to the CRC-32 of zlib, without its first and last step. */
 static inline void assay_record_sum_(assay_recorder* r, const unsigned char* p, size_t n) {
   if (n < (size_t)16 * ASSAY_RECORD_LEFT_)
     assay_record_sum_few_(r, p, n);
@@ -246,7 +246,7 @@ static inline void assay_record_flush_(assay_recorder* r) {
   r->staged_size = 0;
 }
 
-/* Writes bytes that are not to be summed: they are outside of a body, or in the sum already. */
+/* Writes bytes without adding them to the sum: these are outside of a body, or summed already. */
 static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t n) {
   if (n > sizeof r->staged - r->staged_size) assay_record_flush_(r);
   if (n > sizeof r->staged) {
@@ -257,7 +257,7 @@ static inline void assay_record_raw_(assay_recorder* r, const void* data, size_t
   }
 }
 
-/* Writes bytes of a body. File systems are quickest with few large pieces: an array is one. */
+/* Writes bytes of a body. An array is one piece, because few large pieces are written fastest. */
 static inline void assay_record_put_(assay_recorder* r, const void* data, uint64_t size) {
   if (r->is_counted) {
     r->body_size += size;
@@ -271,7 +271,7 @@ static inline void assay_record_big_endian_(unsigned char* out, uint64_t value, 
   for (; bytes > 0; --bytes, value >>= 8) out[bytes - 1] = (unsigned char)(value & 255u);
 }
 
-/* Makes the head of a CBOR item, in as few bytes as it takes. major: its type, 0 to 7. */
+/* Makes the shortest head of a CBOR item of type `major` (0 to 7). Returns its number of bytes. */
 static inline size_t assay_record_head_bytes_(unsigned char* out, unsigned major, uint64_t n) {
   const int log = n < 256u ? 0 : n < 65536u ? 1 : n <= 0xFFFFFFFFu ? 2 : 3;
   if (n < 24u) {
@@ -288,7 +288,7 @@ static inline void assay_record_head_(assay_recorder* r, unsigned major, uint64_
   assay_record_put_(r, bytes, assay_record_head_bytes_(bytes, major, n));
 }
 
-/* Returns how many bytes from p on are one character of UTF-8, or 0. */
+/* Returns the number of bytes of the UTF-8 character that begins at p; 0 if none does. */
 static inline size_t assay_record_utf8_(const unsigned char* p) {
   const size_t n = *p < 0x80u ? 1 : *p < 0xC2u ? 0 : *p < 0xE0u ? 2 : *p < 0xF0u ? 3 : 4;
   size_t i;
@@ -342,8 +342,8 @@ static inline void assay_record_real_(assay_recorder* r, const char* key, double
   assay_record_put_(r, bytes, sizeof bytes);
 }
 
-/* Writes a typed array of RFC 8746. big: its tag on a big-endian machine. On a little-endian one
- * each tag is 4 more. */
+/* Writes a typed array of RFC 8746. big: its tag on a big-endian machine. On a little-endian
+ * machine each tag is larger by 4. */
 static inline void assay_record_typed_(assay_recorder* r, const char* key, unsigned big,
                                        const void* data, uint64_t bytes) {
   const uint16_t one = 1;
@@ -370,7 +370,7 @@ static inline void assay_record_vertices_(assay_recorder* r, const char* key,
                         (array.is_float32 ? 12u : 24u) * r->vertex_count);
 }
 
-/* Writes a map within the body. Its keys are not counted among those of the body. */
+/* Writes a map within the body. Its keys are not counted among the keys of the body. */
 static inline void assay_record_counted_(assay_recorder* r, const assay_counted_pairs* c) {
   const uint64_t outside = r->keys;
   assay_record_head_(r, 5,
@@ -392,7 +392,7 @@ static inline void assay_record_counted_(assay_recorder* r, const assay_counted_
   r->keys = outside;
 }
 
-/* The parts of the bodies of records. */
+/* What is written into the body of a record. */
 typedef struct assay_record_content_ {
   const assay_description* description;
   const int32_t* triangles;
@@ -470,7 +470,7 @@ static inline void assay_record_end_body_(assay_recorder* r, const assay_record_
 
 typedef void (*assay_record_body_)(assay_recorder*, const assay_record_content_*);
 
-/* Goes through a body twice: first without writing it, to learn its size. */
+/* Writes a record. Goes through its body twice, the first time only to compute its size. */
 static inline int32_t assay_record_write_(assay_recorder* r, assay_record_body_ body,
                                           const assay_record_content_* content) {
   unsigned char head[9], frame[17] = {0x83, 0x44, 'A', 'S', 'R', '1', 0xD8, 0x18, 0x5B};
@@ -519,7 +519,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   if (!c->description || !c->description->name)
     return assay_record_wrong_(r, "the description or its name is missing");
   if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
-    return assay_record_wrong_(r, "a mesh has positions of 1 to 2^31 - 1 vertices");
+    return assay_record_wrong_(r, "the positions are missing, or are more than 2^31 - 1");
   if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
     return assay_record_wrong_(r, "the triangles are missing, or are more than 2^31 - 1");
   for (i = 0; i < 3 * c->triangle_count; ++i)
@@ -530,11 +530,11 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
                      (c->counted->triangle_pair_count && !c->counted->triangle_pairs) ||
                      (c->counted->vertex_face_count && !c->counted->vertex_faces) ||
                      (c->counted->edge_pair_count && !c->counted->edge_pairs)))
-    return assay_record_wrong_(r, "a list of the pairs that count is missing");
+    return assay_record_wrong_(r, "an array of the counted pairs is missing");
   return ASSAY_OK;
 }
 
-/* Allocates what is needed and opens the file. All that may be refused is checked before. */
+/* Allocates memory and opens the file. REQUIRES that all arguments were checked before. */
 static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_settings* s) {
   const size_t length = strlen(s->path) + 1;
   r->every = s->every ? s->every : 1;
@@ -544,7 +544,7 @@ static inline int32_t assay_record_open_(assay_recorder* r, const assay_record_s
     return assay_record_fail_(r, ASSAY_OUT_OF_MEMORY, "out of memory", "", 0);
   memcpy(r->path, s->path, length);
   if (!s->overwrite && assay_record_is_there_(r->path))
-    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "this file exists", r->path, 0);
+    return assay_record_fail_(r, ASSAY_RECORD_FILE_EXISTS, "there is already a file", r->path, 0);
   assay_record_make_tables_(r);
   errno = 0;
   r->file = fopen(r->path, "wb");
@@ -572,7 +572,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   if (!settings || !settings->path || !*settings->path)
     return assay_record_wrong_(recorder, "the path is missing");
   if (settings->overwrite != 0 && settings->overwrite != 1)
-    return assay_record_wrong_(recorder, "overwrite is 0 or 1");
+    return assay_record_wrong_(recorder, "overwrite must be 0 or 1");
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
@@ -603,7 +603,7 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       !assay_record_is_time_(result->first_lo, result->first_hi))
     return assay_record_no_answer_(r, "the first time is no interval in [0, 1]");
   if (result && result->answer == ASSAY_FREE && result->pair_count)
-    return assay_record_no_answer_(r, "a free step has pairs");
+    return assay_record_no_answer_(r, "the answer is free, but pairs are given");
   for (i = 0; is_judged && i < result->pair_count; ++i) {
     const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
     if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
@@ -613,7 +613,7 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");
   }
   if (limit && limit->share != -1 && !(0 <= limit->share && limit->share <= 1))
-    return assay_record_no_answer_(r, "the share of a limit is neither from 0 to 1 nor -1");
+    return assay_record_no_answer_(r, "the share of a limit must be from 0 to 1, or -1");
   for (i = 0; limit && limit->positions && i < 3 * r->vertex_count; ++i)
     if (!(limit->positions[i] - limit->positions[i] == 0))
       return assay_record_no_answer_(r, "the positions of a limit are not finite");
@@ -626,14 +626,14 @@ static inline int32_t assay_record_check_step_(assay_recorder* r,
   if (!r->is_begun)
     return assay_record_fail_(r, ASSAY_RECORD_NOT_BEGUN, "nothing is being recorded", "", 0);
   if (!step || !step->x1.data == !step->dx.data)
-    return assay_record_wrong_(r, "a step has either x1 or dx");
+    return assay_record_wrong_(r, "a step needs either x1 or dx");
   if (result && (result->answer < ASSAY_FREE || result->answer > ASSAY_BEYOND_CAPACITY))
-    return assay_record_wrong_(r, "there is no such answer");
+    return assay_record_wrong_(r, "the answer has an unknown value");
   if (result && result->pair_count && !result->pairs)
     return assay_record_wrong_(r, "the pairs are missing");
   if (!step->x0.data && !r->end_is_known)
     return assay_record_fail_(r, ASSAY_RECORD_NO_START,
-                              "x0 is missing: it is not known where the last step ended", "", 0);
+                              "x0 is missing, and the end of the last step is not known", "", 0);
   return assay_record_check_answer_(r, result, step->limit);
 }
 

@@ -1,4 +1,5 @@
-// The data that the C interface keeps for a mesh: the detector, and the last result as C arrays.
+// The data that the built-in detector in C has for a mesh: the detector, and the last result as C
+// arrays.
 #pragma once
 
 #include <span>
@@ -15,8 +16,8 @@ struct assay_handle {
   std::vector<std::int32_t> pairs = {};
   std::vector<double> times = {};
 
-  // These do what the functions of Detector do, and keep the result. If memory runs out the handle
-  // keeps its last result unchanged.
+  // These functions do what the functions of Detector do, and store the result in this handle. If
+  // memory runs out, the handle keeps its last result unchanged.
   void evaluate(const double* x_t0, const double* x_t1,
                 std::span<const assay::detector::ViewPrimitive> primitives = {},
                 const assay::detector::StopFunction& stop = {});

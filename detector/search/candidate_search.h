@@ -1,5 +1,5 @@
-// The search of one step: it finds the candidate pairs, tests them for contact, and then closes
-// the set of pairs in contact (L3, L7).
+// The search of one step: finds the candidate pairs, tests them for contact, and then does the
+// closure, which completes the set of pairs in contact (L3, L7).
 #pragma once
 
 #include "detector/search/feature_contacts.h"
@@ -14,69 +14,72 @@ struct SearchStages {
   const Marking& marking;
   MeshSearch& search;
   const ElementaryTest& elementary;
-  const PairRelation* relation = nullptr;  // null: everything counts
+  const PairRelation* relation = nullptr;  // null: every pair counts
 };
 
-// The memory from one search to the next. Marks and representatives depend only on the mesh and on
-// the types that were marked last.
+// What is kept from one search to the next. Marks and representatives depend only on the mesh and
+// on the triangle types of the last marking.
 struct SearchMemory {
   explicit SearchMemory(const BoundingVolumeTree& tree) : marks(tree) {}
   Marks marks;
   Representatives representatives;
-  // Whether marks and representatives are of the same types; false after a stop between the two.
+  // Whether marks and representatives belong to the same triangle types; false if a stop came
+  // between setting the marks and setting the representatives.
   bool is_whole = true;
-  KeptFeatures near;  // of a step with these types
+  KeptFeatures near;  // from a step with the types of the last marking
 };
 
 class CandidateSearch {
  public:
-  // REQUIRES a stop function that all workers of `pace` may call, such as that of SharedStop. The
-  // references must outlive this object.
+  // REQUIRES that all workers of `pace` may call its stop function (SharedStop makes such a
+  // function). The references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
-  // Looks, from now on, only for the first contact, and for none later than the bound. As soon as a
-  // counted contact is found, later ones are left out, and boxes cover the step only up to it. The
-  // contacts found then include the first one and, of the pairs in contact at that time, those that
-  // the whole search would find. `tree`: that of the constructor, which is refitted. REQUIRES that
-  // nothing was collected yet.
+  // From now on, looks only for the first contact, and only for contacts up to the bound. As soon
+  // as a contact that counts is found, later contacts are left out, and boxes cover the step only
+  // up to its time. The contacts found include the first contact, and every pair in contact at that
+  // time that a search for all contacts would find. `tree` is the tree of the constructor; it is
+  // refitted. REQUIRES that collect() was not called yet.
   void look_for_first(const TimeBound& bound, BoundingVolumeTree& tree);
 
-  // A step calls mark; then collect_kept, if pairs may be kept, and collect, unless these were
-  // enough; and close, if it closes the set of pairs. Each returns false if it was stopped.
+  // A step calls mark(); then collect_kept(), if feature pairs may be kept; then collect(), unless
+  // is_answered(); and then close(), if it needs the closure. Each returns false if it was stopped.
 
-  // Sets the marks of the tree to these types, by triangle. REQUIRES that no type is one of the
-  // closure.
+  // Marks the tree with these types, by triangle. REQUIRES that no type is one of the grown or
+  // joined types.
   bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
   // pairs that it can prove apart (PatchProofs). With `keeps` it keeps the near feature pairs for a
-  // later question (L20). REQUIRES a search that was fitted to the step, with its tree.
+  // later step from the same start (L20). REQUIRES that the search and its tree were fitted to the
+  // step.
   bool collect(bool uses_proofs = true, bool keeps = false);
-  // Tests the feature pairs that an earlier search of the same types has kept, if they cover the
-  // question, or, for a first contact, at least the beginning of the step. REQUIRES mark().
+  // Tests the feature pairs that an earlier search with the same types has kept, if they cover this
+  // step. For a first contact it is enough that they cover the beginning of the step. REQUIRES
+  // mark().
   bool collect_kept();
-  // Returns whether collect_kept() has found all that is asked for. Otherwise collect() has to.
+  // Returns whether collect_kept() has found all contacts that are looked for. If not, collect()
+  // has to be called.
   bool is_answered() const {
     return kept_until_ >= asked_until() || (first_ && contacts_.least_end() <= kept_until_);
   }
   // See MeshSearch.
   ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
-  // Estimates, from a few hundred edges spread over the mesh, the share of pairs of triangles at an
-  // edge that the rule asks for. REQUIRES that types are marked.
+  // Estimates which share of the pairs of triangles at a common edge the pair rule asks for, from a
+  // few hundred edges spread over the mesh. REQUIRES mark().
   double asked_share() const { return share_of_edges(false); }
-  // Does the same for the pairs that neither fans nor sheets prove apart. It finds fans and sheets
-  // now.
+  // Does the same for pairs that neither fans nor sheets prove apart; finds fans and sheets first.
   double open_share() {
     prove_apart();
     return share_of_edges(true);
   }
-  // Does the closure of L7. H starts as the triangles found in contact with their own component.
-  // Each round tests (U,H) for the triangles that joined H last, and adds the triangles found in
-  // contact, until H is stable. Contacts of two components add nothing to H, because their pairs
-  // were all tested, and layers count the own component only (L10). Triangles of V0 and Vv need no
-  // round, because they were tested against everything already. A round costs the marks, search and
-  // tests around the triangles that joined. It uses no proofs, because these would cost more than
-  // the round.
+  // Does the closure of L7. At first H is the set of triangles found in contact with their own
+  // component. Each round tests (U,H) for the triangles that joined H last, and adds the triangles
+  // found in contact, until H is stable. Contacts between two components add nothing to H, because
+  // all pairs of two components were tested, and layers count only the own component (L10).
+  // Triangles of V0 and Vv need no round, because they were tested against everything already. The
+  // cost of a round is marking, search and tests around the triangles that joined. A round uses no
+  // proofs, because proofs would cost more than the round.
   bool close();
 
   // See FeatureContacts.
@@ -94,15 +97,17 @@ class CandidateSearch {
  private:
   bool search(const PairTables& tables, bool uses_proofs);
   void fit_features();
-  // Proves pairs apart, once, if enough pairs of neighbours are asked for.
+  // At the first call, proves pairs apart if the pair rule asks for enough pairs of neighbours.
   void prove_apart();
   double share_of_edges(bool open_alone) const;
-  // Sets the bound to the earliest contact so far. REQUIRES that all candidates so far were tested.
+  // Sets the bound to the time of the earliest contact so far. REQUIRES that all candidates so far
+  // were tested.
   void take_earliest();
-  // Does the same, and fits boxes to the rest of the step. Returns false if it was stopped.
+  // Does the same, and fits the boxes to the part of the step up to the bound. Returns false if
+  // stopped.
   bool tighten();
   bool change_types(std::span<const Marking::Change> changes);
-  // Updates the representatives to the types that the marks hold.
+  // Updates the representatives to the types of the marks.
   bool follow_marks();
   bool same_component(std::int32_t a, std::int32_t b) const;
 
@@ -123,11 +128,11 @@ class CandidateSearch {
     TimeBound bound;
     BoundingVolumeTree& tree;
     double asked_until;
-    double fitted = 1;  // the boxes cover the step up to here
+    double fitted = 1;  // the boxes cover the step up to this time
   };
   std::optional<First> first_;
   double asked_until() const { return first_ ? first_->asked_until : 1; }
-  double kept_until_ = 0;  // the time by which all feature pairs that meet are kept
+  double kept_until_ = 0;  // all feature pairs that meet up to this time are kept
 };
 
 }  // namespace assay::detector

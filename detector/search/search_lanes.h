@@ -1,13 +1,13 @@
-// Shares out a descent: in lanes, and in rounds if it looks for the first contact.
+// Divides the descent of a search into lanes, and into rounds if it looks for the first contact.
 //
-// A descent is cut into pairs of nodes near the root, and each worker takes one of these after the
+// A descent is cut into pairs of nodes near the root, and each worker does one such pair after the
 // other. The work for a pair of nodes does not depend on other pairs.
 //
-// The contacts of one round bound the next: contacts later than the earliest one so far are of no
-// interest, so boxes need to cover only the time up to that contact. A round is a share of the
-// pairs of nodes that the descent was cut into. These pairs are taken in an order that spreads each
-// round over the whole mesh, because contacts mostly lie side by side. Neither rounds nor order
-// depend on the number of workers, so neither do candidates and counts.
+// The contacts of a round shorten the next round: contacts later than the earliest contact so far
+// are not needed, so boxes have to cover only the time up to that contact. A round does some of the
+// pairs of nodes into which the descent was cut. Each round has pairs from the whole mesh, because
+// contacts mostly lie close together. Rounds and their order do not depend on the number of
+// workers, so candidates and counts do not depend on this number.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ struct Hunt {
         either(within.joined_with(across)),
         sink(taker) {}
 
-  // Returns the table for pairs of these two components, neither of them mixed_components; an empty
-  // one if they do not meet.
+  // Returns the table for pairs of the components c and d, or an empty table if these do not meet.
+  // REQUIRES that neither is mixed_components.
   const PairTable& table_of(std::int32_t c, std::int32_t d) const {
     if (!input.components_meet(c, d)) return nothing;
     return c == d ? within : across;
@@ -45,11 +45,11 @@ struct Hunt {
   std::atomic<bool> is_stopped = false;
 };
 
-// The candidates that one lane has found, on their way to the sink.
+// The candidates that one lane has found and not yet given to the sink.
 class FoundPairs {
  public:
-  // A wide node has up to 64 pairs with another one. So are_enough() is asked once after each node,
-  // not after each pair.
+  // Two wide nodes have up to 64 pairs of children. There is room for so many more pairs, so
+  // are_enough() needs to be called only after each pair of nodes, not after each add().
   FoundPairs(Hunt& hunt, std::size_t lane)
       : hunt_(hunt),
         lane_(lane),
@@ -71,9 +71,9 @@ class FoundPairs {
   const std::unique_ptr<CandidatePair[]> found_;
 };
 
-// Cuts the descent below these pairs of nodes into `count` pairs or a few more, splitting the
-// highest first. There may be fewer if the descent ends before that. split(pair, out) appends the
-// pairs below `pair`.
+// Cuts the descent below the pairs of nodes `left` into `count` pairs of nodes or a few more; the
+// highest pairs are split first. If the descent ends before, the result has fewer pairs.
+// split(pair, out) appends the pairs below `pair` to `out`.
 template <class NodePair, class Split, class IsEnded>
 std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, Split split,
                                 IsEnded is_ended) {
@@ -89,7 +89,8 @@ std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, S
   }
 }
 
-// A search in rounds is cut into this many pairs of nodes, or fewer if it ends before that.
+// The number of pairs of nodes into which a search in rounds is cut; fewer if the descent ends
+// before.
 inline constexpr std::size_t pairs_in_rounds = 512;
 
 // Returns the numbers below `count`, ordered by their reversed bits.
@@ -109,14 +110,14 @@ inline std::vector<std::size_t> spread_numbers(std::size_t count) {
 }
 
 // Calls run(span of pairs) for one round after the other, and input.between() between two rounds.
-// Returns false if a call returned false. REQUIRES input.between, and that run() has given all that
-// it found to the sink when it returns. Within a round the pairs keep their order, because
-// neighbours read the same data, which then lie in the caches.
+// Returns false if a call returned false. REQUIRES that input.between is not empty, and that run()
+// gives all candidates that it finds to the sink before it returns. Within a round the pairs keep
+// their order, because neighbours read the same data, which are then in the caches.
 template <class NodePair, class Run>
 bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs, Run run) {
   std::vector<std::size_t> numbers = spread_numbers(pairs.size());
   std::vector<NodePair> round;
-  // In 64ths of the pairs.
+  // The ends of the rounds, in 64ths of the pairs.
   constexpr std::size_t ends[] = {1, 4, 16, 32, 64};
   std::size_t begin = 0;
   for (const std::size_t part : ends) {
@@ -133,14 +134,14 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
   return true;
 }
 
-// Runs a descent. `descent` has cut(count), which cuts it into `count` pairs of nodes or a few more
-// (fewer if it ends before that); run(pair); and finish(), which hands over the last candidates and
-// says whether the search goes on. make_lane(index) makes a lane, with a descent and counts of its
-// own. Returns false if the search has ended early.
+// Runs a descent. `descent` has three functions: cut(count) cuts it into `count` pairs of nodes or
+// a few more (fewer if it ends before); run(pair) does one of these pairs; and finish() gives the
+// last candidates to the sink and returns whether the search goes on. make_lane(index) makes a lane
+// that has its own descent and its own counts. Returns false if the search was stopped.
 template <class Descent, class MakeLane>
 bool run_descent(const SearchInput& input, bool takes_lanes, Descent& descent, SearchCounts& counts,
                  MakeLane make_lane) {
-  // With this many pairs of nodes for each lane, all lanes get about the same amount of work.
+  // With this many pairs of nodes for each lane, all lanes have about the same amount of work.
   constexpr std::size_t pairs_of_lane = 64;
   const bool has_lanes = takes_lanes && has_workers(input.pace);
   const std::size_t count = input.between ? pairs_in_rounds

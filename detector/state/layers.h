@@ -1,5 +1,5 @@
-// Finds which triangles of a component are clean at an instant (L9). It goes piece by piece; the
-// triangles of a piece have one layer.
+// Finds which triangles of a component are clean at an instant (L9). It decides for one piece after
+// another, because all triangles of a piece have the same layer.
 #pragma once
 
 #include <cstdint>
@@ -11,40 +11,42 @@
 
 namespace assay::detector {
 
-// The surface at an instant. `x` has the vertices of the mesh, then the apexes. touched[t], by
-// triangle of the mesh, is 1 if t meets another triangle or a ghost of its component beyond what
-// they share.
+// The surface at an instant. `x` has the vertices of the mesh, then the apexes. touched[t] is 1 if
+// triangle t of the mesh meets another triangle or a ghost of its component beyond the vertices
+// that they share.
 struct TouchedSurface {
   const Surface& surface;
   PositionsView x;
   const std::vector<std::uint8_t>& touched;
   Arithmetic arithmetic = Arithmetic::exact;
-  PacedStop* pace = nullptr;  // if it was stopped, clean[] must not be used
+  PacedStop* pace = nullptr;  // if the pace was stopped, clean[] must not be used
 };
 
-// Returns a few clean triangles of the mesh's component `c`, ascending. Any one of them tells the
-// common layer of all clean triangles. Several are returned because doubles may fail at one and not
-// at the next. None is returned only if no triangle of the component is clean.
+// Returns a few clean triangles of the mesh's component `c`, ascending. The layer of any one of
+// these is the common layer of all clean triangles. Several are returned because doubles may be
+// able to tell the layer of one of them and not of another. The result is empty only if no triangle
+// of the component is clean.
 std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
                                           const std::vector<std::uint8_t>& clean);
 
-// Sets clean[t] for those triangles of `in_doubt` that L9 releases. REQUIRES that these are
+// Sets clean[t] for those triangles of `in_doubt` that L9 releases. REQUIRES that `in_doubt` lists
 // triangles of the mesh's component `c`, ascending, none of them clean, and that the clean
-// triangles of the component touch nothing and share a layer.
+// triangles of the component touch nothing and have one common layer.
 //
-// Two untouched triangles are linked if an edge is theirs alone (they pass it in opposite
-// directions, because mesh and ghosts form a cycle). Layers continue across links; the classes are
-// the pieces. A flood along links finds them. A piece that holds a clean triangle is released. For
-// any other piece one exact winding number is counted (in bounded arithmetic a piece whose number
-// doubles cannot tell stays dirty). It is released if its layer is the common one: that of
-// `witnesses` or, if there are none, the layer with most untouched triangles (tie: the one that
-// holds the lowest triangle index). It would not be enough that a piece is connected: two
-// tetrahedra, one inside the other, may share an edge (case L9_shared_edge_two_layers).
+// Two untouched triangles are linked if they share an edge that no third triangle has. (They pass
+// this edge in opposite directions, because mesh and ghosts form a cycle.) The layer is the same
+// across a link, and the pieces are the sets of triangles that links connect. A flood along links
+// finds the pieces. A piece with a clean triangle is released. For any other piece one exact
+// winding number is counted (in bounded arithmetic a piece whose number doubles cannot tell stays
+// dirty). The piece is released if its layer is the common layer: the layer of `witnesses` or, if
+// there are none, the layer with most untouched triangles (tie: the layer of the lowest triangle
+// index). It is not enough that a piece is connected to a clean piece: two tetrahedra, one inside
+// the other, can share an edge (case L9_shared_edge_two_layers).
 //
-// `is_seen` is working memory by triangle of the mesh, 0 for triangles of the component. The cost
-// is that of the triangles in doubt and, if some piece holds no clean triangle, a few passes over
-// the component for the winding numbers of all such pieces together. Returns the number of these
-// winding numbers.
+// `is_seen` is working memory with one element for each triangle of the mesh. REQUIRES that it is 0
+// for the triangles of the component. The cost is proportional to the number of triangles in doubt.
+// If some piece has no clean triangle, a few passes over the component are added, for the winding
+// numbers of all such pieces together. Returns the number of these winding numbers.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              const std::vector<std::int32_t>& witnesses,

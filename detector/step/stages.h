@@ -1,8 +1,8 @@
-// The stages that a detector is assembled from, each replaceable.
+// The stages from which a detector is assembled. Each stage can be replaced.
 //
-// The standard stages make the production detector and its cullings. Another scheme, or a scheme
-// that is wrong on purpose, is made by deriving from the stage that it changes and assembling that
-// with the others (assembly.h).
+// The production detector with its cullings is assembled from the standard stages. For another
+// scheme, or a scheme that is wrong on purpose, derive a class from the stage that differs, and
+// assemble it with the standard stages for the rest (assembly.h).
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ struct Stages {
   std::shared_ptr<const ReleaseRule> release;
 };
 
-// Returns the stages that these options ask for.
+// Returns the standard stages for these options.
 Stages standard_stages(const Options& options);
 
 }  // namespace assay::detector

@@ -1,39 +1,40 @@
-// Algorithm 3 of the thesis, self-collision detection with the view-based approach. Without its
-// steps for holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4) and
-// print no listing. So (r) marks a line that is reconstructed, and + one that the laws of
-// detector/LAWS.md add or put in its place. On the right stands the function that does it, or the
-// stage that this function asks. evaluate_step() moves the ghosts and keeps the state at the end;
-// run_stages() does the rest, in this order.
+// Algorithm 3 of the thesis, self-collision detection with the view-based approach. Without the
+// lines for holes it is Algorithm 1. The printed excerpts of the thesis describe most lines in
+// words (3.6, 4.3, 4.4) and have no listing. So (r) marks a line that is reconstructed, and + marks
+// a line that is added, or that replaces the line above it, by the laws of detector/LAWS.md. The
+// right column names the function that does the line, or the stage that this function calls.
+// evaluate_step() moves the ghosts, and keeps the state at the end; run_stages() does everything
+// else, in this order.
 //
 //   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh
-//         for each hole, ghost triangles over it
-//     +     a fan over each boundary loop, its apex above it     BoundaryHandler (L11, L12)
+//         make ghost triangles over each hole
+//     +     a fan of ghosts for each boundary loop               BoundaryHandler (L11, L12)
 //         compute a view primitive inside the object
-//     +     anywhere, and one for each component                 make_view_anchor (L10)
+//     +     one for each component, inside or outside            make_view_anchor (L10)
 //     +     when views are first due                             FirstViews
 //   in each step
 //     (r) move the ghosts and the view primitive                 move_ghosts, place_primitives
 //         divide all triangles into V+, V- and V0 by view tests  classify_components (L1, L2)
-//     +     ghosts are seen too
+//     +     and all ghosts
 //         if all triangles are in V+: self-collision free
-//     +     a component, with its ghosts, and winding number 1   ReleaseRule (L5)
-//     +   no views where they do not pay: every pair is tested   drop_views, CullingPolicy
-//     +   what is clean at the start: last commit, or layers     find_start (L8, L9)
-//     +     no views where what is dirty makes them not pay      drop_views, CullingPolicy
+//     +     for a component with its ghosts, winding number 1    ReleaseRule (L5)
+//     +   drop views if they do not pay, and test every pair     drop_views, CullingPolicy
+//     +   find the triangles that are clean at the start         find_start (L8, L9)
+//     +     drop views if too few are clean                      drop_views, CullingPolicy
 //         hole by hole: pairs of the BVH and the ghosts,
-//           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
-//     +   a free component ends the step if it is the only one   ends_free (L5)
+//           elementary tests; triangles in contact go into Vv    sweep_ghosts (L11)
+//     +   if the only component is free, end the step            ends_free (L5)
 //         mark the triangles whose type has changed: the vBVHs   mark_types, Marking
 //     (r) refit the boxes of the BVH                             find_pairs, MeshSearch
-//     +     or none of both: what a longer step has left         (L20)
+//     +     or use the pairs kept from a longer step, no boxes   (L20)
 //         traverse (V+,V-), (U,V0) and (U,Vv), passing over
 //           nodes with a single child                            find_pairs, PairRule (L3)
 //     +     and the pairs of two components                      (L10)
 //     (r) elementary tests of the pairs found                    find_pairs, ElementaryTest
 //     +   closure: (U,H) until H is stable                       close_pairs, PairRule (L7)
-//         free: Vv is released
-//     +     Vv is what is not known to be clean                  finish, ReleaseRule (L8)
+//         if the step is free: release Vv
+//     +     Vv: the triangles that are not known to be clean     finish, ReleaseRule (L8)
 #include "detector/step/step.h"
 
 #include <algorithm>
@@ -108,8 +109,8 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
   const auto components = surface.mesh.components.size();
   if (primitives.size() > 1 && primitives.size() != components) {
     return Problem{InputError::wrong_primitive_count,
-                   std::to_string(primitives.size()) + " view primitives for " +
-                       std::to_string(components) + " components"};
+                   std::to_string(primitives.size()) + " view primitives are given for " +
+                       std::to_string(components) + " components; give none, one, or one for each"};
   }
   for (const auto& primitive : primitives) {
     for (const auto* point :

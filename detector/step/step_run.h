@@ -1,8 +1,9 @@
-// One step under way: its input, its marks and counts so far, and a function for each line of the
-// algorithm. step.cpp states the algorithm and calls these functions in its order.
+// A step while it is computed: its input, its marks and counts so far, and a function for each line
+// of the algorithm. step.cpp lists the algorithm and calls these functions in that order.
 //
-// A function whose work may be stopped returns whether it went to its end; the others say what they
-// return. Functions that serve views alone do nothing in a step without views.
+// A function that can be stopped returns true if it was not stopped; the comments of all other
+// functions say what they return. Functions that only serve views do nothing in a step without
+// views.
 #pragma once
 
 #include <optional>
@@ -14,65 +15,70 @@ namespace assay::detector {
 
 class StepRun {
  public:
-  // `motion`: of the mesh, and of its apexes if the ghosts move in this step. The references must
-  // outlive this object.
+  // `motion` is the motion of the mesh, and of the apexes if the step has ghosts. The references
+  // must outlive this object.
   StepRun(StepContext& context, const StepState* last_state, const SteppedMesh& motion,
           const StepQuestion& question, CullingPolicy& policy, const StopFunction& stop);
 
-  // Places the primitives, if they are due. `mesh` is the motion of the mesh alone; `input` holds
-  // no primitive, one, or one for each component.
+  // Places the view primitives, if views are due. `mesh` is the motion of the mesh without apexes;
+  // `input` has no primitive, one, or one for each component.
   bool place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> input);
-  // Gives each triangle its sign, and shows which components are free (L5). Afterwards the step
-  // has views, if they are due and worth the view test.
+  // If views are due and worth the view test, gives each triangle its sign, and finds which
+  // components are free (L5). The step then has views.
   bool classify_components();
-  // Returns whether the ghosts are worth a sweep. It also returns true if all components are free,
-  // because they need no sweep, and if the culling has no views, because there are none to drop.
+  // Returns whether the ghosts are worth a sweep. Returns true also if all components are free,
+  // because these need no sweep, and if the culling has no views, because there are no views to
+  // drop.
   bool pays_to_sweep();
   // Finds out which triangles are clean at t=0 (L8, L9).
   bool find_start();
-  // Returns whether the views still pay, now that the dirty triangles are known.
+  // Returns whether the views pay, by the dirty triangles that find_start() has found.
   bool pays_to_use();
-  // Makes the step go on as Culling::bvh does. The clean triangles are set back to those known
-  // before the step, because the result of a step without views shows no view primitive: a caller
-  // that follows the state by results could not follow a release by views.
+  // Makes the step go on as with Culling::bvh. The clean triangles are set back to those known
+  // before the step. The reason: the result of a step without views has no view primitives, so a
+  // caller that computes the state from results could not explain a release by views.
   void drop_views();
   // Finds the triangles that ghosts touch (L11).
   bool sweep_ghosts();
-  // Returns whether the one component of the mesh is free, so that nothing is left to search. Now
-  // that all sets are known, it counts them for the result.
+  // Returns whether the mesh has only one component and this is free, so that nothing needs to be
+  // searched. Also counts the view sets for the result, because all of them are known now.
   bool ends_free();
 
   // Gives each triangle its type, and marks the tree.
   bool mark_types();
-  // Fits the boxes of the tree to the step, finds the candidates, and tests them as they come up;
-  // or tests the feature pairs that an earlier question has kept, if these are all (L20).
+  // Fits the boxes of the tree to the step, finds the candidates, and tests them as they are found.
+  // If an earlier step has kept all feature pairs that can meet (L20), tests only these.
   bool find_pairs();
-  // Closes the set of pairs (L7), if all pairs are asked for, or if K has found a contact within a
-  // component that does not count. Without the closure a later contact that counts could then be
-  // missed, because L3 speaks of all contacts (L19).
+  // Does the closure (L7), if all pairs are asked for, or if the search has found a contact within
+  // a component that does not count. In the second case a later contact that counts could be missed
+  // without the closure, because L3 is about all contacts (L19).
   bool close_pairs();
 
-  // Returns the result. If the question was about the whole step, and the step was completed, sets
-  // `next` to the state at its end (L8). has_own_primitives: the caller gave no primitives.
+  // Returns the result. If the question is about the whole step, and `completed`, sets `next` to
+  // the state at the end of the step (L8). has_own_primitives is true if the caller gave no
+  // primitives.
   StepResult finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
                     std::optional<StepState>& next);
 
  private:
-  // Puts the contacts that the search found into the result, also if it was stopped. Returns false
-  // if it was stopped while contacts were sorted into those that count and others.
+  // Puts the contacts that the search found into the result, also if the search was stopped.
+  // Returns false if this was stopped while it sorted contacts into those that count and those that
+  // do not.
   bool take_found();
-  // Returns whether the first contact alone is looked for.
+  // Returns whether only the first contact is looked for.
   bool looks_for_first() const { return question_.pairs == Pairs::first; }
   TimeBound by_time(double until) const {
     return {until, context_.options.arithmetic == Arithmetic::exact};
   }
-  // Keeps only the counted pairs that are in contact by the upper end of the first time.
+  // Removes all pairs from the result except those in contact by the upper end of the first time.
   void keep_first();
-  // Returns whether no contact has cut the search short. A search for the first contact leaves out
-  // later ones as soon as it has found one that counts; its counts then depend on the tree.
+  // Returns whether no contact has cut the search short. Once a search for the first contact has
+  // found a contact that counts, it leaves out later contacts, and its counts then depend on the
+  // tree.
   bool is_whole() const { return !looks_for_first() || result_.pairs.empty(); }
-  // Returns whether the pairs found are all pairs in contact in the step. A whole search finds the
-  // pairs in contact that K holds; with views these are all only after the closure.
+  // Returns whether the pairs found are all pairs in contact in the step. A search that was not cut
+  // short finds all pairs in contact that are in K; with views, all pairs in contact are known only
+  // after the closure.
   bool is_complete() const {
     return is_whole() && (!looks_for_first() || !marks_.has_views() || is_closed_);
   }
@@ -87,7 +93,7 @@ class StepRun {
   std::optional<CandidateSearch> search_;  // from mark_types() to finish()
   std::uint64_t candidates_of_k_ = 0;      // before the closure
   bool is_closed_ = false;
-  // All contacts found, including those that do not count; empty if everything counts.
+  // All contacts found, including those that do not count; empty if every pair counts.
   std::vector<PairContact> all_contacts_;
   StepResult result_;
 };

@@ -1,4 +1,4 @@
-// The data that the stages of one step read and write: their input, their marks and their counts.
+// The data of one step that its stages read and write: input, marks and counts.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct GivenStep {
   BoundingVolumeTree& tree;  // of the mesh
   const BoundaryHandler& boundary;
   const ElementaryTest& elementary;
-  const StopFunction& stop;     // all workers may ask it
+  const StopFunction& stop;     // all workers may call it
   SteppedMesh motion;           // rows: vertices of the mesh, then apexes
   const StepState* last_state;  // the state of the last commit if this step starts there, else null
   const PairRelation* relation = nullptr;  // null: every pair counts
@@ -34,33 +34,33 @@ struct GivenStep {
   bool has_ghosts(std::size_t c) const {
     return !surface.is_closed() && !surface.mesh.components[c].is_cycle;
   }
-  // REQUIRES a step with views, because others have no ghosts.
+  // REQUIRES a step with views, because a step without views has no ghosts.
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }
-  // Returns whether contacts are looked for within the component. If the component's body does not
-  // meet itself, none of these contacts counts, and the component needs no view, no ghosts and no
-  // state (L19).
+  // Returns whether contacts are looked for within the component. If pairs within the component's
+  // body do not count, the component needs no views, no ghosts and no state (L19).
   bool looks_within(std::size_t c) const {
     const auto number = static_cast<std::int32_t>(c);
     return !relation || relation->components_meet(number, number);
   }
 };
 
-// The findings of the stages so far, by component and by triangle. Later stages rely on it.
+// What the stages of the step have found so far, by component and by triangle.
 struct StepMarks {
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface
-  // By component: 1 if there is nothing to look for within it, because L5 shows it free over the
-  // step, or because nothing within it counts.
+  // By component: 1 if nothing is looked for within the component, because L5 shows it free over
+  // the step, or because no pair within it counts.
   std::vector<std::uint8_t> free = {};
   std::vector<std::uint8_t> clean = {};  // by triangle of the mesh: 1 if clean at t=0
   // By triangle of the mesh: 1 if a ghost touches it during the step.
   std::vector<std::uint8_t> touched = {};
-  // By triangle of the mesh: 1 if its moving box meets that of a ghost. Used for counts alone.
+  // By triangle of the mesh: 1 if its moving box meets the moving box of a ghost. Used only for
+  // counts.
   std::vector<std::uint8_t> near_ghosts = {};
 
-  // Returns true if the step tests K and its closure alone, false if it tests every pair.
+  // Returns true if the step tests only K and its closure, false if it tests every pair.
   bool has_views() const { return !signs.empty(); }
 
   bool all_free() const {
@@ -68,11 +68,11 @@ struct StepMarks {
   }
 };
 
-// The cost of the stages so far. No stage decides by it which pairs are in contact.
+// The cost of the stages so far. It has no influence on which pairs are found in contact.
 struct StepCost {
   StepCounts counts = {};  // for the result, and for the culling of later steps
-  // Counts the work since the stop function was last asked, over all components together, because
-  // the work on one component alone may be too little to ask after.
+  // Counts the work since the last call of the stop function, over all components together, because
+  // the work on one component alone can be too little for a call.
   PacedStop pace;
 };
 

@@ -1,14 +1,15 @@
-// The plane. Let m be the axis along which |d| is greatest, k and l the others in cyclic order,
-// and s the sign of d_m. The two coordinates of a point x are s (d_m x_k - d_k x_m) and d_m x_l -
-// d_l x_m. Both are 0 along d, and the map turns no orientation around. A coordinate is computed
-// with one rounding, because its products are exact. Rounding keeps order: if two computed
-// coordinates are strictly ordered, so are the true ones. Points are linear in t: if two
-// coordinates have one order at t=0 and at t=1, they have it throughout.
+// The projection along d. Let m be the axis along which |d| is greatest, let k and l be the other
+// two axes in cyclic order, and let s be the sign of d_m. The two coordinates of a projected point
+// x are s (d_m x_k - d_k x_m) and d_m x_l - d_l x_m. Both stay the same if x moves along d, and the
+// map keeps orientation. A coordinate is computed with one rounding, because its products are
+// exact. Rounding keeps order: if two computed coordinates are strictly ordered, the true
+// coordinates are too. Points are linear in t: if two coordinates have the same order at t=0 and at
+// t=1, they have it throughout.
 //
-// Error bounds of turns and cosines, in the notation of bernstein.h. x and y are differences of
-// two points in the plane. Their coordinate along the first axis is at most M_u = |d_m| M_k +
-// |d_k| M_m in size, where M_k and M_m bound the differences in space; M_v along the second axis
-// likewise. MM is M_u M_v, and D is M_u^2 + M_v^2.
+// Error bounds of turns and cosines, in the notation of bernstein.h. x and y are differences of two
+// projected points. Their first coordinate is at most M_u = |d_m| M_k + |d_k| M_m in size, where
+// M_k and M_m bound the differences in space, and M_v bounds the second coordinate in the same way.
+// MM is M_u M_v, and D is M_u^2 + M_v^2.
 //
 //   quantity         | operations                       | error in u                 | size
 //   coordinate x_u   | d_m e_k - d_k e_m                | 1 + 1 = 2 M_u              | M_u
@@ -20,8 +21,8 @@
 //   cosine, halved   | a quadratic with B = D           | as before + 2 D            | D
 //
 // A product of two coordinates is off by 2 + 2 (entries) + 1 (rounding) = 5. e is a difference in
-// space, off by 1 M, and its products with 1 or 2 are exact. turn_units(depth), 16 and 4 more a
-// halving, covers all of these and the rounding of the M.
+// space, off by 1 M, and its products with 1 or 2 are exact. turn_units(depth) is 16, plus 4 for
+// each halving. It covers all errors of the table and the rounding of M_u and M_v.
 
 #include "detector/traditional/moving_contour.h"
 

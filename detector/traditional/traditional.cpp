@@ -1,18 +1,18 @@
 // Algorithm 2 of the thesis, self-collision detection with the traditional approach [VMT94]. The
-// excerpt states it in words (3.7.1) and prints no listing, so all lines below are reconstructed.
-// A line marked + is added here, or replaces the one above it. On the right stands the class or
-// function that does it.
+// printed excerpt of the thesis describes it in words (3.7.1) and has no listing, so all lines
+// below are reconstructed. A line marked + is added here, or replaces the line above it. The right
+// column names the class or function that does the line.
 //
 //   in preprocessing
 //       build a BVH of the mesh                                    BoundingVolumeTree
-//     + find the contour of each node, when it is first asked for  PatchContours
+//     + find the contour of each node, when it is first needed     PatchContours
 //   in each step
 //       refit the boxes of the BVH                                 PairSearch::fit
-//       for each leaf: the normal cone of its triangle
+//       for each leaf: find the normal cone of its triangle
 //     +   the directions that it faces at every t of the step      faced_directions
 //       for each internal node, upward: merge the normal cones
 //         of its two children, while they can be merged
-//     +   the directions that both face                            PatchCones::merge_cones
+//     +   the directions that both children face                   PatchCones::merge_cones
 //       self-test (root), where self-test (node) is:               TreeSearch, PatchCones::is_free
 //         if the node has a normal cone, of normal V: project its contour onto a plane
 //           perpendicular to V; if it does not cross itself, return: self-collision free
@@ -21,21 +21,22 @@
 //         pair-test (first child, second child)
 //       pair-test (a, b):                                          TreeSearch
 //         if the boxes are apart, return
-//         if a and b are adjacent and have together a normal cone and a contour that does not
-//           cross itself, return                                   PatchCones::are_free
+//         if a and b are adjacent, and their union has a normal cone
+//           and a contour that does not cross itself, return       PatchCones::are_free
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
 // Errors of the classical form (each is a planted fault, except the last):
-// - It looks at normals and contours only when the step is over. So it does not see a triangle
-//   that turns over and back, or an end of the sheet that passes through another in between.
-// - It leaves the contour test out, as too dear and almost never needed. But a ramp that winds
-//   around an axis has a normal cone, about that axis, and may meet itself after one turn.
-// - It takes patches that have a vertex in common for adjacent. But one may lie over the other.
-// - It takes N.V >= 0 for N.V > 0. But triangles seen edge-on may hide others.
-// - It takes the edges that have one triangle for the contour. But an edge with three triangles is
-//   on the contour too. Here an edge is on it wherever its triangles do not cancel, and L13 relies
-//   on that.
+// - It looks at normals and contours only at the end of the step. So it misses a triangle that
+//   turns over and back during the step, and an end of a sheet that passes through another end.
+// - It leaves out the contour test, because the test is expensive and almost never needed. But a
+//   ramp that winds around an axis has a normal cone about that axis, and can meet itself after one
+//   turn.
+// - It treats patches that have a common vertex as adjacent. But one patch can lie over the other.
+// - It uses N.V >= 0 in place of N.V > 0. But triangles seen edge-on can hide others.
+// - It uses, as the contour, the edges that have one triangle. But an edge with three triangles is
+//   on the contour too. In this file an edge is on the contour if its triangles do not pass it
+//   equally often in both directions, and L13 relies on this.
 #include "detector/traditional/traditional.h"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
-// Error bounds of the lanes, in the notation of bernstein.h. All differences of coordinates k that
-// a lane computes are at most E_k (edges), W_k (p - q, both ends of a line) or D_k (d = q1 - q0)
-// in size. The computed differences are so too, because E_k, W_k and D_k are computed from the
+// Error bounds of the lanes, in the notation of bernstein.h. Along axis k, an edge is at most E_k
+// in size, p - q at most W_k for both ends q of a line, and d = q1 - q0 at most D_k. This also
+// holds for the differences that a lane computes, because E_k, W_k and D_k are computed from the
 // least and the greatest coordinate, and rounding keeps order.
 //   T = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
 //   G = W_x D_x + W_y D_y + W_z D_z
 //   L = D_x^2 + D_y^2 + D_z^2
-// N is the normal with Bernstein coefficients b0, b1, b2. A lane holds 2 b1 in place of b1, and
-// the two middle coefficients of h times 3.
+// N is the normal with Bernstein coefficients b0, b1, b2. A lane computes 2 b1 in place of b1, and
+// the two middle coefficients of h multiplied by 3.
 //
 //   quantity         | operations                            | error in u               | size
 //   b0, b2           | minor of two edges                    | 8 EE                     | 2 EE
@@ -19,13 +19,13 @@
 //   3 h, middle      | w . (2 b1) + w . b0 or + w . b2       | 36 + 16 + 6 = 58 T       | 6 T
 //   value            | h0 + s (h1 - h0), s given in [0,1]    | 58 + 12 + 12 + 6 = 88 T  | 6 T
 //
-// The value is a mean of h0 and h1, so their error of 58 T carries over to it; h1 - h0 and its
-// product with s are at most 12 T in size. lane_cubic_units = 64 covers h and 3 h,
-// lane_value_units = 112 the value. The slack covers errors of second order, and the rounding of T
-// and of the products here.
+// The value is a mean of h0 and h1, so it inherits their error of 58 T; h1 - h0 and its product
+// with s are at most 12 T in size. lane_cubic_units = 64 covers h and 3 h, and lane_value_units =
+// 112 covers the value. The slack covers errors of second order, and the rounding of T and of the
+// products here.
 //
 // The ratio s = a / l of a coefficient a of (p-q0).d and the same coefficient l of d.d, with l >=
-// l_min > 0 (both middle coefficients are taken times 2):
+// l_min > 0 (both middle coefficients are multiplied by 2):
 //
 //   quantity      | operations                      | error in u                     | size
 //   a             | x . y, middle                   | 6 G                            | G
@@ -35,10 +35,10 @@
 //
 // The errors add up to u (8 + 6 L / l_min) G / l_min. axial_error is twice that, plus 2^-1000 for
 // underflow. It holds as long as L / l_min <= 2^40, because then errors of second order are
-// negligible. Otherwise s may be anything in [0,1], and axial_error = 2 says so.
+// negligible. If L / l_min > 2^40, axial_error is 2, which means that s can be anything in [0,1].
 //
-// At t=0 and t=1 the value is taken at a computed s. It is off by value_error, and by the error of
-// s times |h1 - h0| <= 4 T: end_error = value_error + 5 T axial_error.
+// At t=0 and t=1 the value is computed with a computed s. It is off by value_error, plus the error
+// of s multiplied by |h1 - h0| <= 4 T: end_error = value_error + 5 T axial_error.
 #include <cmath>
 
 #include "detector/exact/bernstein.h"

@@ -1,15 +1,16 @@
 // L1: with N = (p1-p0) x (p2-p0), h0 = (p-q0).N and h1 = (p-q1).N (the same for every point p of
 // the triangle's plane), d = q1 - q0 and s = clamp((p-q0).d / d.d, 0, 1), the view value at p is
 //   (p - n(p)).N = (1-s) h0 + s h1.
-// This is affine in s, and s is monotone along the triangle: the extremes over the triangle are at
-// the three vertices, each with its own s. So the triangle is positive when the value is positive
-// at the three vertices; h0, h1 > 0 together suffice.
-// L2: h0 and h1 are cubics in t. Over a piece of time this file bounds them by their Bernstein
-// coefficients, bounds each vertex's s likewise, and bounds the value from these. Pieces that stay
-// open are halved. Ends of the segment that move need no other treatment.
+// This value is affine in s, and s is a clamped linear function on the triangle. So the extremes of
+// the value over the triangle are at the three vertices, each with its own s, and the triangle is
+// positive when the value is positive at the three vertices. h0 > 0 and h1 > 0 together are enough.
+// L2: h0 and h1 are cubics in t. Over a piece of the step this file bounds h0 and h1 by their
+// Bernstein coefficients, bounds the s of each vertex in the same way, and bounds the value from
+// both. A piece that these bounds do not decide is halved. If the ends of the segment move, nothing
+// else changes.
 //
-// Error bounds, in the notation of bernstein.h. Over both ends of the step E_k bounds coordinate k
-// of the edges p1-p0 and p2-p0, W_k that of p-q, and D_k that of d.
+// Error bounds, in the notation of bernstein.h. At t=0 and at t=1, E_k bounds coordinate k of the
+// edges p1-p0 and p2-p0, W_k bounds coordinate k of p-q, and D_k bounds coordinate k of d.
 //   T = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
 //   G = W_x D_x + W_y D_y + W_z D_z
 //   L = D_x^2 + D_y^2 + D_z^2
@@ -22,7 +23,7 @@
 //   d.d               | x . y, middle               | 6 L                | L
 //   d.d halved        | a quadratic with B = L      | as before + 2 L    | L
 //
-// view_cubic_error and view_axial_error are these with two u more.
+// view_cubic_error and view_axial_error are these errors plus two u.
 #include <algorithm>
 #include <cmath>
 

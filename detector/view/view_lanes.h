@@ -1,6 +1,6 @@
 // The first rungs of the view test, for many triangles at once: one triangle in each lane, in
-// double, with proved bounds. A lane makes the same sequence of roundings whatever the instruction
-// set and the number of lanes are, so results are the same bytes on every machine.
+// double, with proved bounds. A lane rounds in the same way with every instruction set and every
+// number of lanes, so results have the same bytes on every machine.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@ struct LaneInput {
   double q0_t0[3], q0_t1[3];
   double q1_t0[3], q1_t1[3];
 
-  // Coefficients of a cubic, the middle two times 3, are off by less than this.
+  // The coefficients of a cubic (the middle two multiplied by 3) are off by less than this.
   double cubic_error;
-  // For a line, with d = q1 - q0.
+  // The rest is for a line, with d = q1 - q0.
   double d_t0[3], d_t1[3];
   double length2_reciprocals[3];  // 1 / coefficient of d.d; the middle coefficient times 2
   double axial_error;             // error of a ratio of coefficients (p-q0).d / d.d
   double value_error;             // error of (1-s) h0 + s h1 at a given s
-  double end_error;               // error of the same at t=0 or 1, at a computed s
+  double end_error;               // error of (1-s) h0 + s h1 at t=0 or t=1, at a computed s
 };
 
-// A lane writes a sign with the values of ViewSign, or this if doubles could not tell it.
+// A lane writes the value of a ViewSign, or lane_open if doubles cannot tell the sign.
 inline constexpr std::int8_t lane_open = 2;
 
 // Writes signs[i] for triangles[i], for all i < count. No allocation.
@@ -34,21 +34,21 @@ using LaneKernel = void (*)(const LaneInput& input, const std::int32_t* triangle
                             std::size_t count, std::int8_t* signs);
 
 struct LaneKernels {
-  std::size_t lanes;        // triangles at once
-  LaneKernel point;         // for a point: the cubic of L1, L2, and its signs at both ends
-  LaneKernel two_cubics;    // for a line: h0 and h1, if both have the same strict sign
-  LaneKernel middle_piece;  // for a line: (1-s) h0 + s h1, with s bounded over the step
+  std::size_t lanes;        // the number of triangles that are tested at once
+  LaneKernel point;         // for a point: by the cubic of L1, L2 and its signs at t=0 and t=1
+  LaneKernel two_cubics;    // for a line: decides if h0 and h1 have the same strict sign
+  LaneKernel middle_piece;  // for a line: by (1-s) h0 + s h1, with s bounded over the step
 };
 
-// With 2, 4 and 8 lanes.
+// These have 2, 4 and 8 lanes.
 enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 
-// Returns whether the set was compiled in and this machine has it. The baseline is always
-// available.
+// Returns whether the library has code for `set` and this machine can run it. The baseline is
+// always available.
 bool is_available(InstructionSet set);
 InstructionSet best_instruction_set();
 
-// Returns the kernels for `set`, or those of the baseline if `set` is not available.
+// Returns the kernels for `set`, or the baseline kernels if `set` is not available.
 const LaneKernels& lane_kernels(InstructionSet set);
 
 }  // namespace assay::detector

@@ -1,18 +1,18 @@
 // The code of view_lanes.h. It is compiled once for each instruction set, by a file that defines
-// ASSAY_LANES before it includes this one. Everything here has internal linkage, and no header
-// with inline functions is included, because code for one instruction set must not reach the
-// others.
+// ASSAY_LANES before it includes this one. Everything here has internal linkage, and no header with
+// inline functions is included, because code for one instruction set must not be linked into code
+// for another.
 //
 // Each lane has one triangle, with N = (p1-p0) x (p2-p0) and Bernstein coefficients over the step:
 //
-// - h = (p0-q).N is kept as h[0], 3 h[1], 3 h[2], h[3]. If all four have one sign, the cubic has
+// - h = (p0-q).N is stored as h[0], 3 h[1], 3 h[2], h[3]. If all four have one sign, the cubic has
 //   that sign.
-// - s = (p-q0).d / d.d is a ratio of quadratics. It is a mean of the ratios of their coefficients,
-//   with the coefficients of d.d, all positive, as weights. So it lies between the least and the
-//   greatest of these ratios.
-// - (1-s) h0 + s h1 is, for the s of one time, a mean of its values at h0[j], h1[j]. It is linear
-//   in s, so its least and greatest values are at the ends of the range of s over the step and the
-//   corners.
+// - s = (p-q0).d / d.d is a ratio of quadratics. It is a weighted mean of the ratios of their
+//   coefficients; the weights are made of the coefficients of d.d, which are all positive. So s
+//   lies between the least and the greatest of these ratios.
+// - (1-s) h0 + s h1 at a time, with the s of that time, is a weighted mean of the values (1-s)
+//   h0[j] + s h1[j]. Each of these is linear in s, so its least and greatest values are at the ends
+//   of the range that s has over the step and the three corners.
 #include <cstddef>
 #include <cstdint>
 
@@ -134,7 +134,7 @@ ASSAY_INLINE void range(Lanes& least, Lanes& greatest, const LaneCubic& h) {
   greater(greatest, h.b3);
 }
 
-// Writes the signs. REQUIRES that at most one of the three masks is true in a lane.
+// Writes the sign of each lane. REQUIRES that at most one of the three masks is true in a lane.
 ASSAY_INLINE void write(std::int8_t* signs, const Mask& positive, const Mask& negative,
                         const Mask& zero) {
   const Mask sign = lane_open + positive + 3 * negative + 2 * zero;
@@ -202,7 +202,7 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
   for (int corner = 0; corner < 3; ++corner) {
     LaneMotion w = line.w;
     if (corner > 0) {
-      // p - q0 is computed from the corner itself: (p1-p0) + (p0-q0) would be rounded twice.
+      // p - q0 is computed from p itself, because (p1-p0) + (p0-q0) would be rounded twice.
       std::int32_t rows[lane_count];
       for (std::size_t i = 0; i < lane_count; ++i) {
         rows[i] = in.corners[3 * static_cast<std::ptrdiff_t>(triangles[i]) + corner];

@@ -1,8 +1,8 @@
 // The first rungs of the elementary test for many feature pairs at once, one in each lane: order
 // along an axis, and doubles with proved bounds over the whole step (contact/rungs.h, without
-// halving). Most feature pairs of a mesh are settled here. The others are left to the elementary
-// test, so answers do not depend on lanes. A lane makes the same roundings whatever the instruction
-// set is, so counts do not depend on it either.
+// halving). These rungs decide most feature pairs of a mesh. The elementary test decides the rest,
+// so answers do not depend on lanes. A lane rounds in the same way with every instruction set, so
+// counts do not depend on the instruction set.
 #pragma once
 
 #include <cstddef>
@@ -24,11 +24,12 @@ struct QueryInput {
   double cubic_error, dependency_error, orientation_error;
   double least_magnitude, greatest_magnitude;  // the range in which the bounds hold
 };
-// Returns the input for `motion`. It refers to the positions, which must outlive it.
+// Returns the input for `motion`. The input refers to the positions of `motion`, which must outlive
+// it.
 QueryInput query_input(const SteppedMesh& motion);
 
-// The result of a lane: the groups are strictly ordered along an axis, or doubles show that there
-// is no contact (no piercing), or neither.
+// The result of a lane. axis: the two groups are strictly ordered along an axis. filter: doubles
+// show that there is no contact (no piercing). open: the lane has not decided the query.
 enum class LaneRung : std::uint8_t { open, axis, filter };
 
 // Writes rungs[i] for queries[i], for all i < count. No allocation.
@@ -38,7 +39,7 @@ using QueryKernel = void (*)(const QueryInput& input, const QueryVertices* queri
 // A contact query takes 15 to 25 ns with AVX2.
 struct QueryKernels {
   QueryKernel vertex_face, edge_edge;
-  QueryKernel piercing;  // at t=0; never returns `axis`
+  QueryKernel piercing;  // at t=0; never writes `axis`
 };
 
 // Returns the kernels for the best instruction set that this machine has.

@@ -1,9 +1,10 @@
 // The code of query_lanes.h. It is compiled once for each instruction set, by a file that defines
-// ASSAY_LANES before it includes this one. Everything here has internal linkage, and nothing inline
-// of other headers is called, because code for one instruction set must not reach the others.
+// ASSAY_LANES before it includes this one. Everything here has internal linkage, and no inline
+// function of another header is called, because code for one instruction set must not be linked
+// into code for another.
 //
-// Each lane has one query. It computes what contact_pieces.h and orientation.cpp compute, operation
-// by operation, so their error bounds hold.
+// Each lane has one query. A lane does the same operations as contact_pieces.h and orientation.cpp,
+// so their error bounds hold.
 #include <cstddef>
 #include <cstdint>
 
@@ -24,7 +25,7 @@ struct LaneCross {
   LaneVector b0, b1, b2;
 };
 
-// Raises `magnitude` to the size of x where that is greater.
+// Raises `magnitude` to |x| in each lane in which |x| is greater.
 ASSAY_INLINE void grow(Lanes& magnitude, const Lanes& x) {
   const Lanes size = x < Lanes{} ? -x : x;
   greater(magnitude, size);
@@ -67,7 +68,7 @@ ASSAY_INLINE void gather(LaneVector& out, const double* x, std::ptrdiff_t stride
 }
 
 // Sets `out` to whether two groups of points are strictly ordered along an axis, in the same sense
-// at both ends of the step. The first `split` points are one group, the rest the other.
+// at t=0 and at t=1. The first `split` points are one group, the other points are the second group.
 ASSAY_INLINE void ordered(Mask& out, const LaneMotion (&p)[4], std::size_t split) {
   out = Mask{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -109,7 +110,7 @@ ASSAY_INLINE bool everywhere(const Mask& mask) {
   return result;
 }
 
-// Sets `out` to whether all coefficients of the coplanarity cubic F are surely of one sign.
+// Sets `out` to whether all coefficients of the coplanarity cubic F certainly have one sign.
 ASSAY_INLINE void never_coplanar(Mask& out, const QueryInput& in, const LaneMotion& w,
                                  const LaneCross& n, const LaneVector& magnitude) {
   Lanes first, middle, f[4];
@@ -130,8 +131,8 @@ ASSAY_INLINE void never_coplanar(Mask& out, const QueryInput& in, const LaneMoti
   out = (least > bound) | (greatest < -bound);
 }
 
-// Sets `out` to whether along some axis two of the dependencies surely have opposite signs over the
-// step.
+// Sets `out` to whether, for some axis, two of the L_k,i (contact_pieces.h) certainly have opposite
+// signs over the whole step.
 ASSAY_INLINE void never_meet(Mask& out, const QueryInput& in, const LaneCross (&lam)[3],
                              const LaneVector& magnitude, std::size_t split) {
   out = Mask{};
@@ -200,7 +201,7 @@ ASSAY_INLINE void contact_group(const QueryInput& in, const QueryVertices* queri
   write(rungs, apart, free & holds);
 }
 
-// u[i] . (u[j] x u[k])
+// Sets `out` to u[i] . (u[j] x u[k]).
 ASSAY_INLINE void volume(Lanes& out, const LaneVector (&u)[4], std::size_t i, std::size_t j,
                          std::size_t k) {
   LaneVector n;
@@ -208,7 +209,8 @@ ASSAY_INLINE void volume(Lanes& out, const LaneVector (&u)[4], std::size_t i, st
   dot(out, u[i], n);
 }
 
-// The differences of four points from an origin, and the bound of their volumes.
+// Sets u to the differences of four points from a fifth one, the first of `points`, and `bound` to
+// the error bound of volume() of these. Sets `holds` to whether the bound holds.
 ASSAY_INLINE void differences(LaneVector (&u)[4], Lanes& bound, Mask& holds, const QueryInput& in,
                               const LaneVector (&p)[5], const std::size_t (&points)[5]) {
   LaneVector magnitude = {};
@@ -227,14 +229,15 @@ ASSAY_INLINE void piercing_group(const QueryInput& in, const QueryVertices* quer
   LaneVector u[4];
   Lanes bound, volumes[3];
   Mask holds;
-  // Both ends of the edge are strictly on one side of the triangle's plane.
+  // There is no piercing if both ends of the edge are strictly on one side of the triangle's plane.
   differences(u, bound, holds, in, p, {2, 3, 4, 0, 1});
   volume(volumes[0], u, 2, 0, 1);
   volume(volumes[1], u, 3, 0, 1);
   Mask free = holds & (((volumes[0] > bound) & (volumes[1] > bound)) |
                        ((volumes[0] < -bound) & (volumes[1] < -bound)));
   if (!everywhere(free)) {
-    // The volumes with two sides of the triangle differ in sign, so the edge's line misses it.
+    // There is no piercing if the volumes of the edge with two sides of the triangle differ in
+    // sign: then the line through the edge misses the triangle.
     differences(u, bound, holds, in, p, {0, 1, 2, 3, 4});
     volume(volumes[0], u, 0, 1, 2);
     volume(volumes[1], u, 0, 2, 3);

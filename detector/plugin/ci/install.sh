@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs Assay in a CI job: in a container of Debian 12, as root. Where a cache has kept the
-# package in .package it is taken from there; otherwise it is built of the sources around this
+# Installs Assay in a CI job, in a container of Debian 12, as root. If a cache has the package in
+# .package, this package is installed. If not, the package is built from the sources around this
 # script, which takes some ten minutes.
 set -e
 sources=$(cd "$(dirname "$0")/../../.." && pwd)

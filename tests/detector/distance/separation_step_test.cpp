@@ -214,11 +214,11 @@ TEST(SeparationStep, WrongSeparationsAreRefusedByName) {
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double d : {-1.0, infinity, std::nan("")})
-    EXPECT_EQ(refusal(within(d)), "the separation is not a finite number of 0 or more");
+    EXPECT_EQ(refusal(within(d)), "the separation is negative or not finite");
   for (const Culling culling : all_values<Culling>) {
     if (culling == Culling::bvh || culling == Culling::none) continue;
     EXPECT_EQ(refusal(within(1, culling)), std::string("culling ") + name_of(culling) +
-                                               " does not answer a separation; bvh and none do");
+                                               " does not support a separation; use bvh or none");
   }
   for (const Arithmetic arithmetic : all_values<Arithmetic>) {
     if (arithmetic == Arithmetic::exact) continue;

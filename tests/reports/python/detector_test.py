@@ -39,7 +39,7 @@ def test_a_first_contact_is_looked_for_up_to_a_bound(pair):
     with pytest.raises(assay.InputError):
         detector.commit()
     for wrong in (-0.5, 1.5, float("nan")):
-        with pytest.raises(assay.InputError, match="the bound is not a time from 0 to 1"):
+        with pytest.raises(assay.InputError, match="`until` is not a time from 0 to 1"):
             detector.first_contact(pair.x_t0, pair.x_t1, wrong)
 
 

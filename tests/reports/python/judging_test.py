@@ -144,7 +144,7 @@ def test_bodies_that_are_apart_do_not_meet(pair):
     assert report.json["bodies"] == [{"triangles": 4, "vertices": 4}] * 2
     report = assay.check(frames, bodies=bodies, apart=[(1, 0)])
     assert (report.outcome, report.steps[0].answer) == ("holds", "free")
-    wrongs = [([0], "given for 1 vertices"), ([0] * 7 + [1], "is of two bodies"), ([0.5] * 8, "whole")]
+    wrongs = [([0], "given for 1 vertices"), ([0] * 7 + [1], "belongs to two bodies"), ([0.5] * 8, "whole")]
     for wrong, why in [*wrongs, ([2**32] * 8, "whole"), ([[0] * 8], "1-dimensional")]:
         with pytest.raises(ValueError, match=why):
             assay.check(frames, bodies=wrong, apart=[(0, 0)])
