@@ -19,11 +19,11 @@
 
 namespace assay::detector {
 
-// The number of items in a piece: about 10 us of work. The calling thread does a loop of fewer
-// items alone.
-inline constexpr std::size_t shared_piece = 4096;
-// The number of items in a piece if they are rows of positions that are only read or copied.
-inline constexpr std::size_t rows_of_piece = 32'768;
+// The calling thread does a loop of fewer items alone: about 10 us of work.
+inline constexpr std::size_t least_shared = 4096;
+// Returns the number of items in a piece of a loop. Pieces are small, so that all threads end at
+// about the same time.
+inline std::size_t piece_of(std::size_t count) { return count <= least_shared ? count : 1024; }
 
 inline bool has_workers(const PacedStop* pace) {
   return pace && pace->workers() && !pace->workers()->is_alone();
@@ -69,7 +69,7 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pac
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (; begin < end; ++begin) body(begin);
   };
-  return for_all_pieces(count, shared_piece, work_of_each, pace, run);
+  return for_all_pieces(count, piece_of(count), work_of_each, pace, run);
 }
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pace, Body body) {
@@ -83,7 +83,7 @@ template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
   std::vector<Sum> of_lanes(has_workers(pace) ? pace->workers()->count() : 1, zero);
-  for_all_pieces(count, shared_piece, work_of_each, pace,
+  for_all_pieces(count, piece_of(count), work_of_each, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
                    // Adds to a copy: adding in memory, beside the sums of other lanes, is slow.
                    Sum sum = of_lanes[lane];
@@ -104,7 +104,7 @@ bool list_by_row(std::size_t items, std::size_t rows, RowsOf rows_of, Incidence&
   constexpr std::uint64_t work_of_item = 6;
   const bool is_shared = has_workers(&pace);
   const std::size_t lanes = is_shared ? pace.workers()->count() : 1,
-                    items_at_once = is_shared ? 32'768 : shared_piece;
+                    items_at_once = is_shared ? 32'768 : least_shared;
   const std::size_t of_lane = (rows + lanes - 1) / lanes;
   const auto for_all_in_rows = [&](auto body) {
     for (std::size_t begin = 0; begin < items; begin += items_at_once) {

@@ -26,7 +26,7 @@ void StepState::keep(const PositionsView& x, const PacedStop& pace) {
     return;
   }
   PacedStop unasked = pace.unasked();
-  for_all_pieces(static_cast<std::size_t>(x.rows()), rows_of_piece, 0, &unasked,
+  for_all_pieces(static_cast<std::size_t>(x.rows()), least_shared, 0, &unasked,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    std::memcpy(positions.data() + 3 * begin, x.data() + 3 * begin,
                                row_bytes * (end - begin));
@@ -42,7 +42,7 @@ bool StepState::holds_at(const PositionsView& x, const PacedStop& pace) const {
   if (is_packed(x)) {
     std::atomic<bool> all_same = true;
     PacedStop unasked = pace.unasked();
-    for_all_pieces(static_cast<std::size_t>(x.rows()), rows_of_piece, 0, &unasked,
+    for_all_pieces(static_cast<std::size_t>(x.rows()), least_shared, 0, &unasked,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                      if (all_same && !same(static_cast<Eigen::Index>(begin),
                                            static_cast<Eigen::Index>(end - begin))) {

@@ -54,7 +54,7 @@ bool ReleaseRule::is_free(const GivenStep& step, const StepMarks& marks, StepCos
   const auto& triangles = step.component(c).triangles;
   constexpr std::uint64_t work_of_sign = 1;
   std::atomic<bool> all_positive = true;
-  for_all_pieces(triangles.size(), shared_piece, work_of_sign, &cost.pace,
+  for_all_pieces(triangles.size(), piece_of(triangles.size()), work_of_sign, &cost.pace,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    const auto piece = std::span(triangles).subspan(begin, end - begin);
                    if (!all_positive.load(std::memory_order_relaxed)) return;

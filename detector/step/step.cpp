@@ -87,7 +87,7 @@ bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop
   if (x.rows() != vertex_count) return false;
   std::atomic<bool> found_nothing = true;
   PacedStop unasked = pace.unasked();
-  for_all_pieces(static_cast<std::size_t>(x.rows()), rows_of_piece, 0, &unasked,
+  for_all_pieces(static_cast<std::size_t>(x.rows()), least_shared, 0, &unasked,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    const auto first = static_cast<Eigen::Index>(begin),
                               count = static_cast<Eigen::Index>(end - begin);

@@ -91,7 +91,7 @@ Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x, P
     return box_around(vertices, x);
   }
   std::vector<Box> of_lanes(pace->workers()->count(), box_around(vertices.first(1), x));
-  for_all_pieces(vertices.size(), shared_piece, work_of_vertex, pace,
+  for_all_pieces(vertices.size(), piece_of(vertices.size()), work_of_vertex, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
                    include(of_lanes[lane], box_around(vertices.subspan(begin, end - begin), x));
                  });

@@ -127,7 +127,7 @@ bool run_in_lanes(const Rungs& rungs, std::span<const std::int32_t> triangles, c
   for (std::size_t i = 0; i < pace.workers()->count(); ++i)
     lanes.push_back(std::make_unique<Lane>(rungs, pace.stop()));
   std::atomic<bool> completed = true;
-  pace.workers()->share_out(triangles.size(), shared_piece, [&](const LoopPiece& piece) {
+  pace.workers()->share_out(triangles.size(), least_shared, [&](const LoopPiece& piece) {
     if (completed && !run_alone(lanes[piece.lane]->rungs,
                                 triangles.subspan(piece.begin, piece.end - piece.begin), put)) {
       completed = false;
@@ -167,7 +167,7 @@ bool classify(const Topology& mesh, const Component& component, const SteppedMes
   };
   Rungs rungs(mesh, component.vertices, motion, primitive, set, arithmetic, pace);
   if (pace && pace->stopped()) return false;
-  const bool completed = has_workers(pace) && triangles.size() > shared_piece
+  const bool completed = has_workers(pace) && triangles.size() > least_shared
                              ? run_in_lanes(rungs, triangles, put, *pace, counts)
                              : run_alone(rungs, triangles, put);
   counts += rungs.counts();

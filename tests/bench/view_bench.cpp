@@ -86,7 +86,7 @@ void read_plainly(benchmark::State& state, std::uint32_t threads) {
   const Workers workers(threads);
   std::vector<double> sums(workers.count());
   for (auto _ : state) {
-    workers.share_out(mesh.triangles.size(), shared_piece, [&](const LoopPiece& piece) {
+    workers.share_out(mesh.triangles.size(), 4096, [&](const LoopPiece& piece) {
       double sum = 0;
       for (std::size_t t = piece.begin; t < piece.end; ++t) {
         for (const auto v : mesh.triangles[t]) {

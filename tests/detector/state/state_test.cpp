@@ -48,7 +48,7 @@ class BeginTogether : public ThreadArena {
 
 // A piece that finds no difference must not take back what another one has found.
 TEST(StepState, HoldsAtNoOtherPositionsWhicheverPieceEndsLast) {
-  constexpr Eigen::Index pieces = 2, of_piece = rows_of_piece, count = pieces * of_piece;
+  constexpr Eigen::Index pieces = 2, of_piece = least_shared, count = pieces * of_piece;
   const Workers workers(std::make_unique<BeginTogether>(), pieces);
   const Positions x = Positions::Constant(count, 3, 1.5);
   PacedStop pace(never_stops, workers);
