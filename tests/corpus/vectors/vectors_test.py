@@ -401,7 +401,7 @@ class Committed(unittest.TestCase):
     def test_the_page_is_that_of_the_results(self):
         import matrix
         every = [vectors.judge(results, self.set) for results in self.results]
-        self.assertEqual(len(every), 21)
+        self.assertEqual(len(every), 23)
         self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
 
     def test_the_rationals_are_those_of_the_groups(self):
