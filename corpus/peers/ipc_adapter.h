@@ -215,7 +215,7 @@ class AssayBroadPhase : public ipc::BroadPhase {
     const Representatives representatives(topology_);
     detector::FeaturePairs pairs(topology_, representatives, marks.types);
     pairs.fit(motion, nullptr, within_);
-    if (within_ == 0) pairs.prove_apart(motion, tree_->wide(), nullptr);
+    if (within_ == 0) pairs.prove_apart(motion, tree_->wide(), nullptr, [] {});
     near_.clear();
     const auto take_pair = [&](std::int32_t a, std::int32_t b) {
       if (!pairs.are_proved_apart(a, b)) pairs.append(a, b, false, near_);

@@ -127,8 +127,8 @@ sets, a touch is a contact; a product that counts overlaps only answers free, or
 the touch or beyond. Both are right, and a product should hold to one of them.</p>\n<ul>\n"""
 
 # Words: of a product, its plug-in or arithmetic, what it is, and the flag or features of misses by
-# design, with a sentence; of a flag, its meaning and pitfall, where set.json needs more; of the
-# kinds of a group.
+# design, with a sentence; of a flag, its meaning and pitfall, where set.json needs more; of a case,
+# what stands in place of its `about`; of the kinds of a group; of a mesh's flags, and of misses.
 MORE = vectors.read_json(Path(__file__).with_name("matrix.words"))
 
 # What is counted of a product, and the words that stand before the ids.
@@ -242,18 +242,15 @@ def touching_html(every):
     return f"{TOUCHING}{items}</ul>\n" if items else ""
 
 
-def answer_text(answer):
-    if answer["answer"] == "share":
-        return f"share {vectors.decimal(answer['share'])}"
-    return answer["answer"] + (interval(answer["time"]) if "time" in answer else "")
-
-
 def case_html(case, judged):
     at, answer = judged.missed[case.id]
     time = case.steps[at].first_time
     step = f"step {at + 1}: " if len(case.steps) > 1 else ""
-    return (f"<li><code>{escaped(case.id)}</code> {escaped(case.about)}<br><small>{step}contact"
-            f"{interval(time) if time else ''}; answered {escaped(answer_text(answer))}. "
+    told = f"first contact{interval(time)}" if time else "contact"
+    said = f"share {vectors.decimal(answer['share'])}" if "share" in answer else answer["answer"]
+    about = MORE["cases"].get(case.about, case.about)
+    return (f"<li><code>{escaped(case.id)}</code> {escaped(about)}<br>"
+            f"<small>{step}{told}; answered {escaped(said)}. "
             f"{escaped(', '.join(case.flags))}</small></li>\n")
 
 
@@ -321,10 +318,11 @@ def page(asked, every):
             f"its files, which all results here state: <code>{info['digest']}</code></span></p>\n"
             f"{ORIGIN * is_own}{WORDS}{products_html(every, cases)}<h2>By what makes a case hard"
             f"</h2>\n{LEGEND}<p>A case may have several flags, or none "
-            f"({sum(not case.flags for case in asked.cases)} cases), and has one group.</p>\n" +
+            f"({sum(not case.flags for case in asked.cases)} cases), and has one group.</p>\n"
+            f"{MORE['mesh'] * is_own}" +
             matrix_html("flag", flags, every, flag_words) +
             "<h2>By group</h2>\n" + matrix_html("group", groups, every, group_words) +
-            touching_html(every) + "<h2>The misses</h2>\n")
+            touching_html(every) + "<h2>The misses</h2>\n" + MORE["misses"])
     for i, judged in enumerate(every):
         html += product_html(judged, vectors.letter_of(i), cases)
     return html + "</body></html>\n"

@@ -374,8 +374,8 @@ class Page(InScratch):
                 '<b>&#x2713; 0/1</b></td></tr>', "<small>1 alarm",
                 "1 unanswered</small>", "<h3>A bad, version 1, s: 2 misses</h3>",
                 "<h3>B good, version 1, s: no miss</h3>", "<code>ee-d-0003</code> Two edges slide "
-                "along one line, in one plane throughout, and meet half way.<br><small>contact at t = "
-                "0.5; answered free. CoplanarThroughout, ParallelEdges</small>",
+                "along one line, in one plane throughout, and meet half way.<br><small>first contact "
+                "at t = 0.5; answered free. CoplanarThroughout, ParallelEdges</small>",
                 "answered share 0.5", "<p>Alarms (1): <code>vf-d-0003</code></p>",
                 "<p>Unanswered: undecided (1): <code>vf-d-0001</code></p>", "<p>Late times (1, by ",
                 "<li>A bad, s: 0 called contact, 1 free</li>", "prefers-color-scheme: dark"):
@@ -401,7 +401,7 @@ class Committed(unittest.TestCase):
     def test_the_page_is_that_of_the_results(self):
         import matrix
         every = [vectors.judge(results, self.set) for results in self.results]
-        self.assertEqual(len(every), 21)
+        self.assertEqual(len(every), 23)
         self.assertEqual(matrix.page(self.set, every), (ROOM / "matrix.html").read_text())
 
     def test_the_rationals_are_those_of_the_groups(self):

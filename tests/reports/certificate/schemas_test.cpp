@@ -234,7 +234,7 @@ TEST(VectorSchemas, AreThoseOfSetsAndResults) {
       EXPECT_TRUE(folder != mini || !wrong_by(of_vectors, value).empty());
     }
   }
-  EXPECT_EQ(files, 6 + 19 + 21);
+  EXPECT_EQ(files, 6 + 19 + 23);
   auto changed = parsed(results + "/assay_exact.json");
   changed["answers"]["vf-d-0001"]["answer"] = "perhaps";
   EXPECT_FALSE(wrong_by(of_results, changed).empty());
