@@ -50,7 +50,7 @@ struct PolicyState {
   // The account of Culling::automatic, in box tests of 5 ns: the work that it may take beyond the
   // work of `bvh`. At first this is 0.04 ms.
   double credit = 8'000;
-  double tried = 0;        // the last attempt to make views stopped after this much work
+  double tried = 0;        // this much work was too little in the last attempt to make views
   bool has_views = false;  // the views are made, and the credit has paid for making them
 
   friend bool operator==(const PolicyState&, const PolicyState&) = default;
