@@ -22,8 +22,8 @@ namespace doubt {
 inline constexpr std::uint8_t violated = 1, dirty = 2;
 }
 
-// Whether a step used views, and if not, why. The results are the same with and without views; only
-// the cost of the step differs. A step without views tests every pair whose boxes meet.
+// Whether a step used views, and if not, why. This affects only the cost of the step, because a
+// step without views tests every pair whose boxes meet.
 enum class ViewUse : std::uint8_t {
   used,
   not_asked_for,      // the culling has no views, or the step was refused or stopped too early

@@ -94,8 +94,8 @@ struct NearResult {
 // stay apart or are within d at t=0, otherwise 0.5 us.
 NearResult filter_near(const FourPoints& query, double d);
 
-// The largest number of pieces that are tried. Features that need more pieces come about as near as
-// d, and no nearer.
+// The largest number of pieces that are tried. Features that need more pieces come no nearer than
+// about d.
 inline constexpr int max_advances = 24;
 
 // Finds where two features are nearest to each other at one instant, in plain doubles.

@@ -200,7 +200,7 @@ typedef struct assay_description {
   int32_t counts;       /* ASSAY_COUNTS_...: the pairs that rings and rest_distance leave out */
   int32_t rings;        /* leaves out pairs joined by a path of fewer edges of the mesh */
   double rest_distance; /* leaves out pairs nearer to each other at rest than this, user's units */
-  int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if the limiter gives a share */
+  int32_t limit_gives;  /* ASSAY_LIMIT_...: where the caller stops if it gets only a share */
   double progress;      /* for ASSAY_CLAIM_PROGRESS: above 0, at most 1; without this claim 0 */
   int32_t motion;       /* ASSAY_MOTION_... */
   /* The capacity of the detector; 0: no limit. Beyond it, ASSAY_BEYOND_CAPACITY is allowed. */

@@ -13,7 +13,7 @@ namespace assay::detector {
 
 // The surface at an instant. `x` has the vertices of the mesh, then the apexes. touched[t] is 1 if
 // triangle t of the mesh meets another triangle or a ghost of its component beyond the vertices
-// that they share.
+// and edges that they share.
 struct TouchedSurface {
   const Surface& surface;
   PositionsView x;
@@ -33,15 +33,15 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 // triangles of the mesh's component `c`, ascending, none of them clean, and that the clean
 // triangles of the component touch nothing and have one common layer.
 //
-// Two untouched triangles are linked if they share an edge that no third triangle has. (They pass
-// this edge in opposite directions, because mesh and ghosts form a cycle.) The layer is the same
-// across a link, and the pieces are the sets of triangles that links connect. A flood along links
-// finds the pieces. A piece with a clean triangle is released. For any other piece one exact
-// winding number is counted (in bounded arithmetic a piece whose number doubles cannot tell stays
-// dirty). The piece is released if its layer is the common layer: the layer of `witnesses` or, if
-// there are none, the layer with most untouched triangles (tie: the layer of the lowest triangle
-// index). It is not enough that a piece is connected to a clean piece: two tetrahedra, one inside
-// the other, can share an edge (case L9_shared_edge_two_layers).
+// Two untouched triangles are linked if they share an edge that no third triangle and no ghost has.
+// (They pass this edge in opposite directions, because mesh and ghosts form a cycle.) The layer is
+// the same across a link, and the pieces are the sets of triangles that links connect. A flood
+// along links finds the pieces. A piece with a clean triangle is released. For any other piece one
+// exact winding number is counted (in bounded arithmetic a piece whose number doubles cannot tell
+// stays dirty). The piece is released if its layer is the common layer: the layer of `witnesses`
+// or, if there are none, the layer with most untouched triangles (tie: the layer of the lowest
+// triangle index). It is not enough that a piece is connected to a clean piece: two tetrahedra, one
+// inside the other, can share an edge (case L9_shared_edge_two_layers).
 //
 // `is_seen` is working memory with one element for each triangle of the mesh. REQUIRES that it is 0
 // for the triangles of the component. The cost is proportional to the number of triangles in doubt.

@@ -40,8 +40,8 @@ struct PolicyState {
 
   std::uint64_t pause = 0;       // the number of coming steps that use no views
   std::uint64_t next_pause = 1;  // the next value of `pause`, if views do not pay when next due
-  // The number of candidates in the last search in which no patch was proved apart; 0 if there was
-  // none.
+  // The number of candidates in the last search of a moving mesh that used no proofs; 0 if there
+  // was none.
   std::uint64_t candidates = 0;
   // The cost of closure, ghost sweep and release, in candidates, of the last search that used
   // views. Each later step in which views are due halves it.
@@ -50,7 +50,7 @@ struct PolicyState {
   // The account of Culling::automatic, in box tests of 5 ns: the work that it may take beyond the
   // work of `bvh`. At first this is 0.04 ms.
   double credit = 8'000;
-  double tried = 0;        // the last attempt to make views stopped after this much work
+  double tried = 0;        // this much work was too little in the last attempt to make views
   bool has_views = false;  // the views are made, and the credit has paid for making them
 
   friend bool operator==(const PolicyState&, const PolicyState&) = default;

@@ -45,7 +45,7 @@ std::span<const Family> counted_families();
 
 // Returns two families of cases for questions other than contacts: "limits", how far a step can go,
 // and "within", which pairs come within a distance. The built-in detector answers each question in
-// the configuration of the same name (DetectorUnderTest). The cases come from families() in turn.
+// the configuration of the same name (DetectorUnderTest). Each case comes from any of families().
 std::span<const Family> question_families();
 bool is_question_family(std::string_view name);
 

@@ -195,7 +195,7 @@ Draft falling_piece(Random& random, bool is_closed, int size);
 
 // Gives the case a relation that leaves pairs out: pairs of bodies (the case's components) that are
 // not to meet; pairs within one or two rings; or pairs that at rest (in the first frame) are nearer
-// than about the length of an edge. The relation speaks of triangles or of features.
+// than about half the length of some edge. The relation speaks of triangles or of features.
 void add_relation(Random& random, RandomCase& random_case);
 
 // The one thing that a relation leaves out.

@@ -48,7 +48,7 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
 inline constexpr std::size_t most_groups_shown = 5;
 
 // Returns the groups of failures (properties/campaign/gates/gates.h), each with its smallest mesh,
-// and how many more failures there are. Empty if there are fewer than two kinds of failure.
+// and how many kinds of failure are in other groups. Empty if there are fewer than two kinds.
 std::string groups_text(const properties::RunFindings& findings,
                         const nlohmann::ordered_json& predicate);
 

@@ -43,8 +43,8 @@ class Detector:
 
     Calls release the interpreter. Ctrl-C ends a call and leaves the state as it was. Only one
     thread at a time may use a detector (else RuntimeError); two detectors do not affect each other.
-    Arrays must not change during a call. After os.fork() a process has to make its own detector. It
-    cannot have several threads (RuntimeError) if the parent's detector had several.
+    Arrays must not change during a call. After os.fork() each process has its own copy of a
+    detector. In the child several threads are refused (RuntimeError) if the parent used several.
     """
 
     def __init__(

@@ -41,7 +41,7 @@ class MarkingCounts:
 
 @dataclass(frozen=True)
 class NarrowCounts:
-    """Elementary tests, and how many feature pairs each rung of the filter decided."""
+    """Elementary tests, and how many feature pairs each rung decided."""
 
     elementary_tests: int
     axis: int
@@ -53,7 +53,7 @@ class NarrowCounts:
 
 @dataclass(frozen=True)
 class ViewCounts:
-    """How many view signs of triangles each rung of the filter decided."""
+    """How many view signs of triangles each rung decided."""
 
     lanes: int
     filter: int
