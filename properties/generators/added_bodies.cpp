@@ -164,7 +164,7 @@ Case with_approach(Case c, double d, Random& random) {
 namespace {
 
 constexpr std::int32_t side = 112;  // vertices along each side of the sheet
-static_assert(std::size_t{side} * side > 3 * detector::shared_piece);
+static_assert(std::size_t{side} * side > 3 * detector::least_shared);
 
 Triangles triangles_of_sheet() {
   Triangles triangles(Eigen::Index{2} * (side - 1) * (side - 1), 3);
