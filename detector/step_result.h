@@ -40,14 +40,14 @@ constexpr auto names_of(ViewUse) {
   using enum ViewUse;
   return std::to_array<Named<ViewUse>>(
       {{used, "used"},
-       {not_asked_for, "the culling uses none"},
+       {not_asked_for, "the culling has no views"},
        {resting, "views have not paid in earlier steps"},
-       {start_unknown, "too few triangles are known to be clean at this start"},
+       {start_unknown, "too few triangles are known to be clean at the start"},
        {hopeless, "doubles can tell too few signs in a sample of triangles"},
-       {saving_too_little, "too few triangles are of one sign"},
+       {saving_too_little, "too few triangles have the same sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "earlier steps have not saved the cost of views"}});
+       {saving_up, "earlier steps have saved too little work to pay for views"}});
 }
 
 struct StepResult {

@@ -519,9 +519,9 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   if (!c->description || !c->description->name)
     return assay_record_wrong_(r, "the description or its name is missing");
   if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
-    return assay_record_wrong_(r, "the positions are missing, or are more than 2^31 - 1");
+    return assay_record_wrong_(r, "the positions are missing, or there are more than 2^31 - 1");
   if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
-    return assay_record_wrong_(r, "the triangles are missing, or are more than 2^31 - 1");
+    return assay_record_wrong_(r, "the triangles are missing, or there are more than 2^31 - 1");
   for (i = 0; i < 3 * c->triangle_count; ++i)
     if (c->triangles[i] < 0 || (uint64_t)c->triangles[i] >= vertex_count)
       return assay_record_wrong_(r, "a triangle names a vertex that does not exist");
@@ -530,7 +530,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
                      (c->counted->triangle_pair_count && !c->counted->triangle_pairs) ||
                      (c->counted->vertex_face_count && !c->counted->vertex_faces) ||
                      (c->counted->edge_pair_count && !c->counted->edge_pairs)))
-    return assay_record_wrong_(r, "an array of the counted pairs is missing");
+    return assay_record_wrong_(r, "an array of `counted` is missing");
   return ASSAY_OK;
 }
 
@@ -603,11 +603,11 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       !assay_record_is_time_(result->first_lo, result->first_hi))
     return assay_record_no_answer_(r, "the first time is no interval in [0, 1]");
   if (result && result->answer == ASSAY_FREE && result->pair_count)
-    return assay_record_no_answer_(r, "the answer is free, but pairs are given");
+    return assay_record_no_answer_(r, "the answer is `free`, but pairs are given");
   for (i = 0; is_judged && i < result->pair_count; ++i) {
     const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
     if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
-      return assay_record_no_answer_(r, "a pair is not two triangles of the mesh");
+      return assay_record_no_answer_(r, "a pair does not name two triangles of the mesh");
     if (result->pair_times &&
         !assay_record_is_time_(result->pair_times[2 * i], result->pair_times[2 * i + 1]))
       return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");
