@@ -90,13 +90,12 @@ struct StepLimit {
   // time.
   double share = 0;
   // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 -
-  // x_t0), rounded. The straight way from x_t0 to these positions is free. If share is 0 they equal
-  // x_t0.
+  // x_t0), rounded. The straight way from x_t0 to this place is free. If share is 0, it is x_t0.
   Positions positions;
   TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
-  // Whether the step is taken up to less than 0.93 of the time `first`, although the mesh starts
-  // without a contact. This means that each farther place that was tried has, once rounded, a
-  // contact on the way; a farther place that was not tried can be free.
+  // Whether the share is below 0.93 of the time `first`, although the mesh starts without a
+  // contact. This means that each farther place that was tried has, once rounded, a contact on the
+  // way; a farther place that was not tried can be free.
   bool is_short = false;
 };
 

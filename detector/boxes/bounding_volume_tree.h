@@ -47,10 +47,10 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 // binary node, which is the index into flags, components and patches.
 //
 // The boxes of a node with n children are twelve rows of n floats: three rows of lower bounds at
-// t=0, three of upper bounds at t=0, and six rows of bounds at t=1. At rest the last six are left
-// out. Rows follow each other without gaps. So a mesh of many small components takes no more room
-// than one large component. Code that reads eight floats from a row of fewer floats also reads
-// floats of the next row; eight unused floats follow the last row.
+// t=0, three of upper bounds at t=0, and six rows of bounds at t=1. If the mesh is at rest, the
+// last six rows are left out. Rows follow each other without gaps. So a mesh of many small
+// components takes no more room than one large component. Code that reads eight floats from a row
+// of fewer floats also reads floats of the next row; eight unused floats follow the last row.
 // Memory: 70 bytes a triangle, 55 of them boxes.
 class WideTree {
  public:
@@ -83,7 +83,8 @@ class WideTree {
   // Allocates memory for the boxes: half as much if at_rest, for a mesh that never moves.
   void make_room(bool at_rest);
   // Fits the boxes to the triangles, and grows each box by `by` on all sides. Returns false if
-  // `pace` was stopped. REQUIRES a call of make_room, with at_rest only if the points are at rest.
+  // `pace` was stopped. REQUIRES an earlier call of make_room; if that call had at_rest, the points
+  // must be at rest.
   bool refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by, PacedStop& pace);
 
  private:

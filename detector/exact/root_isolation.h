@@ -17,8 +17,6 @@
 
 namespace assay::detector {
 
-// Encloses in doubles, by exact signs, the only root between two doubles.
-//
 // The doubles in [0,1] are numbered by consecutive integers in ascending order: their bits, read
 // as an integer.
 inline std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(time); }

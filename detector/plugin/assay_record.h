@@ -48,15 +48,15 @@ enum {
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: the file exists and would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
   ASSAY_RECORD_NOT_WRITTEN = 21,    /* not all of this record or of an earlier one was written */
-  ASSAY_RECORD_NO_ANSWER = 23       /* refused: no detector can give this result or limit, such as a
-                                       time outside of [0, 1], so that it could not be judged */
+  ASSAY_RECORD_NO_ANSWER = 23       /* refused: the result or limit is impossible, such as a time
+                                       outside of [0, 1], and so could not be judged */
 };
 
 /* The file of a log, and which steps are recorded. */
 typedef struct assay_record_settings {
   const char* path;
   uint64_t every;    /* one step in `every` is recorded, beginning with the first; 0 is like 1 */
-  int32_t overwrite; /* if the file exists and is not empty: 0: it is refused; 1: it is emptied */
+  int32_t overwrite; /* a file that exists and is not empty is refused (0) or emptied (1) */
 } assay_record_settings;
 
 /* An array of vertex_count x 3 numbers, double or float. If data is NULL, the array is absent. */
@@ -65,11 +65,11 @@ typedef struct assay_record_array {
   int32_t is_float32; /* 0: double */
 } assay_record_array;
 
-/* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
+/* A step, in the user's units. Clear the struct (all 0); then fill in what the simulator has. */
 typedef struct assay_record_step_data {
-  assay_record_array x0;        /* where the step starts. If absent, it starts at the committed
-                                   positions of the last step or, without these, at its x1 */
-  assay_record_array x1, dx;    /* exactly one: the end of the step, or the displacement x1 - x0 */
+  assay_record_array x0;        /* where the step starts. If absent, it starts at the last step's
+                                   `committed` or, if that is absent too, at the last step's x1 */
+  assay_record_array x1, dx;    /* exactly one of: the end of the step, the displacement x1 - x0 */
   assay_record_array committed; /* where the simulator really went, or absent */
   const assay_result* result;   /* the answer of the simulator's detector, or NULL */
   const assay_limit* limit;     /* the answer of the simulator's limiter, or NULL */

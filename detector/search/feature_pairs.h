@@ -53,8 +53,8 @@ namespace assay::detector {
 // because positive comes before zero in the order of types.
 //
 // Memory: 5 bytes a triangle. A search that compares few feature pairs can save this memory: while
-// all triangles have one type, `of` works without a call of make(), because it then looks up what a
-// triangle represents in the mesh.
+// all triangles have one type, `of` works without a call of make(), because it then looks up in the
+// mesh what a triangle represents.
 
 // The features that a triangle represents: bit i for its corner i, bit 3 + i for its edge opposite
 // to corner i.
@@ -189,10 +189,7 @@ class FeaturePoints {
   FloatGrid grid_;
 };
 
-// The pair rule in terms of triangle types: which pairs of types the present search asks for, and
-// for which pairs of types earlier searches of the step have asked.
-//
-// A symmetric relation between types.
+// A symmetric relation between types: the pair rule in terms of types (AskedTypes).
 class TypeRelation {
  public:
   // Adds the pairs of types that the pair table asks for, where `flags` gives the flags of a type.
@@ -228,8 +225,10 @@ class TypeRelation {
   std::array<TypeSet, triangle_types> rows_{};
 };
 
-// `within` is for pairs of triangles of one component, `across` for pairs of two components. There
-// is no across_before, because only the first search asks for pairs of two components.
+// The pairs of types that the present search asks for (`now`), and those for which earlier searches
+// of the step have asked (`before`). `within` is for pairs of triangles of one component, `across`
+// for pairs of two components. There is no across_before, because only the first search asks for
+// pairs of two components.
 struct AskedTypes {
   TypeRelation within_now, across_now;
   TypeRelation within_before;

@@ -29,8 +29,8 @@ inline constexpr std::uint8_t grown = 16;    // beside P or N: joined H in this 
 inline constexpr int count = 5;
 }  // namespace flag
 
-// A symmetric relation between the sets that flags stand for. One look-up is enough for two unions
-// of such sets, and nodes have unions.
+// A symmetric relation between the sets that flags stand for. A node has a union of such sets; one
+// look-up compares two unions.
 class PairTable {
  public:
   // Makes a table without pairs, which asks for nothing.
