@@ -8,7 +8,7 @@
 // reads both children from neighbouring cache lines, and one backward pass over a subtree joins its
 // boxes. Components are split from each other before the triangles of a component are split, so
 // only the topmost nodes hold triangles of several components. Memory: 92 bytes a triangle, 70 of
-// them the wide form; 128 more once the boxes of binary nodes are joined.
+// them for the wide form; 128 more once the boxes of binary nodes are joined.
 #pragma once
 
 #include <cassert>
@@ -42,9 +42,9 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 // another box at once.
 //
 // It is made from the binary tree. The children of a node are triangles if the node has at most
-// eight triangles, all of one component. Otherwise they are up to eight nodes, found by replacing
-// the largest of them by its two binary children again and again. Each child has the number of its
-// binary node, which is the index into flags, components and patches.
+// eight triangles, all of one component. Otherwise they are up to eight nodes: beginning with the
+// node itself, the largest one is replaced by its two binary children again and again. Each child
+// has the number of its binary node, which is the index into flags, components and patches.
 //
 // The boxes of a node with n children are twelve rows of n floats: three rows of lower bounds at
 // t=0, three of upper bounds at t=0, and six rows of bounds at t=1. If the mesh is at rest, the

@@ -43,7 +43,7 @@ FilterResult filter_contact(const FourPoints& query, Want want);
 // if points stay coplanar. They are also mostly useless once a piece was not decided.
 inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
-// Tests in doubles with proved bounds alone. If doubles cannot tell, `rung` is `open` and a contact
+// Tests only in doubles with proved bounds. If doubles cannot tell, `rung` is `open` and a contact
 // is reported, so no contact is ever missed. The time is an interval of doubles that contains the
 // first contact time if there is a contact. It is proved that there is no contact before lo, so lo
 // is never late. hi is a time by which a contact is certain, or 1 if no contact is certain.

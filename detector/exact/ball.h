@@ -31,8 +31,7 @@ class Ball {
   // The ball around value * 2^exponent, from the two highest limbs of `value`. Let t >= 1 be the
   // highest limb and l the next lower limb, both as integers. Computed in doubles, t + l 2^-64 has
   // three errors: at most u t from t (0 for t below 2^53), at most u from l, and at most u (t + 1)
-  // from the sum. All lower limbs together add less than 2^-64. The sum of these is less than 4 u
-  // t.
+  // from the sum. All lower limbs together add less than 2^-64. Together that is less than 4 u t.
   explicit Ball(const Integer& value, std::int64_t exponent = 0) {
     using Limb = boost::multiprecision::limb_type;
     static_assert(sizeof(Limb) == 8);
@@ -139,7 +138,7 @@ class Ball {
   // Returns a + b. REQUIRES that neither is 0, and that the exponent of b is not the greater one.
   // Let the unit of a ball be 2^exponent. The middle and the radius of b are each below 2 units of
   // b. If the unit of b is less than 2^-200 units of a, then b is below 4 2^-200 units of a, and is
-  // added to the radius alone.
+  // added only to the radius.
   static Ball sum_of(const Ball& a, const Ball& b) {
     constexpr std::int64_t far = 200;
     const std::int64_t shift = a.exponent_ - b.exponent_;

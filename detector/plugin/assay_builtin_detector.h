@@ -13,9 +13,9 @@
  *
  * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
- * evaluate there is nothing to commit. `error` may be NULL. If it is not NULL, the function sets
- * it: with ASSAY_OK to ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must not be
- * NULL unless the comment of a function says that they may be NULL.
+ * evaluate there is nothing to commit. `error` may be NULL. If it is not NULL, every call
+ * sets it; ASSAY_OK goes with ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must
+ * not be NULL unless the comment of a function says that they may be NULL.
  *
  * THE PROCESSOR. Answers do not depend on the state that the caller has set: flushing of denormals,
  * rounding mode, traps. Each call restores this state when it returns, and calls stop() in it. */

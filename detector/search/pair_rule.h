@@ -25,7 +25,7 @@ inline constexpr std::uint8_t positive = 1;  // P: V+
 inline constexpr std::uint8_t negative = 2;  // N: V-
 inline constexpr std::uint8_t zero = 4;      // Z: V0
 inline constexpr std::uint8_t violated = 8;  // V: Vv, touched by a ghost or dirty
-inline constexpr std::uint8_t grown = 16;    // beside P or N: joined H in this closure round (L7)
+inline constexpr std::uint8_t grown = 16;    // with P or N: joined H in this closure round (L7)
 inline constexpr int count = 5;
 }  // namespace flag
 

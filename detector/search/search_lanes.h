@@ -135,7 +135,7 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
 }
 
 // Runs a descent. `descent` has three functions: cut(count) cuts it into `count` pairs of nodes or
-// a few more (fewer if it ends before); run(pair) does one of these pairs; and finish() gives the
+// a few more (fewer if it ends earlier); run(pair) does one of these pairs; and finish() gives the
 // last candidates to the sink and returns whether the search goes on. make_lane(index) makes a lane
 // that has its own descent and its own counts. Returns false if the search was stopped.
 template <class Descent, class MakeLane>

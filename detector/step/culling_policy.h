@@ -21,7 +21,7 @@
 namespace assay::detector {
 
 // How a verified start finds out which triangles are clean: by views (L5) and then by layers (L9),
-// or by views alone.
+// or only by views.
 enum class StartBy : std::uint8_t { view_and_layers, view_alone };
 
 class CullingPolicy {
@@ -166,7 +166,7 @@ class CostModel : public CullingPolicy {
                                          const PositionsView& vertices_t0,
                                          PacedStop& pace) override;
 
-  // Classifies a few triangles of each large component, in doubles alone. Returns false if doubles
+  // Classifies a few triangles of each large component, only in doubles. Returns false if doubles
   // can tell few of their signs, for example on a sheet seen edge-on. Integers would then have to
   // decide the other signs, and the view test would cost more than the rest of the step.
   bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
@@ -187,7 +187,7 @@ class CostModel : public CullingPolicy {
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
   // Notes whether views have paid, which means that release, ghost sweep and closure cost less than
-  // the pairs that views left out.
+  // the pairs that views left out would have cost.
   void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
 
   ViewUse use() const override {
