@@ -572,7 +572,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   if (!settings || !settings->path || !*settings->path)
     return assay_record_wrong_(recorder, "the path is missing");
   if (settings->overwrite != 0 && settings->overwrite != 1)
-    return assay_record_wrong_(recorder, "overwrite must be 0 or 1");
+    return assay_record_wrong_(recorder, "`overwrite` must be 0 or 1");
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
