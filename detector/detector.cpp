@@ -302,8 +302,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {
     return Problem{InputError::foreign_state,
-                   "the state is of another mesh, or of a detector that counts pairs "
-                   "within other bodies"};
+                   "the state is of another mesh, or of a detector counting pairs in other bodies"};
   }
   const bool has_views = uses_views(context.options.culling);
   const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,

@@ -47,7 +47,7 @@ constexpr auto names_of(ViewUse) {
        {saving_too_little, "too few triangles have the same sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "earlier steps have saved too little work to pay for views"}});
+       {saving_up, "earlier steps saved too little to pay for views"}});
 }
 
 struct StepResult {

@@ -163,11 +163,10 @@ int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 /* Where a pair of the last result meets, at the lower end of its time (contact_place.h). */
 typedef struct assay_contact_place {
   double point[3];
-  double barycentric[2][3]; /* for each of the two triangles, the weights of its corners */
-  double error;             /* the largest difference, in any coordinate, between the point and the
-                               weighted sum of the corners of either triangle */
-  double normal[3];    /* the unit normal of the face, or of the two edges; 0 if there is none */
-  double normal_error; /* no coordinate of `normal` is off by more; 0 if there is no normal */
+  double barycentric[2][3]; /* for each triangle, corner weights; the weighted sum is the point */
+  double error;             /* no coordinate of this sum differs more from the point */
+  double normal[3];         /* the unit normal of the face or of both edges; 0 if there is none */
+  double normal_error;      /* no coordinate of `normal` is off by more; 0 if there is no normal */
 } assay_contact_place;
 
 /* Sets *place to the place of a pair of the last result. x_t0 and x_t1 must be the positions that
