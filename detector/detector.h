@@ -70,7 +70,7 @@ class Detector {
   // components, or one for each component in the order of topology().components. Each is a point or
   // a line, fixed or moving, and may differ from step to step. With `automatic` and `view_auto`,
   // primitives serve only in the steps that use views.
-  // `stop` ends long work with the answer undecided.
+  // If `stop` returns true, the work ends with the answer `undecided`.
   // Errors: wrong_frame_size, wrong_primitive_count, non_finite_coordinate.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                       std::span<const ViewPrimitive> primitives = {},
@@ -104,11 +104,11 @@ class Detector {
   // A free step is taken whole. Any other step is taken up to 0.95 of its first contact time,
   // unless the way to that place, once rounded, has a contact. That can happen if two features pass
   // each other at a distance of a few units in the last place of their coordinates. Then up to 18
-  // nearer places are tried. If the free places form roughly one interval, the place returned is at
-  // least 0.98 as far as the farthest free place. `is_short` is true if the share is below 0.93 of
-  // the first contact time, though the mesh starts without a contact. Share 0 means that the mesh
-  // stays: there is a contact at the start, or on the way to every place that was tried. With a
-  // separation, read `within the separation` for `in contact`.
+  // places nearer to x_t0 are tried. If the free places form roughly one interval, the place
+  // returned is at least 0.98 as far as the farthest free place. `is_short` is true if the share is
+  // below 0.93 of the first contact time, though the mesh starts without a contact. Share 0 means
+  // that the mesh stays: there is a contact at the start, or on the way to every place that was
+  // tried. With a separation, read `within the separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
   // Cost: one first_contact for the whole step. If the step is not free, one more for each place

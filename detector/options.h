@@ -19,7 +19,7 @@ enum class Culling : std::uint8_t {
   view_auto,    // view_point or view_line for each component; bvh in steps where views do not pay
   view_point,   // each component, closed by its ghosts, is seen from a point
   view_line,    // each component, closed by its ghosts, is seen from a segment
-  normal_cone,  // bvh less pairs within a patch that has a normal cone and simple contour [VMT94]
+  normal_cone,  // bvh without pairs in a patch that has a normal cone and simple contour [VMT94]
   bvh,          // pairs whose boxes meet, found by a tree of boxes
   none,         // every pair, no boxes: for small meshes and for comparison
   automatic,    // view_auto and normal_cone in one descent, each if it is expected to pay

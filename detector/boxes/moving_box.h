@@ -148,7 +148,7 @@ class FloatGrid {
   }
 
   // Returns, by axis, how far positions may move: if the boxes of two features, grown by a margin,
-  // are apart, the features cannot meet after the move either. This is 2^-26 units, less the error
+  // are apart, the features cannot meet after the move either. This is 2^-26 units, minus the error
   // of comparing positions (kept_features.h), where a unit is 1 / scale. The result is negative if
   // that error is larger, and NaN if the unit is no double; in both cases no position is near
   // enough.

@@ -75,7 +75,7 @@ enum {
                                     views do not pay */
   ASSAY_CULLING_VIEW_POINT = 1,  /* each component is seen from a point */
   ASSAY_CULLING_VIEW_LINE = 2,   /* each component is seen from a segment */
-  ASSAY_CULLING_NORMAL_CONE = 3, /* BVH less pairs within a patch that has a normal cone and a
+  ASSAY_CULLING_NORMAL_CONE = 3, /* BVH without pairs in a patch that has a normal cone and a
                                     simple contour */
   ASSAY_CULLING_BVH = 4,         /* pairs whose boxes meet, found by a tree of boxes */
   ASSAY_CULLING_NONE = 5,        /* every pair is tested, without boxes */

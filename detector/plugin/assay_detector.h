@@ -17,12 +17,12 @@
  * t = 0 or t = 1 counts. With a separation, "in contact" means "within this distance". The doubles
  * given are exact numbers, in the user's units of length. Times are fractions of the step.
  *
- * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
- * valid during the call and must not be written. Arrays and texts that the detector returns belong
- * to the detector; they stay valid until the next call with the same handle.
+ * MEMORY. The host frees no memory of the detector, and the detector no memory of the host. Arrays
+ * that the host passes are valid during the call and must not be written. Arrays and texts that the
+ * detector returns belong to the detector, and stay valid until the next call with the same handle.
  *
  * THREADS. A handle is used by one thread at a time; several handles may be used at once by
- * different threads, so a detector keeps no mutable global data (or guards it).
+ * different threads, so a detector must have no mutable global data, or must guard it.
  *
  * ERRORS are return codes. No exception, longjmp or exit() may leave a function of the table: the
  * host counts these as crashes. A call that fails changes nothing, and the handle stays valid.

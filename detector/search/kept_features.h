@@ -32,7 +32,7 @@
 // s does no harm. Only the place in the first step at the time s, and the distance to it, are
 // rounded. For coordinates up to M both are off by less than 2^-50 M + 2^-1073, as in moving_box.h,
 // and by s times as much if s is above 1. But then only times up to 1 / s count, and by these a
-// vertex is off by at most 1 / s as much. FloatGrid::tolerance() is r less four times 2^-50 M +
+// vertex is off by at most 1 / s as much. FloatGrid::tolerance() is r minus four times 2^-50 M +
 // 2^-1073.
 #pragma once
 
