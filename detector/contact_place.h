@@ -24,10 +24,10 @@ struct ContactPlace {
   // of either triangle. Mostly 2^-48 times the largest coordinate of both triangles; more if two
   // edges are nearly parallel, or if the triangles do not meet.
   double error = 0;
-  // If one feature is a face, this is the unit normal of the face, on the side from which its
-  // corners go counter-clockwise. For two edges a and b, this is the unit vector in the direction
-  // of (a1 - a0) x (b1 - b0). No coordinate is off by more than normal_error. There is no normal if
-  // normal_error would be 0.5 or more.
+  // If one feature is a face, this is the unit normal of the face, towards the side from which its
+  // corners are seen counter-clockwise. For two edges a and b, this is the unit vector in the
+  // direction of (a1 - a0) x (b1 - b0). No coordinate is off by more than normal_error. There is no
+  // normal if normal_error would be 0.5 or more.
   std::optional<Point> normal;
   double normal_error = 0;
 };

@@ -36,10 +36,10 @@ std::optional<Problem> check_separation(const Options& options) {
   if (d == 0) return std::nullopt;
   if (options.culling != Culling::bvh && options.culling != Culling::none)
     return wrong(std::string("culling ") + name_of(options.culling) +
-                 " does not support a separation; use bvh or none");
+                 " supports no separation; use `bvh` or `none`");
   if (options.arithmetic != Arithmetic::exact)
     return wrong(std::string("arithmetic ") + name_of(options.arithmetic) +
-                 " does not support a separation; use exact");
+                 " supports no separation; use `exact`");
   return std::nullopt;
 }
 
@@ -302,7 +302,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context)) {
     return Problem{InputError::foreign_state,
-                   "the state is of another mesh, or leaves out pairs within other bodies"};
+                   "the state is of another mesh, or of a detector counting pairs in other bodies"};
   }
   const bool has_views = uses_views(context.options.culling);
   const std::size_t anchors = has_views ? context.surface.mesh.components.size() : 0,

@@ -6,9 +6,9 @@
 //   if (result.answer == Answer::collision) use(result.first, result.pairs);
 //
 // Every vertex moves linearly from x_t0 to x_t1 over t in [0,1]. Answers are those of exact
-// arithmetic on the doubles given, unless Options::arithmetic is another Arithmetic. Touching
-// counts as contact. Triangles that share a vertex or an edge are in contact when they meet beyond
-// what they share. View primitives may be anywhere, inside the mesh or outside.
+// arithmetic on the doubles given, unless Options::arithmetic says otherwise. Touching counts as
+// contact. Triangles that share a vertex or an edge are in contact when they meet beyond what they
+// share. View primitives may be anywhere, inside the mesh or outside.
 //
 // From step to step the detector carries a state: which triangles are clean and which are dirty
 // (L8, L9). It is valid at exactly the positions where the last committed step ended. evaluate()
@@ -70,7 +70,7 @@ class Detector {
   // components, or one for each component in the order of topology().components. Each is a point or
   // a line, fixed or moving, and may differ from step to step. With `automatic` and `view_auto`,
   // primitives serve only in the steps that use views.
-  // `stop` ends long work with the answer undecided.
+  // If `stop` returns true, the work ends with the answer `undecided`.
   // Errors: wrong_frame_size, wrong_primitive_count, non_finite_coordinate.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                       std::span<const ViewPrimitive> primitives = {},
@@ -104,11 +104,11 @@ class Detector {
   // A free step is taken whole. Any other step is taken up to 0.95 of its first contact time,
   // unless the way to that place, once rounded, has a contact. That can happen if two features pass
   // each other at a distance of a few units in the last place of their coordinates. Then up to 18
-  // nearer places are tried. If the free places form roughly one interval, the place returned is at
-  // least 0.98 as far as the farthest free place. `is_short` is true if the step is taken up to
-  // less than 0.93 of its first contact time. Share 0 means that the mesh stays: there is a contact
-  // at the start, or on the way to every place that was tried. With a separation, read `within the
-  // separation` for `in contact`.
+  // places nearer to x_t0 are tried. If the free places form roughly one interval, the place
+  // returned is at least 0.98 as far as the farthest free place. `is_short` is true if the share is
+  // below 0.93 of the first contact time, though the mesh starts without a contact. Share 0 means
+  // that the mesh stays: there is a contact at the start, or on the way to every place that was
+  // tried. With a separation, read `within the separation` for `in contact`.
   // The state stays as it is, and commit() advances it to `positions` if share is above 0.
   // Errors: those of evaluate; proves_nothing with arithmetic double_precision or single_precision.
   // Cost: one first_contact for the whole step. If the step is not free, one more for each place
@@ -126,9 +126,10 @@ class Detector {
   // positions, further results equal those of the saved detector bit by bit. If they were made from
   // different positions, counts can differ, because normal cones then prove different patches free;
   // false alarms can differ too, unless the arithmetic is exact. A step that was evaluated and not
-  // committed is dropped. Errors: foreign_state, if the state is of another mesh or culling, or if
-  // pairs within other bodies do not count (a state depends on nothing else in Options::counted);
-  // damaged_state, if the state contradicts the mesh. After an error this detector is unchanged.
+  // committed is dropped. Errors: foreign_state, if the state is of another mesh or culling, or of
+  // a detector that counts pairs within other bodies (a state depends on nothing else in
+  // Options::counted); damaged_state, if the state contradicts the mesh. After an error this
+  // detector is unchanged.
   std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state and the kept pairs of features: the next step is a new start.

@@ -1,4 +1,4 @@
-// Compiled with the flags of this instruction set alone (detector/CMakeLists.txt).
+// The vector code for AVX2. No other file has the flags of AVX2 (detector/CMakeLists.txt).
 #include "detector/boxes/box_lanes.h"
 #include "detector/contact/lanes/query_lanes.h"
 #include "detector/view/view_lanes.h"

@@ -1,4 +1,4 @@
-// Compiled with the flags of this instruction set alone (detector/CMakeLists.txt).
+// The vector code for AVX-512. No other file has the flags of AVX-512 (detector/CMakeLists.txt).
 #include "detector/view/view_lanes.h"
 
 #ifdef __AVX512F__

@@ -19,7 +19,7 @@ enum class Culling : std::uint8_t {
   view_auto,    // view_point or view_line for each component; bvh in steps where views do not pay
   view_point,   // each component, closed by its ghosts, is seen from a point
   view_line,    // each component, closed by its ghosts, is seen from a segment
-  normal_cone,  // bvh less pairs within a patch that has a normal cone and simple contour [VMT94]
+  normal_cone,  // bvh without pairs in a patch that has a normal cone and simple contour [VMT94]
   bvh,          // pairs whose boxes meet, found by a tree of boxes
   none,         // every pair, no boxes: for small meshes and for comparison
   automatic,    // view_auto and normal_cone in one descent, each if it is expected to pay
@@ -35,7 +35,7 @@ constexpr auto names_of(Culling) {
                                         {none, "none"}});
 }
 
-// Returns whether the detector decides anew in each step if it uses views.
+// Returns whether the detector decides in each step whether it uses views.
 constexpr bool chooses_views(Culling culling) {
   return culling == Culling::view_auto || culling == Culling::automatic;
 }
@@ -50,8 +50,8 @@ constexpr bool uses_views(Culling culling) {
 // a step without views verifies nothing at its start: its pairs tell which triangles are clean at
 // its end (L15).
 enum class Start : std::uint8_t {
-  verified,  // those that L5 proves clean, or else those that static contacts and layers do (L9)
-  clean,     // all: the caller vouches that none is in contact and that their layers are common
+  verified,  // those that L5 proves clean, or that static contacts and layers prove clean (L9)
+  clean,     // all: the caller vouches that none is in contact and each component has one layer
   unknown,   // none
 };
 constexpr auto names_of(Start) {
@@ -66,7 +66,7 @@ enum class Pairs : std::uint8_t {
   // At least one pair from each connected part of the contact graph at the first contact time (L6).
   // A reported pair can meet a little later than that time: then its own time is the same
   // TimeEnclosure, or the upper end of that enclosure. Once a contact is found, no later contact is
-  // looked for. This took 0.1 to 0.45 of the time of `all` on scenes with many contacts, 0.92 on
+  // looked for. `first` took 0.1 to 0.45 of the time of `all` on scenes with many contacts, 0.92 on
   // the scene rod-twist, and a few percent more than `all` on scenes without a contact.
   first,
 };

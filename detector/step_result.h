@@ -40,14 +40,14 @@ constexpr auto names_of(ViewUse) {
   using enum ViewUse;
   return std::to_array<Named<ViewUse>>(
       {{used, "used"},
-       {not_asked_for, "the culling uses none"},
+       {not_asked_for, "the culling has no views"},
        {resting, "views have not paid in earlier steps"},
-       {start_unknown, "too few triangles are known to be clean at this start"},
+       {start_unknown, "too few triangles are known to be clean at the start"},
        {hopeless, "doubles can tell too few signs in a sample of triangles"},
-       {saving_too_little, "too few triangles are of one sign"},
+       {saving_too_little, "too few triangles have the same sign"},
        {among_ghosts, "too many triangles are near ghosts"},
        {among_dirty, "too few triangles are clean"},
-       {saving_up, "earlier steps have not saved the cost of views"}});
+       {saving_up, "earlier steps saved too little to pay for views"}});
 }
 
 struct StepResult {
@@ -90,13 +90,12 @@ struct StepLimit {
   // time.
   double share = 0;
   // Where the caller may go: x_t1 in every bit if the step is free, else x_t0 + share (x_t1 -
-  // x_t0), rounded. The straight way from x_t0 to these positions is free. If share is 0 they equal
-  // x_t0.
+  // x_t0), rounded. The straight way from x_t0 to this place is free. If share is 0, it is x_t0.
   Positions positions;
   TimeEnclosure first;  // the first contact time of the whole step, when answer is collision
-  // Whether the step is taken up to less than 0.93 of the time `first`, although the mesh starts
-  // without a contact. This means that each farther place that was tried has, once rounded, a
-  // contact on the way; a farther place that was not tried can be free.
+  // Whether the share is below 0.93 of the time `first`, although the mesh starts without a
+  // contact. This means that each farther place that was tried has, once rounded, a contact on the
+  // way; a farther place that was not tried can be free.
   bool is_short = false;
 };
 

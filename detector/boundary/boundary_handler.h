@@ -10,7 +10,7 @@
 
 namespace assay::detector {
 
-// A rule that places the apex of a ghost fan, by the positions of one frame alone.
+// A rule that places the apex of a ghost fan. It reads the positions of one frame only.
 //
 // During a step the apex moves linearly between its places at t=0 and at t=1, so its path is
 // continuous from step to step too. With an apex that stays behind or jumps, contacts are missed
@@ -36,16 +36,16 @@ Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x)
 // Returns the rows of x and, below them, the places of the apexes: at t=1 if at_end, else at t=0.
 Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
 
-// Chooses for each loop the rule that places its apex: the one whose ghosts touch fewest triangles
-// at rest.
+// Chooses for each loop the rule that places its apex: the rule with which the ghosts touch the
+// fewest triangles of the mesh at rest.
 //
 // A bad apex costs dirty triangles but never makes an answer wrong, because L11 only needs ghosts
 // that close the loops, wherever the apexes are. So the choice must not take more work than a step
 // of Culling::bvh. It counts its work, and does not measure time. Loops are handled from the
 // shortest to the longest. Each loop gets a share of the remaining work, in proportion to its
 // length. A share is at least 4,000 box tests, so a mesh of many tiny holes can take several times
-// as much work. The rules of a loop divide its share evenly. A rule that does not finish within its
-// part is passed over. If no rule finishes, the loop gets the first rule, the centroid.
+// the work of such a step. The rules of a loop divide its share evenly. A rule that does not finish
+// within its part is passed over. If no rule finishes, the loop gets the first rule, the centroid.
 //
 // An example where no rule finishes is the loop around a fan of n triangles at one hub. The boxes
 // of all its ghosts and triangles contain a place near the hub, so there are n^2 pairs of boxes
@@ -62,8 +62,8 @@ class ApexChoice {
   };
 
   // The most work that the choice takes, in the units of GhostCounts::work (box tests):
-  // work_per_triangle for each triangle and ghost, and base_work (1 ms) once. A step of bvh takes
-  // 0.8 to 1.4 us a triangle, as much as 160 to 280 box tests.
+  // work_per_triangle for each triangle and ghost, and base_work (1 ms) once. A step of
+  // Culling::bvh takes 0.8 to 1.4 us a triangle, as much as 160 to 280 box tests.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
   // The stop function is called each time the choice has done this much work.

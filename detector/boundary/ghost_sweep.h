@@ -95,16 +95,16 @@ struct GhostSweep {
   // Whether an edge that pierces a triangle at t=0 counts too. This must be true if no state is
   // known at t=0.
   bool piercing_at_start = false;
-  // If not null, the sweep sets it to 1 for each triangle whose moving box is not apart from the
-  // box of a ghost.
+  // If not null, the sweep sets (*near)[t] to 1 for each triangle t whose moving box is not apart
+  // from the box of a ghost.
   std::vector<std::uint8_t>* near = nullptr;
-  // If not null, the sweep appends to it each triangle for which it sets `touched`, each once.
+  // If not null, a list to which the sweep appends, once, each triangle for which it sets touched.
   std::vector<std::int32_t>* found = nullptr;
   ByPlanes by_planes = ByPlanes::no;
   // The stop function is called at the first pair, and then each time this much work
   // (GhostCounts::work) was done: about every millisecond.
   std::uint64_t work_between_stops = PacedStop::usual_interval;
-  // If not null, these workers share the work by parts of the mesh (BoundaryHandler::sweep).
+  // If not null, these workers sweep different parts of the mesh (BoundaryHandler::sweep).
   const Workers* workers = nullptr;
 };
 

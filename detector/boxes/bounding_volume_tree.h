@@ -8,7 +8,7 @@
 // reads both children from neighbouring cache lines, and one backward pass over a subtree joins its
 // boxes. Components are split from each other before the triangles of a component are split, so
 // only the topmost nodes hold triangles of several components. Memory: 92 bytes a triangle, 70 of
-// them the wide form; 128 more once the boxes of binary nodes are joined.
+// them for the wide form; 128 more once the boxes of binary nodes are joined.
 #pragma once
 
 #include <cassert>
@@ -42,15 +42,15 @@ inline MovingBox box_of(const BoxRows& rows, std::size_t i) {
 // another box at once.
 //
 // It is made from the binary tree. The children of a node are triangles if the node has at most
-// eight triangles, all of one component. Otherwise they are up to eight nodes, found by replacing
-// the largest of them by its two binary children again and again. Each child has the number of its
-// binary node, which is the index into flags, components and patches.
+// eight triangles, all of one component. Otherwise they are up to eight nodes: beginning with the
+// node itself, the largest one is replaced by its two binary children again and again. Each child
+// has the number of its binary node, which is the index into flags, components and patches.
 //
 // The boxes of a node with n children are twelve rows of n floats: three rows of lower bounds at
-// t=0, three of upper bounds at t=0, and six rows of bounds at t=1. At rest the last six are left
-// out. Rows follow each other without gaps. So a mesh of many small components takes no more room
-// than one large component. Code that reads eight floats from a row of fewer floats also reads
-// floats of the next row; eight unused floats follow the last row.
+// t=0, three of upper bounds at t=0, and six rows of bounds at t=1. If the mesh is at rest, the
+// last six rows are left out. Rows follow each other without gaps. So a mesh of many small
+// components takes no more room than one large component. Code that reads eight floats from a row
+// of fewer floats also reads floats of the next row; eight unused floats follow the last row.
 // Memory: 70 bytes a triangle, 55 of them boxes.
 class WideTree {
  public:
@@ -83,7 +83,8 @@ class WideTree {
   // Allocates memory for the boxes: half as much if at_rest, for a mesh that never moves.
   void make_room(bool at_rest);
   // Fits the boxes to the triangles, and grows each box by `by` on all sides. Returns false if
-  // `pace` was stopped. REQUIRES a call of make_room, with at_rest only if the points are at rest.
+  // `pace` was stopped. REQUIRES an earlier call of make_room; if that call had at_rest, the points
+  // must be at rest.
   bool refit(const Topology& mesh, const RoundedPositions& points, FloatLanes by, PacedStop& pace);
 
  private:

@@ -20,8 +20,8 @@ struct BoxRows {
   std::size_t end = box_lanes::rows / 2;  // the first row of the bounds at t=1; 0 at rest
 };
 
-// For each box i of a, a set of boxes of b, as bits. Before compare_all it is the set of boxes to
-// compare with box i; after compare_all it has only those of them from which box i is not apart.
+// Element i is a set of boxes of `b`, as bits. Before compare_all it has the boxes to compare with
+// box i of `a`; afterwards it has only the boxes from which box i of `a` is not apart.
 using LaneSets = std::uint8_t[box_lanes::width];
 
 // A corner of a triangle at t=0 or at t=1 has eight floats: its rounded coordinates, a 0, and its
@@ -49,10 +49,10 @@ namespace feature_bits {
 }  // namespace feature_bits
 
 struct BoxKernels {
-  // Clears, in `sets`, the bits of pairs of boxes that are apart. box_of_a bounds all boxes of a,
-  // and box_of_b bounds all boxes of b; each has one float for each row. These two save
-  // comparisons. Returns how many boxes were compared. REQUIRES that a and b both move, or that
-  // both are at rest.
+  // Clears, in `sets`, the bits of pairs of boxes that are apart. box_of_a bounds all boxes of `a`,
+  // and box_of_b bounds all boxes of `b`; each has one float for each row, and they save
+  // comparisons. Returns how many boxes were compared. REQUIRES that `a` and `b` both move, or are
+  // both at rest.
   std::uint32_t (*compare_all)(const BoxRows& a, const float* box_of_a, const BoxRows& b,
                                const float* box_of_b, LaneSets& sets);
   // Returns, as bits, the boxes of b that are not apart from `box`. `box` has one float for each
@@ -61,7 +61,7 @@ struct BoxKernels {
   // Returns the bits of `pairs` (feature_bits) whose features have boxes that are not apart by more
   // than the margin; 0 if the two triangles are apart. The margin has eight floats. A corner at t=1
   // lies to_end floats after the same corner at t=0. An `at_start` bit compares an edge and a face
-  // by their boxes at t=0 alone. Edge i is opposite to corner i.
+  // only by their boxes at t=0. Edge i is opposite to corner i.
   std::uint32_t (*compare_features)(const TriangleCorners& a, const TriangleCorners& b,
                                     std::size_t to_end, const float* margin, std::uint32_t pairs);
 };

@@ -147,10 +147,11 @@ class FloatGrid {
     return margin_of(root * (d * common_scale_));
   }
 
-  // Returns, by axis, how far positions may move so that features still cannot meet if their boxes,
-  // grown by a margin, are apart. This is 2^-26 units, less the error of comparing positions
-  // (kept_features.h), where a unit is 1 / scale. The result is negative if that error is larger,
-  // and NaN if the unit is no double; in both cases no position is near enough.
+  // Returns, by axis, how far positions may move: if the boxes of two features, grown by a margin,
+  // are apart, the features cannot meet after the move either. This is 2^-26 units, minus the error
+  // of comparing positions (kept_features.h), where a unit is 1 / scale. The result is negative if
+  // that error is larger, and NaN if the unit is no double; in both cases no position is near
+  // enough.
   std::array<double, 3> tolerance() const {
     const auto r = [&](int k) {
       const double unit = 1 / scale_[k], largest = std::abs(centre_[k]) + 2 * unit;

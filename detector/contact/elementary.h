@@ -22,9 +22,9 @@ struct ContactResult {
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 
-// Tests a query. In every arithmetic axis order is tested first, on the inputs before any rounding.
-// In exact arithmetic the test takes 0.1 to 1 us on average for candidates of a mesh; the time of a
-// contact costs about 1 us more.
+// Tests a query. Axis order is tested first, in every arithmetic, on the inputs before any
+// rounding. In exact arithmetic the test takes 0.1 to 1 us on average for candidates of a mesh; the
+// time of a contact costs about 1 us more.
 ContactResult test_contact(const FourPoints& query, Want want,
                            Arithmetic arithmetic = Arithmetic::exact);
 
@@ -69,9 +69,9 @@ std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic
 // for the first contact use this: once a contact is known, the times of later contacts do not
 // matter.
 //
-// by_doubles and by_integers: there is no contact in [0, until], as doubles or integers of fixed
-// width show. no: there is a contact, or neither can tell. 0.1 us by doubles, 0.2 to 0.6 us with
-// integers. No allocation. REQUIRES until in [0,1].
+// `by_doubles`, `by_integers`: there is no contact in [0, until]; doubles, or integers of fixed
+// width, prove this. `no`: there is a contact, or neither doubles nor these integers can tell. 0.1
+// us by doubles, 0.2 to 0.6 us with integers. No allocation. REQUIRES until in [0,1].
 enum class Later : std::uint8_t { no, by_doubles, by_integers };
 Later surely_later(const FourPoints& query, double until);
 

@@ -55,8 +55,7 @@ class QueryIntegers {
   // Returns the bits of the longest integer: every integer is below 2^bits() in size.
   int bits() const { return bits_; }
 
-  // Returns the coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits()
-  // < 64 limbs.
+  // Returns coordinate k of point i at t=0 (end 0) or t=1 (end 1). REQUIRES bits() < 64 * limbs.
   template <std::size_t limbs>
   FixedInteger<limbs> at(std::size_t i, std::size_t end, std::size_t k) const {
     const Coordinate& c = coordinates_[i][end][k];
@@ -188,15 +187,14 @@ void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T,
   }
 }
 
-// A piece of the step in exact Bernstein coefficients, and the facts that their signs tell.
-//
-// Leave out the zeros among the coefficients of a polynomial over a piece. Then:
-// - If the rest have one sign, the polynomial has that sign throughout the open piece.
+// The rest of this file: what the signs of a polynomial's Bernstein coefficients tell (PieceSigns),
+// and a piece of the step in exact coefficients (FixedPiece). Coefficients that are 0 are left out:
+// - If the other coefficients have one sign, the polynomial has it throughout the open piece.
 // - The number of sign changes is the number of roots in the open piece plus an even number >= 0
 //   (Descartes' rule, by s/(1-s)). So with no change there is no root, and with one change there
 //   is exactly one, a simple one.
-//
-// The signs of one polynomial over the open piece.
+
+// What is known of the sign of one polynomial over the open piece.
 struct PieceSigns {
   int changes = 0;
   int first = 0;  // the sign just after the beginning; 0 if the polynomial vanishes throughout

@@ -233,7 +233,7 @@ class SignAtRoot {
   }
 
   // Does the same in balls, which know the size of each term, whatever the exponents of the
-  // coordinates are. Returns nothing if balls cannot tell.
+  // coordinates are. Returns nullopt if balls cannot tell.
   std::optional<int> sign_by_balls(const FixedQuadratic<L>& quadratic, int l_before) const {
     const std::array l = {Ball(quadratic[0]), Ball(quadratic[1]), Ball(quadratic[2])};
     const std::array f = {Ball(f_[0]), Ball(f_[1]), Ball(f_[2]), Ball(f_[3])};

@@ -16,8 +16,9 @@ namespace assay::detector {
 
 // The axis rung. Returns whether the two groups are more than `by` apart along an axis, in the same
 // sense at t=0 and at t=1. Then they are more than `by` apart throughout, because every point moves
-// linearly; with `by` 0 this means that there is no contact. Exact, because a difference of doubles
-// is greater than a double if the rounded difference is. REQUIRES by >= 0. About 10 ns.
+// linearly; with `by` 0 this means that there is no contact. Exact: if the rounded difference of
+// two doubles is greater than a double, so is their exact difference. REQUIRES by >= 0. About 10
+// ns.
 bool separated_along_an_axis(const FourPoints& query, double by = 0);
 
 struct FilterResult {
@@ -34,15 +35,15 @@ struct FilterResult {
 // 1.5 us.
 FilterResult filter_contact(const FourPoints& query, Want want);
 
-// How often pieces are halved. A halving takes 40 ns, and integers (contact_fixed.cpp) take 2 us.
+// The limits of halving pieces. A halving takes 40 ns, and integers (contact_fixed.cpp) take 2 us.
 // If the signs of the cubic at the beginning and at the end of a piece are certain, halving soon
 // finds the part with the root, and the signs of the dependencies in that part. With these depths
-// 37 of 5,171 queries of a simulation are not decided; with a depth of two, 1,097 are not. If one
-// of the two signs is not certain, more halvings are mostly useless; for example at a contact just
-// at t=0, or if points stay coplanar. They are also mostly useless once a piece was not decided.
+// 37 of 5,171 queries of a simulation stay open, and 1,097 with a depth of two. If one of the two
+// signs is not certain, more halvings are mostly useless; for example at a contact just at t=0, or
+// if points stay coplanar. They are also mostly useless once a piece was not decided.
 inline constexpr int max_filter_depth = 8, max_unsure_depth = 2, max_filter_halvings = 16;
 
-// Tests in doubles with proved bounds alone. If doubles cannot tell, `rung` is `open` and a contact
+// Tests only in doubles with proved bounds. If doubles cannot tell, `rung` is `open` and a contact
 // is reported, so no contact is ever missed. The time is an interval of doubles that contains the
 // first contact time if there is a contact. It is proved that there is no contact before lo, so lo
 // is never late. hi is a time by which a contact is certain, or 1 if no contact is certain.
@@ -79,13 +80,13 @@ ContactResult exact_contact(const FourPoints& query, Want want = Want::first_tim
 
 // Returns the time of a contact that the filter has bracketed. REQUIRES that this time is the only
 // root of the coplanarity cubic in (lo, hi), and that the cubic changes its sign there. `guess` is
-// about that time. 0.4 us for coordinates of similar magnitude.
+// near that time. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// Do the same as exact_contact and exact_bracketed_time by integers without bound alone. Those two
-// call these if integers of fixed width do not decide. nullopt means that there is no contact. 5 to
-// 50 us for coordinates of similar magnitude; the time grows with the spread of their exponents, to
-// 2 ms over all doubles.
+// Do the same as exact_contact and exact_bracketed_time, but only in integers without bound.
+// exact_contact and exact_bracketed_time call them if integers of fixed width do not decide.
+// nullopt means that there is no contact. 5 to 50 us for coordinates of similar magnitude; the time
+// grows with the spread of their exponents, to 2 ms over all doubles.
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 

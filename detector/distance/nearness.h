@@ -1,11 +1,12 @@
 // The elementary test of a separation: whether two features come within d during a step, and when
 // first (L16). It is a ladder of rungs like the test of a contact (contact/elementary.h): axis
-// order, doubles with proved bounds, integers. They are counted as the rungs axis, filter and
-// unbounded of ContactRung.
+// order, doubles with proved bounds, integers. These three are counted as ContactRung::axis,
+// ContactRung::filter and ContactRung::unbounded.
 //
 // Guarantee: for every finite input and every finite d > 0 the answer is that of exact arithmetic
 // on the doubles given. A distance of exactly d is within d, and t=0 and t=1 count. The first two
-// rungs allocate nothing. The rung of integers allocates; it computes every first time after t=0.
+// rungs allocate nothing. The rung of integers allocates. It computes the first time of each query
+// whose features are not within d already at t=0.
 #pragma once
 
 #include <optional>
@@ -29,7 +30,7 @@ std::shared_ptr<const ElementaryTest> make_near_test(double d);
 std::optional<TimeEnclosure> exact_near_time(const FourPoints& query, double d);
 
 // Returns the first time within d. REQUIRES features that are farther apart than d from t=0 to lo
-// and nearer than d at hi. `guess` is about the first time. 15 us if hi - lo is so small that a
+// and nearer than d at hi. `guess` is about the first time. 15 us if hi - lo is so small that one
 // look at [lo,hi] is enough.
 TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double lo, double hi,
                                       double guess);
@@ -45,7 +46,7 @@ TimeEnclosure exact_near_time_between(const FourPoints& query, double d, double 
 //   If n goes linearly from n0 at one end of the piece to n1 at the other, n.(p - q) is quadratic,
 //   with the Bernstein coefficients n0.w0, (n0.w1 + n1.w0) / 2, n1.w1 for w = p - q. |n| is convex,
 //   so d |n| is at most the linear function that goes from d |n0| to d |n1|.
-// The next instant is the time at which the distance would be d if it went on to fall as it did
+// The next instant is the time at which the distance would be d if it kept falling as it did
 // between the last two instants (the secant rule), or the end of the step. If the piece up to that
 // instant cannot be proved, a nearer instant is used instead: the time up to which the fixed n of
 // the last instant proves the features apart.

@@ -2,9 +2,9 @@
 // without bound: they find the sign of a sum of products of integers of thousands of bits in some
 // 0.1 us, unless the terms cancel to 2^-50 of their size or less. In that case integers decide.
 //
-// A ball is a pair of doubles and an exponent. The number is off by at most radius 2^exponent from
-// middle 2^exponent. Either the larger of |middle| and radius is in [1,2), or both are 0 and the
-// number is 0. So the doubles neither overflow nor lose small numbers, whatever the exponent is.
+// A ball is a pair of doubles and an exponent. The number is off by at most radius * 2^exponent
+// from middle * 2^exponent. Either the larger of |middle| and radius is in [1,2), or both are 0 and
+// the number is 0. So the doubles neither overflow nor lose small numbers, for any exponent.
 //
 // Errors, with u = 2^-53. A sum or product of doubles is off by at most u times its size; the
 // radius grows by 2 u of that size to cover it. The radius itself is rounded a few times in each
@@ -28,11 +28,10 @@ class Ball {
  public:
   Ball() = default;  // exactly 0
 
-  // The ball around value 2^exponent, from the two highest limbs of `value`. Let t >= 1 be the
+  // The ball around value * 2^exponent, from the two highest limbs of `value`. Let t >= 1 be the
   // highest limb and l the next lower limb, both as integers. Computed in doubles, t + l 2^-64 has
   // three errors: at most u t from t (0 for t below 2^53), at most u from l, and at most u (t + 1)
-  // from the sum. All lower limbs together add less than 2^-64. The sum of these is less than 4 u
-  // t.
+  // from the sum. All lower limbs together add less than 2^-64. Together that is less than 4 u t.
   explicit Ball(const Integer& value, std::int64_t exponent = 0) {
     using Limb = boost::multiprecision::limb_type;
     static_assert(sizeof(Limb) == 8);
@@ -139,7 +138,7 @@ class Ball {
   // Returns a + b. REQUIRES that neither is 0, and that the exponent of b is not the greater one.
   // Let the unit of a ball be 2^exponent. The middle and the radius of b are each below 2 units of
   // b. If the unit of b is less than 2^-200 units of a, then b is below 4 2^-200 units of a, and is
-  // added to the radius alone.
+  // added only to the radius.
   static Ball sum_of(const Ball& a, const Ball& b) {
     constexpr std::int64_t far = 200;
     const std::int64_t shift = a.exponent_ - b.exponent_;

@@ -13,7 +13,7 @@
 //   B         the largest size among the coefficients that are halved.
 //   error     in units of u. First comes the error that the operands bring into the result, then
 //             the rounding of each operation in turn: 3 + 3 + 2 = 8 MM stands for 8 u MM.
-//   middle    a coefficient that is neither the first nor the last. Its error is a larger one.
+//   middle    a coefficient that is neither the first nor the last. Its error is larger.
 // A division by 2 and a product with 2 are exact. The table has errors of first order in u. The
 // constants in the code are larger by some u, and these cover errors of second order.
 //
@@ -78,8 +78,7 @@ using Cubic = CubicOf<double>;
 
 // The range of magnitudes within which the bounds hold. An underflow costs at most 2^-1074 in an
 // operation, and at most 2^-1074 2^300 if a product that underflowed is multiplied once more by
-// M_k. Within this range the bounds of such products are above 2^-53 2^-600 M_k, which is far
-// more.
+// M_k. Within this range the bounds of such products exceed this: they are above 2^-53 2^-600 M_k.
 inline constexpr double least_magnitude = 0x1p-300;
 inline constexpr double greatest_magnitude = 0x1p300;
 

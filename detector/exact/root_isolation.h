@@ -17,8 +17,6 @@
 
 namespace assay::detector {
 
-// Encloses in doubles, by exact signs, the only root between two doubles.
-//
 // The doubles in [0,1] are numbered by consecutive integers in ascending order: their bits, read
 // as an integer.
 inline std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(time); }
@@ -66,7 +64,7 @@ TimeEnclosure bracket_root(SignAt sign_at, int sign_lo, double lo, double hi, do
 
 // Descartes' rule counts how often the coefficients of a polynomial in the Bernstein basis over an
 // interval change their sign, with zeros left out. The number of roots in the OPEN interval,
-// counted with their multiplicities, is that count, or that count less an even number. So with no
+// counted with their multiplicities, is that count, or that count minus an even number. So with no
 // change there is no root, and with one change there is exactly one, a simple one. Roots at the
 // ends of the interval do not matter.
 //

@@ -116,7 +116,7 @@ class NearRegions {
   const Number& squared_;
 };
 
-enum class Near { within, nearer };  // at most the distance, or less than it
+enum class Near { within, nearer };  // at most the distance apart; less than the distance apart
 
 // Returns whether some region holds. This means that the features are within the distance (with
 // Near::nearer: nearer than it) at the instant that `regions` was made for. Cheap regions are tried
@@ -138,7 +138,8 @@ bool some_region_holds(const NearRegions<Number>& regions, Near near) {
 // CountedPairs::rest_distance needs this. Exact for all finite inputs, because the regions are
 // computed in integers (exact/polynomial.h).
 //
-// REQUIRES that r is finite. Takes 2 to 10 us, or 10 ns if the boxes of the two features show it.
+// REQUIRES that r is finite. Takes 2 to 10 us, or 10 ns if the boxes of the two features are far
+// enough apart.
 bool vertex_is_nearer_to_face(const Point& p, const std::array<Point, 3>& face, double r);
 bool edges_are_nearer(const std::array<Point, 2>& a, const std::array<Point, 2>& b, double r);
 

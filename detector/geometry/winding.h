@@ -47,10 +47,10 @@ bool has_equal_corners(const Topology& mesh, const PositionsView& x, std::int32_
 
 // The signs of determinants tell how a ray crosses a triangle.
 //
-// Let A, B, C be the corners less the ray's origin and r its direction. The ray's line crosses the
-// inside of the triangle if and only if det(A,B,r), det(B,C,r) and det(C,A,r) have one strict
-// sign. That sign is then the sign of r . normal, because r . normal is their sum. The crossing is
-// ahead of the origin if det(A,B,C) has that sign too.
+// Let A, B, C be the corners minus the ray's origin, and r the ray's direction. The ray's line
+// crosses the inside of the triangle if and only if det(A,B,r), det(B,C,r) and det(C,A,r) have one
+// strict sign. That sign is then the sign of r . normal, because r . normal is their sum. The
+// crossing is ahead of the origin if det(A,B,C) has that sign too.
 
 using RayOrigin = std::array<Point, 3>;  // stands for the point (2 o[0] + o[1] + o[2]) / 4
 using RayDirection = std::array<int, 3>;

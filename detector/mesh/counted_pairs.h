@@ -1,8 +1,8 @@
 // Says which pairs count (L19). A user may leave pairs out of the question whether a mesh meets
 // itself.
 //
-// A pair that does not count is never reported, and it makes no step a collision. Everything counts
-// by default. CountedPairs is plain data; mesh_checks.h says which values are refused. It is an
+// A pair that does not count is never reported, and it makes no step a collision. By default every
+// pair counts. CountedPairs is plain data; mesh_checks.h says which values are refused. It is an
 // option of a detector:
 //
 //   CountedPairs counted;
@@ -25,7 +25,7 @@ namespace assay::detector {
 
 // Says whether CountedPairs is about pairs of triangles or about pairs of features. A feature pair
 // is a vertex and a face, or two edges, that share no vertex; most detectors filter such pairs. At
-// the level `features` two triangles are in contact if a feature pair of theirs that counts is in
+// the level `features` two triangles are in contact if a feature pair of the two counts and is in
 // contact, and their first time is the least time of these feature pairs. An edge that pierces a
 // face at t=0 counts if some feature pair of the two triangles counts.
 enum class CountedLevel : std::uint8_t { triangles, features };

@@ -24,7 +24,7 @@ struct Named {
   const char* name;
 };
 
-// Holds for each enum that has such a list, in any namespace.
+// True for each enum that has such a list (names_of), in any namespace.
 template <class Enum>
 concept Listed = requires {
   names_of(Enum{}).front().name;

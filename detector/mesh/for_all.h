@@ -19,7 +19,7 @@
 
 namespace assay::detector {
 
-// The calling thread does a loop of fewer items alone: about 10 us of work.
+// A loop of fewer items, about 10 us of work, is not shared: the calling thread does it alone.
 inline constexpr std::size_t least_shared = 4096;
 // Returns the number of items in a piece of a loop. Pieces are small, so that all threads end at
 // about the same time.

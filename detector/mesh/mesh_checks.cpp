@@ -124,10 +124,10 @@ Problem wrong_relation(std::string message) {
   return {InputError::wrong_relation, std::move(message)};
 }
 
-Problem out_of_range(const char* list, std::int32_t index, Eigen::Index count) {
-  return {InputError::index_out_of_range,
-          std::string(list) + " names number " + std::to_string(index) +
-              ", but the numbers go from 0 to " + std::to_string(count - 1)};
+Problem out_of_range(const char* name, std::int32_t index, Eigen::Index count) {
+  return {InputError::index_out_of_range, std::string(name) + " " + std::to_string(index) +
+                                              "; valid numbers are 0 to " +
+                                              std::to_string(count - 1)};
 }
 
 std::optional<Problem> check_bodies(const CountedPairs& counted, const TrianglesView& triangles,
@@ -140,12 +140,12 @@ std::optional<Problem> check_bodies(const CountedPairs& counted, const Triangles
   }
   std::int32_t bodies = 1;
   for (const auto b : body) {
-    if (b < 0 || b >= vertex_count) return out_of_range("the list of bodies", b, vertex_count);
+    if (b < 0 || b >= vertex_count) return out_of_range("a vertex is in body", b, vertex_count);
     bodies = std::max(bodies, b + 1);
   }
   for (const auto& pair : counted.apart) {
     for (const auto b : pair) {
-      if (b < 0 || b >= bodies) return out_of_range("a pair of bodies", b, bodies);
+      if (b < 0 || b >= bodies) return out_of_range("a pair of bodies names body", b, bodies);
     }
   }
   for (Eigen::Index t = 0; !body.empty() && t < triangles.rows(); ++t) {
@@ -158,7 +158,7 @@ std::optional<Problem> check_bodies(const CountedPairs& counted, const Triangles
 
 std::optional<Problem> check_rest(const CountedPairs& counted, Eigen::Index vertex_count) {
   if (!std::isfinite(counted.rest_distance) || counted.rest_distance < 0)
-    return wrong_relation("the distance at rest is negative or not finite");
+    return wrong_relation("`rest_distance` is negative or not finite");
   const bool may_be_empty = counted.rest_distance == 0;
   if (counted.rest.empty() && may_be_empty) return std::nullopt;
   if (static_cast<Eigen::Index>(counted.rest.size()) != vertex_count) {
@@ -192,11 +192,11 @@ std::optional<Problem> check_edge_pairs(const std::vector<TwoEdges>& pairs,
     for (const auto& [u, v] : {pair.a, pair.b}) {
       for (const auto end : {u, v}) {
         if (end < 0 || end >= vertex_count)
-          return out_of_range("a pair of edges", end, vertex_count);
+          return out_of_range("a pair of edges names vertex", end, vertex_count);
       }
       if (std::binary_search(edges.begin(), edges.end(), sorted_edge(u, v))) continue;
-      return wrong_relation("a pair of edges names " + std::to_string(u) + "-" + std::to_string(v) +
-                            ", which is no edge of the mesh");
+      return wrong_relation("a pair of edges names the edge of vertices " + std::to_string(u) +
+                            " and " + std::to_string(v) + ", but the mesh has no such edge");
     }
   }
   return std::nullopt;
@@ -208,20 +208,20 @@ std::optional<Problem> check_lists(const CountedPairs& counted, const TrianglesV
   const bool lists_triangles = !counted.triangle_pairs.empty(),
              lists_features = !counted.vertex_faces.empty() || !counted.edge_pairs.empty();
   if (of_features ? lists_triangles : lists_features) {
-    return wrong_relation(of_features ? "triangle pairs are listed, but the level is features"
-                                      : "feature pairs are listed, but the level is triangles");
+    return wrong_relation(of_features ? "triangle pairs are listed, but `level` is `features`"
+                                      : "feature pairs are listed, but `level` is `triangles`");
   }
   for (const auto& [a, b] : counted.triangle_pairs) {
     for (const auto t : {a, b}) {
       if (t < 0 || t >= triangles.rows())
-        return out_of_range("a pair of triangles", t, triangles.rows());
+        return out_of_range("a pair of triangles names triangle", t, triangles.rows());
     }
     if (a == b) return wrong_relation(at_triangle(a) + " is paired with itself");
   }
   for (const auto& [v, face] : counted.vertex_faces) {
-    if (v < 0 || v >= vertex_count) return out_of_range("a vertex with a face", v, vertex_count);
+    if (v < 0 || v >= vertex_count) return out_of_range("a pair names vertex", v, vertex_count);
     if (face < 0 || face >= triangles.rows())
-      return out_of_range("a vertex with a face", face, triangles.rows());
+      return out_of_range("a pair names triangle", face, triangles.rows());
   }
   return check_edge_pairs(counted.edge_pairs, triangles, vertex_count);
 }

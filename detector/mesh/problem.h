@@ -32,7 +32,7 @@ enum class InputError : std::uint8_t {
   stopped = 13,                 // the stop function returned true before the detector was made
   triangle_of_two_bodies = 14,  // a triangle has vertices of two bodies (counted_pairs.h)
   wrong_relation = 15,          // CountedPairs has a value that is impossible
-  wrong_separation = 16,        // the separation is not a distance, or other options exclude one
+  wrong_separation = 16,        // the separation is not a distance, or other options exclude it
   proves_nothing = 17,          // limit() is called with an arithmetic that promises nothing
   wrong_bound = 18,             // `until` of first_contact is not in [0,1]
 };

@@ -19,7 +19,7 @@ namespace assay::detector {
 // The numbers that a step is computed in. detector/README.md says what each arithmetic promises.
 enum class Arithmetic : std::uint8_t {
   exact,             // doubles with proved bounds, integers where these cannot tell: never wrong
-  bounded,           // doubles with proved bounds alone: undecided pairs count as contacts
+  bounded,           // only doubles with proved bounds: undecided pairs count as contacts
   double_precision,  // doubles with bounds 0: promises nothing, made to be measured
   single_precision,  // floats with bounds 0, coordinates rounded to float first: promises nothing
 };

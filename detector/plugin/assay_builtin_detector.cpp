@@ -67,11 +67,11 @@ bool choose(Enum& choice, std::int32_t number) {
 const char* read_options(const assay_builtin_options& input, Options& options) {
   constexpr std::size_t size_before_separation = offsetof(assay_builtin_options, separation);
   if (input.struct_size != sizeof input && input.struct_size != size_before_separation)
-    return "struct_size is not the size of the options";
-  if (!choose(options.culling, input.culling)) return "culling has an unknown value";
-  if (!choose(options.start, input.start)) return "start has an unknown value";
-  if (!choose(options.pairs, input.pairs)) return "pairs has an unknown value";
-  if (!choose(options.arithmetic, input.arithmetic)) return "arithmetic has an unknown value";
+    return "`struct_size` is not the size of assay_builtin_options";
+  if (!choose(options.culling, input.culling)) return "`culling` has an unknown value";
+  if (!choose(options.start, input.start)) return "`start` has an unknown value";
+  if (!choose(options.pairs, input.pairs)) return "`pairs` has an unknown value";
+  if (!choose(options.arithmetic, input.arithmetic)) return "`arithmetic` has an unknown value";
   options.threads = input.threads;
   if (input.struct_size == sizeof input) options.separation = input.separation;
   return nullptr;

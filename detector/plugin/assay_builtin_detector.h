@@ -13,9 +13,9 @@
  *
  * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
  * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
- * evaluate there is nothing to commit. `error` may be NULL. If it is not NULL, the function sets
- * it: with ASSAY_OK to ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must not be
- * NULL unless the comment of a function says that they may be NULL.
+ * evaluate there is nothing to commit. `error` may be NULL. If it is not NULL, every call
+ * sets it; ASSAY_OK goes with ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays must
+ * not be NULL unless the comment of a function says that they may be NULL.
  *
  * THE PROCESSOR. Answers do not depend on the state that the caller has set: flushing of denormals,
  * rounding mode, traps. Each call restores this state when it returns, and calls stop() in it. */
@@ -50,7 +50,7 @@ enum {
   ASSAY_BUILTIN_STOPPED = 13,              /* (cannot occur in C: create has no stop function) */
   ASSAY_BUILTIN_TRIANGLE_OF_TWO_BODIES = 14, /* (cannot occur in C: create has no bodies) */
   ASSAY_BUILTIN_WRONG_RELATION = 15,         /* (cannot occur in C: create has no counted pairs) */
-  ASSAY_BUILTIN_WRONG_SEPARATION = 16,       /* not a distance, or other options exclude one */
+  ASSAY_BUILTIN_WRONG_SEPARATION = 16,       /* not a distance, or other options exclude it */
   ASSAY_BUILTIN_PROVES_NOTHING = 17,         /* a limit with arithmetic double or float */
   ASSAY_BUILTIN_WRONG_BOUND = 18,            /* until is not from 0 to 1 */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,          /* a wrong value of an option, or of struct_size */
@@ -75,7 +75,7 @@ enum {
                                     views do not pay */
   ASSAY_CULLING_VIEW_POINT = 1,  /* each component is seen from a point */
   ASSAY_CULLING_VIEW_LINE = 2,   /* each component is seen from a segment */
-  ASSAY_CULLING_NORMAL_CONE = 3, /* BVH less pairs within a patch that has a normal cone and a
+  ASSAY_CULLING_NORMAL_CONE = 3, /* BVH without pairs in a patch that has a normal cone and a
                                     simple contour */
   ASSAY_CULLING_BVH = 4,         /* pairs whose boxes meet, found by a tree of boxes */
   ASSAY_CULLING_NONE = 5,        /* every pair is tested, without boxes */
@@ -122,17 +122,17 @@ int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const assay_builtin_options* options, assay_handle** handle,
                              assay_builtin_error* error);
 
-/* A place, anywhere, from which the mesh is viewed, instead of the detector's own choice: a segment
- * from q0 to q1, each given at t = 0 and at t = 1, or a point if q0 and q1 are equal. */
+/* A place, anywhere, from which the mesh is viewed; it replaces the detector's own choice. It is a
+ * segment from q0 to q1, each given at t = 0 and at t = 1, or a point if q0 and q1 are equal. */
 typedef struct assay_view_primitive {
   double q0_t0[3], q0_t1[3], q1_t0[3], q1_t1[3];
 } assay_view_primitive;
 
-/* Does what the table's evaluate does; then the table's result gives the answer. primitive_count is
- * 0 (the detector chooses the places), 1 (one primitive for all components), or the number of
- * components (the primitives are in the order of the components' lowest vertices). stop is called
- * now and then with stop_data. If it does not return 0, the work stops with the answer
- * ASSAY_UNDECIDED. stop may be NULL. */
+/* Does what the table's evaluate does; a call of the table's `result` then gets the answer.
+ * primitive_count is 0 (the detector chooses the places), 1 (one primitive for all components), or
+ * the number of components (the primitives are in the order of the components' lowest vertices).
+ * stop is called now and then with stop_data. If it does not return 0, the work stops with the
+ * answer ASSAY_UNDECIDED. stop may be NULL. */
 int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const double* x_t1,
                                const assay_view_primitive* primitives, uint64_t primitive_count,
                                int32_t (*stop)(void* stop_data), void* stop_data,
@@ -141,8 +141,8 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
 /* Answers whether there is a contact by the time `until`, from 0 to 1, and which contact is first.
  * The pairs are those of ASSAY_PAIRS_FIRST, whatever the options say. ASSAY_FREE means that there
  * is no contact in [0, until]; a contact at `until` itself counts. Later contacts are not looked
- * for, so a caller that knows a contact passes its time as `until`. The table's result then gives
- * the answer. The step can be committed only if until is 1. stop may be NULL. */
+ * for, so a caller that knows a contact passes its time as `until`. A call of the table's `result`
+ * then gets the answer. The step can be committed only if until is 1. stop may be NULL. */
 int32_t assay_builtin_first_contact(assay_handle* handle, const double* x_t0, const double* x_t1,
                                     double until, int32_t (*stop)(void* stop_data), void* stop_data,
                                     assay_builtin_error* error);
@@ -163,10 +163,10 @@ int32_t assay_builtin_limit_is_short(const assay_handle* handle);
 /* Where a pair of the last result meets, at the lower end of its time (contact_place.h). */
 typedef struct assay_contact_place {
   double point[3];
-  double barycentric[2][3]; /* for each of the two triangles, the weights of its corners */
-  double error;             /* the point is off by at most this from either sum, by coordinate */
-  double normal[3];         /* of the face or of both edges, of length 1; 0 if there is none */
-  double normal_error;      /* the normal is off by at most this, by coordinate; 0 without one */
+  double barycentric[2][3]; /* for each triangle, corner weights; the weighted sum is the point */
+  double error;             /* no coordinate of this sum differs more from the point */
+  double normal[3];         /* the unit normal of the face or of both edges; 0 if there is none */
+  double normal_error;      /* no coordinate of `normal` is off by more; 0 if there is no normal */
 } assay_contact_place;
 
 /* Sets *place to the place of a pair of the last result. x_t0 and x_t1 must be the positions that

@@ -17,12 +17,12 @@
  * t = 0 or t = 1 counts. With a separation, "in contact" means "within this distance". The doubles
  * given are exact numbers, in the user's units of length. Times are fractions of the step.
  *
- * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
- * valid during the call and must not be written. Arrays and texts that the detector returns belong
- * to the detector; they stay valid until the next call with the same handle.
+ * MEMORY. The host frees no memory of the detector, and the detector no memory of the host. Arrays
+ * that the host passes are valid during the call and must not be written. Arrays and texts that the
+ * detector returns belong to the detector, and stay valid until the next call with the same handle.
  *
  * THREADS. A handle is used by one thread at a time; several handles may be used at once by
- * different threads, so a detector keeps no mutable global data (or guards it).
+ * different threads, so a detector must have no mutable global data, or must guard it.
  *
  * ERRORS are return codes. No exception, longjmp or exit() may leave a function of the table: the
  * host counts these as crashes. A call that fails changes nothing, and the handle stays valid.
@@ -77,7 +77,7 @@ enum {
  * refusal is excused: any other answer has to be right. */
 enum { ASSAY_BEYOND_CAPACITY = 4 };
 
-/* The claims of the detector, by which alone it is judged. t* is the first contact time. */
+/* The claims of the detector. Only these are judged. t* is the first contact time. */
 enum {
   ASSAY_CLAIM_FREE_SOUND = 1u << 0,    /* the answer is never `free` when there is a contact */
   ASSAY_CLAIM_NOT_LATE = 1u << 1,      /* first_lo <= t* */
@@ -142,7 +142,7 @@ enum {
 
 /* Says whether pairs of triangles or pairs of features count. A pair of features is a vertex and a
  * face, or two edges, that share no vertex. With features, two triangles are in contact only if a
- * feature pair of theirs that counts is in contact. An edge that pierces a face at t = 0 counts if
+ * feature pair of the two counts and is in contact. An edge that pierces a face at t = 0 counts if
  * some feature pair of the two triangles counts. */
 enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
 
@@ -256,7 +256,7 @@ typedef struct assay_counted_pairs {
   int32_t rings;        /* the two do not count if a path of fewer edges joins them; 0: not used */
   double rest_distance; /* the two do not count if they are nearer at rest; 0: not used */
   const double* rest;   /* vertex_count x 3 places at rest; NULL if rest_distance is 0 */
-  /* Lists of pairs that do not count. With ASSAY_COUNTS_TRIANGLES the first, else the other two. */
+  /* Lists of pairs that do not count: the first for triangles, the other two for features. */
   uint64_t triangle_pair_count;
   const int32_t* triangle_pairs; /* triangle_pair_count x 2 */
   uint64_t vertex_face_count;
@@ -320,7 +320,7 @@ typedef struct assay_detector_api {
   /* Since version 2. Each of these functions may be NULL. */
 
   /* Sets how many threads the detector may use, 1 or more. Called once, before every function
-   * except describe. If the detector claims deterministic, results must not depend on this. */
+   * except describe. With ASSAY_CLAIM_DETERMINISTIC, results must not depend on this number. */
   void (*use_threads)(uint32_t count);
 
   /* Answers whether two features meet during the step, and when first. A library can have only this
@@ -335,7 +335,7 @@ typedef struct assay_detector_api {
   int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* candidates);
 
-  /* Returns why the last call that failed in this thread has failed, for any function: one line,
+  /* Returns why the last failed call in this thread, of whichever function, has failed: one line,
    * valid until the next call, or NULL. The host calls it at once after a return code other than
    * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
   const char* (*error_text)(void);

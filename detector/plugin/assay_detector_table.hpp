@@ -238,21 +238,21 @@ std::int32_t limit(assay_handle* handle, const double* x_t0, const double* x_t1,
 template <class D>
 const assay_detector_api* table() {
   static_assert(has_evaluate<D>::value || !names_evaluate<D>::value,
-                "Result evaluate(Positions x_t0, Positions x_t1)");
-  static_assert(has_commit<D>::value || !names_commit<D>::value, "void commit()");
+                "declare Result evaluate(Positions x_t0, Positions x_t1)");
+  static_assert(has_commit<D>::value || !names_commit<D>::value, "declare void commit()");
   static_assert(has_use_threads<D>::value || !names_use_threads<D>::value,
-                "static void use_threads(std::uint32_t count)");
+                "declare static void use_threads(std::uint32_t count)");
   static_assert(has_query<D>::value || !names_query<D>::value,
-                "static Result query(std::int32_t kind, Positions x_t0, Positions x_t1)");
+                "declare static Result query(std::int32_t kind, Positions x_t0, Positions x_t1)");
   static_assert(has_candidates<D>::value || !names_candidates<D>::value,
-                "std::vector<Pair> candidates(Positions x_t0, Positions x_t1)");
+                "declare std::vector<Pair> candidates(Positions x_t0, Positions x_t1)");
   static_assert(has_limit<D>::value || !names_limit<D>::value,
-                "Limit limit(Positions x_t0, Positions x_t1)");
+                "declare Limit limit(Positions x_t0, Positions x_t1)");
   static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value ||
                     has_limit<D>::value,
                 "a detector needs evaluate(), query(), candidates() or limit()");
   static_assert(has_count<D>::value || !names_count<D>::value,
-                "void count(const CountedPairs& counted)");
+                "declare void count(const CountedPairs& counted)");
   static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() needs evaluate()");
   static const assay_detector_api api = [] {
     assay_detector_api functions = {};

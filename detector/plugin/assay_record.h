@@ -48,15 +48,15 @@ enum {
   ASSAY_RECORD_FILE_EXISTS = 19,    /* refused: the file exists and would be overwritten */
   ASSAY_RECORD_NOT_OPENED = 20,     /* the file could not be opened */
   ASSAY_RECORD_NOT_WRITTEN = 21,    /* not all of this record or of an earlier one was written */
-  ASSAY_RECORD_NO_ANSWER = 23       /* refused: no detector can give this result or limit, such as a
-                                       time outside of [0, 1], so that it could not be judged */
+  ASSAY_RECORD_NO_ANSWER = 23       /* refused: the result or limit is impossible, such as a time
+                                       outside of [0, 1], and so could not be judged */
 };
 
 /* The file of a log, and which steps are recorded. */
 typedef struct assay_record_settings {
   const char* path;
   uint64_t every;    /* one step in `every` is recorded, beginning with the first; 0 is like 1 */
-  int32_t overwrite; /* if the file exists and is not empty: 0: it is refused; 1: it is emptied */
+  int32_t overwrite; /* a file that exists and is not empty is refused (0) or emptied (1) */
 } assay_record_settings;
 
 /* An array of vertex_count x 3 numbers, double or float. If data is NULL, the array is absent. */
@@ -65,11 +65,11 @@ typedef struct assay_record_array {
   int32_t is_float32; /* 0: double */
 } assay_record_array;
 
-/* A step, in the user's units. Set the struct to 0, then the members that the simulator has. */
+/* A step, in the user's units. Clear the struct (all 0); then fill in what the simulator has. */
 typedef struct assay_record_step_data {
-  assay_record_array x0;        /* where the step starts. If absent, it starts at the committed
-                                   positions of the last step or, without these, at its x1 */
-  assay_record_array x1, dx;    /* exactly one: the end of the step, or the displacement x1 - x0 */
+  assay_record_array x0;        /* where the step starts. If absent, it starts at the last step's
+                                   `committed` or, if that is absent too, at the last step's x1 */
+  assay_record_array x1, dx;    /* exactly one of: the end of the step, the displacement x1 - x0 */
   assay_record_array committed; /* where the simulator really went, or absent */
   const assay_result* result;   /* the answer of the simulator's detector, or NULL */
   const assay_limit* limit;     /* the answer of the simulator's limiter, or NULL */
@@ -519,9 +519,9 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
   if (!c->description || !c->description->name)
     return assay_record_wrong_(r, "the description or its name is missing");
   if (!c->positions.data || vertex_count == 0 || vertex_count > INT32_MAX)
-    return assay_record_wrong_(r, "the positions are missing, or are more than 2^31 - 1");
+    return assay_record_wrong_(r, "the positions are missing, or there are more than 2^31 - 1");
   if (c->triangle_count > INT32_MAX || (!c->triangles && c->triangle_count))
-    return assay_record_wrong_(r, "the triangles are missing, or are more than 2^31 - 1");
+    return assay_record_wrong_(r, "the triangles are missing, or there are more than 2^31 - 1");
   for (i = 0; i < 3 * c->triangle_count; ++i)
     if (c->triangles[i] < 0 || (uint64_t)c->triangles[i] >= vertex_count)
       return assay_record_wrong_(r, "a triangle names a vertex that does not exist");
@@ -530,7 +530,7 @@ static inline int32_t assay_record_check_mesh_(assay_recorder* r, const assay_re
                      (c->counted->triangle_pair_count && !c->counted->triangle_pairs) ||
                      (c->counted->vertex_face_count && !c->counted->vertex_faces) ||
                      (c->counted->edge_pair_count && !c->counted->edge_pairs)))
-    return assay_record_wrong_(r, "an array of the counted pairs is missing");
+    return assay_record_wrong_(r, "an array of `counted` is missing");
   return ASSAY_OK;
 }
 
@@ -572,7 +572,7 @@ static inline int32_t assay_record_begin(assay_recorder* recorder,
   if (!settings || !settings->path || !*settings->path)
     return assay_record_wrong_(recorder, "the path is missing");
   if (settings->overwrite != 0 && settings->overwrite != 1)
-    return assay_record_wrong_(recorder, "overwrite must be 0 or 1");
+    return assay_record_wrong_(recorder, "`overwrite` must be 0 or 1");
   code = assay_record_check_mesh_(recorder, &content, vertex_count);
   if (code != ASSAY_OK) return code;
   recorder->vertex_count = vertex_count;
@@ -603,11 +603,11 @@ static inline int32_t assay_record_check_answer_(assay_recorder* r, const assay_
       !assay_record_is_time_(result->first_lo, result->first_hi))
     return assay_record_no_answer_(r, "the first time is no interval in [0, 1]");
   if (result && result->answer == ASSAY_FREE && result->pair_count)
-    return assay_record_no_answer_(r, "the answer is free, but pairs are given");
+    return assay_record_no_answer_(r, "the answer is `free`, but pairs are given");
   for (i = 0; is_judged && i < result->pair_count; ++i) {
     const int32_t a = result->pairs[2 * i], b = result->pairs[2 * i + 1];
     if (a < 0 || b < 0 || a == b || a >= r->triangle_count || b >= r->triangle_count)
-      return assay_record_no_answer_(r, "a pair is not two triangles of the mesh");
+      return assay_record_no_answer_(r, "a pair does not name two triangles of the mesh");
     if (result->pair_times &&
         !assay_record_is_time_(result->pair_times[2 * i], result->pair_times[2 * i + 1]))
       return assay_record_no_answer_(r, "the time of a pair is no interval in [0, 1]");

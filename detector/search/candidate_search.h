@@ -74,12 +74,12 @@ class CandidateSearch {
     return share_of_edges(true);
   }
   // Does the closure of L7. At first H is the set of triangles found in contact with their own
-  // component. Each round tests (U,H) for the triangles that joined H last, and adds the triangles
-  // found in contact, until H is stable. Contacts between two components add nothing to H, because
-  // all pairs of two components were tested, and layers count only the own component (L10).
-  // Triangles of V0 and Vv need no round, because they were tested against everything already. The
-  // cost of a round is marking, search and tests around the triangles that joined. A round uses no
-  // proofs, because proofs would cost more than the round.
+  // component. Each round tests the triangles that joined H last against their component (U,H), and
+  // adds the triangles found in contact, until H is stable. Contacts between two components add
+  // nothing to H, because all pairs of two components were tested, and layers count only the own
+  // component (L10). Triangles of V0 and Vv need no round, because they were tested against
+  // everything already. The cost of a round is marking, search and tests around the triangles that
+  // joined. A round uses no proofs, because proofs would cost more than the round.
   bool close();
 
   // See FeatureContacts.

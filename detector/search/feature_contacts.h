@@ -55,7 +55,7 @@ class PairContacts {
   // lost.
   bool make_room(const StopFunction& stop);
 
-  // Returns, each once, the pairs that were new since the last call of this function.
+  // Returns the pairs that were added since the last call of this function, each once.
   std::deque<TrianglePair> take_new_pairs();
   // Returns all pairs, ascending, each with its first contact. If several contacts of a pair have
   // the same first time, the contact with the least feature kind is returned, and among these the
@@ -121,10 +121,10 @@ class FeatureContacts {
     pairs_.fit(motion, pace, elementary_.separation() + slack);
   }
 
-  // Proves pairs apart, if the elementary test has first_rungs() and tests for contacts. For any
-  // other elementary test nothing is proved, so it gets every pair. Pairs that are proved apart
-  // need not be added. This calls take_near() when it needs take_near_in() to be called for the
-  // whole step. After the first constructor, REQUIRES ask().
+  // Proves pairs apart, so that they need not be added. Proves nothing if the elementary test has
+  // no first_rungs() or tests for a separation. `take_near` is the caller's function that calls
+  // take_near_in() for the whole step; it is called only if that is needed. An object of the first
+  // constructor REQUIRES that ask() was called before.
   template <class TakeNear>
   void prove_apart(const WideTree& tree, PacedStop* pace, TakeNear take_near) {
     if (elementary_.first_rungs() && neighbours_count_)
@@ -162,7 +162,7 @@ class FeatureContacts {
   std::optional<std::vector<FeatureKey>> take_keys();
   // Returns the grid of the motion of the last take_near_in().
   const FloatGrid& grid() const { return pairs_.grid(); }
-  // Does the same for these feature pairs, also for those that are not near.
+  // Tests these feature pairs as the other run() does, also those that are not near.
   bool run(std::span<const FeatureKey> keys, const StopFunction& stop, const PacedStop* pace);
 
   // Returns the triangle pairs in contact that were found since the last call, each once.

@@ -4,12 +4,12 @@
 //   each of the two triangles represents its feature (Representatives);
 //   the two features share no vertex, and their boxes are not apart;
 //   no earlier search of the step has asked for the two features;
-//   no pair of types of other triangles that contain the features is asked for and comes earlier
-//   in the order of types.
+//   other triangles that contain the features have no pair of types that is asked for and comes
+//   earlier in the order of types.
 // So each feature pair is tested once over the candidates of all searches. The types of the
 // triangles are enough to decide this. If the boxes of two features meet, then the boxes of
-// triangles that contain them meet too. So every pair of such triangles whose types are asked for
-// is a candidate (or was proved apart, L14).
+// triangles that contain them meet too. So a pair of such triangles is a candidate (or was proved
+// apart, L14) if its types are asked for.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +53,8 @@ namespace assay::detector {
 // because positive comes before zero in the order of types.
 //
 // Memory: 5 bytes a triangle. A search that compares few feature pairs can save this memory: while
-// all triangles have one type, `of` works without a call of make(), because it then looks up what a
-// triangle represents in the mesh.
+// all triangles have one type, `of` works without a call of make(), because it then looks up in the
+// mesh what a triangle represents.
 
 // The features that a triangle represents: bit i for its corner i, bit 3 + i for its edge opposite
 // to corner i.
@@ -134,7 +134,7 @@ constexpr std::int32_t second_of(FeatureKey key) {
 // axes, and along the four diagonals (1,1,1), (1,1,-1), (1,-1,1), (-1,1,1), at t=0 and at t=1.
 //
 // Two features that are strictly ordered along one of these directions, in the same sense at t=0
-// and at t=1, are in no contact. Along an axis the order of the floats alone proves this
+// and at t=1, are in no contact. Along an axis the order of the floats already proves this
 // (moving_box.h). Along a diagonal the sum of coordinates is rounded, so floats count as ordered
 // only if they differ by more than a margin:
 //   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (FloatGrid::scaled), is off by 2^-52 at most. A sum
@@ -189,10 +189,7 @@ class FeaturePoints {
   FloatGrid grid_;
 };
 
-// The pair rule in terms of triangle types: which pairs of types the present search asks for, and
-// for which pairs of types earlier searches of the step have asked.
-//
-// A symmetric relation between types.
+// A symmetric relation between types: the pair rule in terms of types (AskedTypes).
 class TypeRelation {
  public:
   // Adds the pairs of types that the pair table asks for, where `flags` gives the flags of a type.
@@ -228,8 +225,10 @@ class TypeRelation {
   std::array<TypeSet, triangle_types> rows_{};
 };
 
-// `within` is for pairs of triangles of one component, `across` for pairs of two components. There
-// is no across_before, because only the first search asks for pairs of two components.
+// The pairs of types that the present search asks for (`now`), and those for which earlier searches
+// of the step have asked (`before`). `within` is for pairs of triangles of one component, `across`
+// for pairs of two components. There is no across_before, because only the first search asks for
+// pairs of two components.
 struct AskedTypes {
   TypeRelation within_now, across_now;
   TypeRelation within_before;

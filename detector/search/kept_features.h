@@ -32,7 +32,7 @@
 // s does no harm. Only the place in the first step at the time s, and the distance to it, are
 // rounded. For coordinates up to M both are off by less than 2^-50 M + 2^-1073, as in moving_box.h,
 // and by s times as much if s is above 1. But then only times up to 1 / s count, and by these a
-// vertex is off by at most 1 / s as much. FloatGrid::tolerance() is r less four times 2^-50 M +
+// vertex is off by at most 1 / s as much. FloatGrid::tolerance() is r minus four times 2^-50 M +
 // 2^-1073.
 #pragma once
 
@@ -89,7 +89,7 @@ class KeptFeatures {
   Positions x_t0_, x_t1_;
   double until_ = 0;  // 0: no feature pairs are kept
   std::array<double, 3> tolerance_{};
-  std::vector<FeatureKey> found_, keys_;  // in the order in which they were found; ordered by part
+  std::vector<FeatureKey> found_, keys_;  // found_: in the order of the search; keys_: by part
   std::array<std::size_t, parts + 1> begins_{};
   // The vertex and the axis with the largest motion; set when covered_until() first needs them.
   std::optional<std::pair<Eigen::Index, Eigen::Index>> fastest_;

@@ -25,12 +25,12 @@ inline constexpr std::uint8_t positive = 1;  // P: V+
 inline constexpr std::uint8_t negative = 2;  // N: V-
 inline constexpr std::uint8_t zero = 4;      // Z: V0
 inline constexpr std::uint8_t violated = 8;  // V: Vv, touched by a ghost or dirty
-inline constexpr std::uint8_t grown = 16;    // beside P or N: joined H in this closure round (L7)
+inline constexpr std::uint8_t grown = 16;    // with P or N: joined H in this closure round (L7)
 inline constexpr int count = 5;
 }  // namespace flag
 
-// A symmetric relation between the sets that flags stand for. One look-up is enough for two unions
-// of such sets, and nodes have unions.
+// A symmetric relation between the sets that flags stand for. A node has a union of such sets; one
+// look-up compares two unions.
 class PairTable {
  public:
   // Makes a table without pairs, which asks for nothing.

@@ -33,8 +33,8 @@ class PatchProofs {
                                                PacedStop& pace) const = 0;
 };
 
-// Which share of the patches of a dozen, of three dozen and of a hundred triangles can be proved
-// free over the step.
+// The shares of patches that can be proved free over the step: of patches of a dozen, of three
+// dozen and of a hundred triangles.
 struct ProvableShares {
   double of_small = 0, of_medium = 0, of_large = 0;
 };
@@ -166,8 +166,8 @@ class MeshSearch {
 //
 // If only one child of a node can contain a partner for the other node, the search goes on with
 // that child without a test of the node's box. The box of the child lies inside the box of the
-// node, so its test shows more. In this way the search skips the nodes that the compact vBVH of the
-// thesis leaves out.
+// node, so a test of the box of the child shows more. In this way the search skips the nodes that
+// the compact vBVH of the thesis leaves out.
 //
 // Pairs that PatchProofs proves apart are left out (L14). Proofs come after flags and boxes,
 // because proofs cost more.

@@ -31,7 +31,7 @@ struct Hunt {
         either(within.joined_with(across)),
         sink(taker) {}
 
-  // Returns the table for pairs of the components c and d, or an empty table if these do not meet.
+  // Returns the table for pairs of the components c and d; it is empty if these are not searched.
   // REQUIRES that neither is mixed_components.
   const PairTable& table_of(std::int32_t c, std::int32_t d) const {
     if (!input.components_meet(c, d)) return nothing;
@@ -72,7 +72,7 @@ class FoundPairs {
 };
 
 // Cuts the descent below the pairs of nodes `left` into `count` pairs of nodes or a few more; the
-// highest pairs are split first. If the descent ends before, the result has fewer pairs.
+// highest pairs are split first. If the descent ends earlier, the result has fewer pairs.
 // split(pair, out) appends the pairs below `pair` to `out`.
 template <class NodePair, class Split, class IsEnded>
 std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, Split split,
@@ -90,7 +90,7 @@ std::vector<NodePair> cut_below(std::vector<NodePair> left, std::size_t count, S
 }
 
 // The number of pairs of nodes into which a search in rounds is cut; fewer if the descent ends
-// before.
+// earlier.
 inline constexpr std::size_t pairs_in_rounds = 512;
 
 // Returns the numbers below `count`, ordered by their reversed bits.
@@ -135,7 +135,7 @@ bool run_in_rounds(const SearchInput& input, const std::vector<NodePair>& pairs,
 }
 
 // Runs a descent. `descent` has three functions: cut(count) cuts it into `count` pairs of nodes or
-// a few more (fewer if it ends before); run(pair) does one of these pairs; and finish() gives the
+// a few more (fewer if it ends earlier); run(pair) does one of these pairs; and finish() gives the
 // last candidates to the sink and returns whether the search goes on. make_lane(index) makes a lane
 // that has its own descent and its own counts. Returns false if the search was stopped.
 template <class Descent, class MakeLane>

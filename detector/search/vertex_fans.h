@@ -65,8 +65,8 @@ class VertexFans {
   }
 
  private:
-  // The corners of a triangle whose fans are proved. Its other corners, and the fourth element, are
-  // replaced by a number that no other triangle has.
+  // The corners of a triangle that have a proved fan. Its other corners, and the fourth element,
+  // are replaced by a number that no other triangle has.
   using Corners = std::int32_t __attribute__((vector_size(16)));
   using Halves = std::int64_t __attribute__((vector_size(16)));
   std::unique_ptr<Corners[]> proved_;  // by triangle; null before prove()

@@ -17,8 +17,8 @@
 
 namespace assay::detector {
 
-// The view anchors of all components, shared by copies of a state. Two of these are equal if their
-// anchors are equal.
+// The view anchors of all components, shared by copies of a state. Two SharedAnchors are equal if
+// their anchors are equal.
 struct SharedAnchors {
   std::shared_ptr<const std::vector<ViewAnchor>> list;  // may be null
 

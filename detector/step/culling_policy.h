@@ -21,7 +21,7 @@
 namespace assay::detector {
 
 // How a verified start finds out which triangles are clean: by views (L5) and then by layers (L9),
-// or by views alone.
+// or only by views.
 enum class StartBy : std::uint8_t { view_and_layers, view_alone };
 
 class CullingPolicy {
@@ -34,7 +34,7 @@ class CullingPolicy {
   // Begins a step. Gets the motion of the mesh, the state from which the step goes on (or null),
   // and whether the step would need the views that the detector makes (FirstViews).
   virtual void begin(const SteppedMesh&, const StepState*, bool) {}
-  // Returns whether view primitives are placed in this step.
+  // Decides whether this step shall place view primitives.
   virtual bool is_due() const = 0;
   // Returns the most work that making views may take, in box tests. After the attempt,
   // pay_for_views() gets whether the views were made, and the work done. If they were not made, the
@@ -45,18 +45,18 @@ class CullingPolicy {
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                                  const PositionsView& vertices_t0,
                                                  PacedStop& pace) = 0;
-  // Returns whether the triangles are classified. REQUIRES that primitives are placed.
+  // Decides whether the step shall classify triangles. REQUIRES that primitives have been placed.
   virtual bool worth_classifying(const GivenStep& step, const StepMarks& marks) = 0;
-  // Returns whether the ghosts are swept. REQUIRES that the triangles are classified.
+  // Decides whether the step shall sweep ghosts. REQUIRES that triangles have been classified.
   virtual bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) = 0;
-  // Returns how to find out which triangles are clean at the start.
+  // Decides how the step shall find out which triangles are clean at the start.
   virtual StartBy start_by() const = 0;
-  // Returns whether the search uses views. REQUIRES that it is known which triangles are clean.
+  // Decides whether the search shall use views. REQUIRES that the clean triangles are known.
   // `counts` are the counts of the step so far.
   virtual bool worth_using(const GivenStep& step, const StepMarks& marks,
                            const StepCounts& counts) = 0;
 
-  // Returns whether the search proves patches apart. REQUIRES that types are marked.
+  // Decides whether the search shall prove patches apart. REQUIRES that types have been marked.
   virtual bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) = 0;
   // Records the cost of a search with views. It is called after such a search, unless a first
   // contact has cut the search short. `candidates_of_k` is the number of candidates before the
@@ -166,7 +166,7 @@ class CostModel : public CullingPolicy {
                                          const PositionsView& vertices_t0,
                                          PacedStop& pace) override;
 
-  // Classifies a few triangles of each large component, in doubles alone. Returns false if doubles
+  // Classifies a few triangles of each large component, only in doubles. Returns false if doubles
   // can tell few of their signs, for example on a sheet seen edge-on. Integers would then have to
   // decide the other signs, and the view test would cost more than the rest of the step.
   bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
@@ -187,7 +187,7 @@ class CostModel : public CullingPolicy {
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
 
   // Notes whether views have paid, which means that release, ghost sweep and closure cost less than
-  // the pairs that views left out.
+  // the pairs that views left out would have cost.
   void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
 
   ViewUse use() const override {

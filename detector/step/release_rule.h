@@ -27,8 +27,7 @@ class ReleaseRule {
   explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
-  // Returns whether the state of the last commit is valid for a step that starts at vertices_t0
-  // (L8).
+  // Returns whether the last committed state is valid for a step that starts at vertices_t0 (L8).
   virtual bool still_holds(const StepState& state, const PositionsView& vertices_t0,
                            const PacedStop& pace) const {
     return state.holds_at(vertices_t0, pace);
@@ -70,16 +69,17 @@ class ReleaseRule {
   virtual std::vector<std::int32_t> witnesses(const GivenStep& step, const StepMarks& marks,
                                               std::size_t component) const;
 
-  // Returns, after a step without views (L15), whether the triangles of the component that settle()
-  // set as clean are known to be clean. This is so if the component has no ghosts. If it has
-  // ghosts, these were not swept, and none of its triangles is known to be clean, whatever the
-  // pairs were.
+  // After a step without views (L15): returns whether the triangles of the component for which
+  // settle() has set `clean` are known to be clean. This is so if the component has no ghosts. If
+  // it has ghosts, these were not swept, and none of its triangles is known to be clean, whatever
+  // the pairs were.
   virtual bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                            std::size_t component) const;
 
   // Returns the triangles of in_doubt that may touch a ghost of their component at t=0 of a step
-  // that goes on from step.last_state. This returns all of them, also triangles that are in no
-  // pair, because such a triangle can hang out of a hole with a ghost through it.
+  // that goes on from step.last_state. This implementation returns all triangles of in_doubt, also
+  // those that are in no pair, because such a triangle can hang out of a hole with a ghost through
+  // it.
   virtual std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const;
 
@@ -100,8 +100,8 @@ class ReleaseRule {
 // committed step tells what a triangle in doubt can touch:
 //   Two mesh triangles: a pair that meets at the end of the committed step was in contact during
 //   that step, so it is in the complete pair set of that step (L7). If one triangle pierces the
-//   other at the end without any contact of features, it pierced it at the start of that step too.
-//   Both triangles were dirty then, and the pair was tested for piercing.
+//   other at the end without any contact of features, it pierced the other at the start of that
+//   step too. Both triangles were dirty then, and the pair was tested for piercing.
 //   A mesh triangle and a ghost: if they meet at the end, the ghost touched the triangle during the
 //   step, or pierced it already before the step, so that the triangle was dirty (L11). In both
 //   cases the triangle is in doubt.

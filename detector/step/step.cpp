@@ -109,14 +109,14 @@ std::optional<Problem> check_step_input(const Surface& surface, const SteppedMes
   const auto components = surface.mesh.components.size();
   if (primitives.size() > 1 && primitives.size() != components) {
     return Problem{InputError::wrong_primitive_count,
-                   std::to_string(primitives.size()) + " view primitives are given for " +
-                       std::to_string(components) + " components; give none, one, or one for each"};
+                   std::to_string(primitives.size()) + " view primitives are given, not 0, 1 or " +
+                       std::to_string(components) + " (one for each component)"};
   }
   for (const auto& primitive : primitives) {
     for (const auto* point :
          {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
       if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
-        return Problem{InputError::non_finite_coordinate, "a view primitive is not finite"};
+        return Problem{InputError::non_finite_coordinate, "a coordinate of a view is not finite"};
       }
     }
   }

@@ -2,8 +2,7 @@
 // of the algorithm. step.cpp lists the algorithm and calls these functions in that order.
 //
 // A function that can be stopped returns true if it was not stopped; the comments of all other
-// functions say what they return. Functions that only serve views do nothing in a step without
-// views.
+// functions say what they return. Functions that only serve views do nothing without views.
 #pragma once
 
 #include <optional>
@@ -27,8 +26,7 @@ class StepRun {
   // components are free (L5). The step then has views.
   bool classify_components();
   // Returns whether the ghosts are worth a sweep. Returns true also if all components are free,
-  // because these need no sweep, and if the culling has no views, because there are no views to
-  // drop.
+  // because these need no sweep, and if the culling has no views to drop.
   bool pays_to_sweep();
   // Finds out which triangles are clean at t=0 (L8, L9).
   bool find_start();
@@ -40,8 +38,9 @@ class StepRun {
   void drop_views();
   // Finds the triangles that ghosts touch (L11).
   bool sweep_ghosts();
-  // Returns whether the mesh has only one component and this is free, so that nothing needs to be
-  // searched. Also counts the view sets for the result, because all of them are known now.
+  // Returns whether the mesh has only one component and this component is free, so that nothing
+  // needs to be searched. Also counts the view sets for the result, because all of them are known
+  // now.
   bool ends_free();
 
   // Gives each triangle its type, and marks the tree.
@@ -49,9 +48,9 @@ class StepRun {
   // Fits the boxes of the tree to the step, finds the candidates, and tests them as they are found.
   // If an earlier step has kept all feature pairs that can meet (L20), tests only these.
   bool find_pairs();
-  // Does the closure (L7), if all pairs are asked for, or if the search has found a contact within
-  // a component that does not count. In the second case a later contact that counts could be missed
-  // without the closure, because L3 is about all contacts (L19).
+  // Does the closure (L7), if all pairs are asked for, or if the search has found, within a
+  // component, a contact that does not count. In the second case a later contact that counts could
+  // be missed without the closure, because L3 is about all contacts (L19).
   bool close_pairs();
 
   // Returns the result. If the question is about the whole step, and `completed`, sets `next` to

@@ -109,7 +109,8 @@ class ContourUnion {
   std::vector<std::int32_t> joined_;
 };
 
-// A few patches, spread over a mesh. A step computes how many of these can be proved free (L13).
+// One of a few patches that are spread over a mesh. A step computes how many of these patches can
+// be proved free (L13).
 //
 // The sample patches depend only on the mesh, not on a tree. So decisions of a step that use them
 // do not depend on the positions with which the detector was made.

@@ -18,7 +18,7 @@ struct LaneInput {
 
   // The coefficients of a cubic (the middle two multiplied by 3) are off by less than this.
   double cubic_error;
-  // The rest is for a line, with d = q1 - q0.
+  // The members below are for a line, with d = q1 - q0.
   double d_t0[3], d_t1[3];
   double length2_reciprocals[3];  // 1 / coefficient of d.d; the middle coefficient times 2
   double axial_error;             // error of a ratio of coefficients (p-q0).d / d.d

@@ -260,7 +260,7 @@ void kernel(const LaneInput& input, const std::int32_t* triangles, std::size_t c
   std::size_t i = 0;
   for (; i + lane_count <= count; i += lane_count) group(input, triangles + i, signs + i);
   if (i == count) return;
-  // The rest do not fill the lanes, so the last triangle is repeated.
+  // The last triangles do not fill the lanes, so the last one is repeated.
   std::int32_t rest[lane_count];
   std::int8_t rest_signs[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) {

@@ -209,8 +209,8 @@ ASSAY_INLINE void volume(Lanes& out, const LaneVector (&u)[4], std::size_t i, st
   dot(out, u[i], n);
 }
 
-// Sets u to the differences of four points from a fifth one, the first of `points`, and `bound` to
-// the error bound of volume() of these. Sets `holds` to whether the bound holds.
+// Sets u to the differences of four points from the first point in `points`. Sets `bound` to the
+// error bound of volume() of these differences, and `holds` to whether the bound holds.
 ASSAY_INLINE void differences(LaneVector (&u)[4], Lanes& bound, Mask& holds, const QueryInput& in,
                               const LaneVector (&p)[5], const std::size_t (&points)[5]) {
   LaneVector magnitude = {};
@@ -260,7 +260,7 @@ void kernel(const QueryInput& input, const QueryVertices* queries, std::size_t c
   std::size_t i = 0;
   for (; i + lane_count <= count; i += lane_count) group(input, queries + i, rungs + i);
   if (i == count) return;
-  // The rest do not fill the lanes, so the last query is repeated.
+  // The last queries do not fill the lanes, so the last one is repeated.
   QueryVertices rest[lane_count];
   LaneRung rest_rungs[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) rest[k] = queries[i + k < count ? i + k : count - 1];

@@ -1,4 +1,4 @@
-assay=$(command -v assay) || { echo "the shell finds no assay: is it in PATH?" >&2; exit 2; }
+assay=$(command -v assay) || { echo "the program assay is not found: is it in PATH?" >&2; exit 2; }
 bin=$(dirname "$assay")
 include="$bin/../include/assay"
 [ -d "$include" ] || include="$bin/../.." # a checkout that is built
@@ -14,5 +14,5 @@ proof="proof/$(
   --power "$proof" --corpus "${CASES:-cases}" --out "$out"
 code=$?
 [ "$code" -eq 2 ] || { mkdir -p reports && cp "$out/junit.xml" "$out/summary.md" reports/; }
-[ "$code" -ne 3 ] || echo "undecided, and no defect: see reports/summary.md, and assay list slow $out"
+[ "$code" -ne 3 ] || echo "some cases are undecided: see reports/summary.md and assay list slow $out"
 exit "$code"

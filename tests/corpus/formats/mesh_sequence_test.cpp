@@ -305,7 +305,7 @@ TEST_F(BodiesOfFiles, ThatDoNotFitAreRefused) {
   const auto two = std::vector{triangle("3.obj", 0), triangle("4.obj", 1)};
   EXPECT_TRUE(says(steps_of_bodies({{three, two}, {}}),
                    "3.obj: 2 frames of body 1, but another body has 3 frames"));
-  EXPECT_TRUE(says(steps_of_bodies({{two, two}, {{0, 2}}}), "a pair of bodies names number 2"));
+  EXPECT_TRUE(says(steps_of_bodies({{two, two}, {{0, 2}}}), "a pair of bodies names body 2"));
 }
 
 }  // namespace

@@ -218,7 +218,7 @@ TEST(SeparationStep, WrongSeparationsAreRefusedByName) {
   for (const Culling culling : all_values<Culling>) {
     if (culling == Culling::bvh || culling == Culling::none) continue;
     EXPECT_EQ(refusal(within(1, culling)), std::string("culling ") + name_of(culling) +
-                                               " does not support a separation; use bvh or none");
+                                               " supports no separation; use `bvh` or `none`");
   }
   for (const Arithmetic arithmetic : all_values<Arithmetic>) {
     if (arithmetic == Arithmetic::exact) continue;

@@ -89,7 +89,7 @@ TEST_F(CiJob, CompilesNothingWhereTheDetectorIsThere) {
   EXPECT_EQ(run("3", "DETECTOR=./none.so CAMPAIGN=" + other), 2) << printed;
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "mine/proof"), {}), 2);
   EXPECT_EQ(run_line("PATH=/usr/bin:/bin sh " + (source / job_file).string()), 2);
-  EXPECT_EQ(printed, "the shell finds no assay: is it in PATH?\n");
+  EXPECT_EQ(printed, "the program assay is not found: is it in PATH?\n");
 }
 
 // The lines of a file for a CI service that begin with one of these words, as a shell gets them.
