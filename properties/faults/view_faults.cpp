@@ -127,7 +127,7 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<without_cubic_term>>, "view/cubic-term-dropped", "L2", "M_dropcubic", 4,
        "the term t^3 of f is left out"},
       {wrong<Signs<touching_zero_is_positive>>, "view/touching-zero-is-positive", "L2",
-       "A3b_nonstrict_touch", 7, "f >= 0 is enough for V+: touching zero does not count"},
+       "A3b_nonstrict_touch", 7, "f >= 0 is enough for V+, so f may touch zero"},
       {wrong<Signs<in_plain_doubles>>, "view/plain-doubles", "L2", "F_rounded_to_positive", 4,
        "doubles without error bounds: a value near 0 may be promoted to V+"},
       {wrong<Signs<zero_merged<ViewSign::positive>>>, "view/zero-is-positive", "L3", "M_pZtoP", 4,
@@ -144,9 +144,8 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<from_frozen_primitive<Sample::start>>>, "view/primitive-stays", "L3", "", 0,
        "a moving primitive stays at its place of t=0 for the whole step", with_points,
        FaultStatus::equivalent,
-       "a fixed place gives one continuous field (L10) with its own winding number. The next step "
-       "uses the place at t=1: in an embedded surface its winding number is 1, or 0 and then not "
-       "all triangles are positive"},
+       "a fixed place gives one continuous field (L10) with its own winding number. In an embedded "
+       "surface, the next step's place has winding number 1 if all triangles are positive"},
   };
 }
 
@@ -270,18 +269,19 @@ std::vector<Fault> view_line_faults() {
       {wrong<Signs<from_midpoint>>, "view-line/midpoint-with-winding-of-an-end", "L5",
        "F_line_midpoint_winding", 6,
        "signs are seen from the line's midpoint, but the winding number is that at q0", with_lines},
-      {wrong<Signs<from_first_end>>, "view-line/from-first-end", "L10", "", 0, "seen from q0 only",
-       with_lines, FaultStatus::equivalent, "the view from one point is one continuous field"},
+      {wrong<Signs<from_first_end>>, "view-line/from-first-end", "L10", "", 0,
+       "triangles are seen from q0 only", with_lines, FaultStatus::equivalent,
+       "the view from one point is one continuous field"},
       midpoint_with_its_winding(
           Fault{wrong<Signs<from_midpoint>>, "view-line/from-midpoint", "L10", "", 0,
-                "seen from the midpoint only, whose winding number is used", with_lines,
+                "triangles are seen from the midpoint only, with its winding number", with_lines,
                 FaultStatus::equivalent, "the view from one point is one continuous field"}),
       {wrong<Signs<from_unclamped_axis>>, "view-line/unclamped-axis", "L10", "", 0,
-       "seen from the whole axis, not from the segment", with_lines, FaultStatus::equivalent,
-       "the view from the axis is one continuous field"},
+       "triangles are seen from the whole axis, not from the segment", with_lines,
+       FaultStatus::equivalent, "the view from the axis is one continuous field"},
       {wrong<Signs<with_swapped_ends>>, "view-line/swapped-ends", "L10", "", 0,
-       "q0 and q1 exchanged", with_lines, FaultStatus::equivalent,
-       "the segment has no direction: the field is the right one"},
+       "q0 and q1 are exchanged", with_lines, FaultStatus::equivalent,
+       "the field does not depend on the direction of the segment"},
   };
 }
 

@@ -139,8 +139,8 @@ constexpr Law state_law_table[] = {
      PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
      "At the start of a step that continues from a committed one, a triangle is dirty exactly if "
-     "it was dirty, touched by a ghost or in contact with its own component until then, and now "
-     "touches something or is not of the common layer of its component.",
+     "it was dirty, touched by a ghost or in contact with its own component in the step before, "
+     "and now touches something or is not of the common layer of its component.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
@@ -155,7 +155,7 @@ constexpr Law state_law_table[] = {
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
      "After a step without views, a triangle is dirty if the step left it in doubt and it now "
      "touches something or is not of the common layer. The step leaves in doubt all triangles of "
-     "components with ghosts; a first step, also triangles of closed components dirty by L9.",
+     "components with ghosts, and a first step also the triangles that are dirty by L9.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };

@@ -274,7 +274,7 @@ GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
   GateFindings gate;
   const auto& limits = f.run.plan.policy.speed_limits;
   if (!f.run.detector.built_in) {
-    gate.not_judged = "limits are set for the built-in detector alone";
+    gate.not_judged = "limits are set only for the built-in detector";
   } else if (limits.empty()) {
     gate.not_judged = "the campaign sets no limit";
   } else {

@@ -109,7 +109,7 @@ struct SourceRow {
 };
 constexpr auto names_of(Source) {
   using enum Source;
-  constexpr const char* in_corpus = "met in the corpus alone";
+  constexpr const char* in_corpus = "met only in the corpus";
   return std::to_array<SourceRow>(
       {{trial, "trial", trial, true, ""},
        {corpus, "corpus", corpus, false, "corpus/", in_corpus, in_corpus, "", "corpus",
@@ -120,7 +120,7 @@ constexpr auto names_of(Source) {
         in_corpus, "wrong steps of larger meshes", "repeated",
         "broken configuration extremes input judged runs steps threads triangles what"},
        {search, "search", search, true, "search/", "found by the search",
-        "found by the search alone", "cases of the search with a defect", "search"},
+        "found only by the search", "cases of the search with a defect", "search"},
        {self_test, "self-test", self_test, false, "", "", "", "", "",
         "family=input complete contacts=collisions contradictions=defects open=undecided "
         "queries=cases"}});

@@ -70,7 +70,7 @@ enum class Question : std::uint8_t {
 };
 constexpr auto names_of(Question) {
   using enum Question;
-  return std::to_array<Named<Question>>({{none, "steps alone"},
+  return std::to_array<Named<Question>>({{none, "only steps"},
                                          {limit, "limits"},
                                          {stopped_step, "stopped steps"},
                                          {stopped_limit, "stopped limits"}});
