@@ -43,7 +43,7 @@ inline double dot(const Point& a, const Point& b) {
 inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-// Returns a for s = 0, and b for s = 1.
+// Returns `a` if s = 0, and `b` if s = 1.
 inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
 // Returns a vector with each coordinate in [-1, 1).

@@ -35,7 +35,9 @@ struct Family {
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
   // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one query for each `one_in` of "query-small-int"; large if slow
+  // The family has one query for each `one_in` queries of "query-small-int". The number is large
+  // for a slow family.
+  int one_in = 1;
 };
 
 // Returns the families of the strata in a fixed order.
@@ -59,7 +61,8 @@ bool is_size_family(std::string_view name);
 // tenth of the cases has a response (below), which costs some more judgements by the oracle.
 RandomCase make_case(const Family& family, std::string_view id);
 
-// Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
+// Adds to a case the reaction of a caller to a collision: evaluate the step, shorten it, evaluate
+// it again, commit.
 //
 // Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
 // is shortened to a share s of its displacement. The shortened step is committed if it is free, and

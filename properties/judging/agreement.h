@@ -83,8 +83,9 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 // If the contract has a margin, first-time is not judged, and no-spurious is judged by the pairs
 // that come within separation + margin (StepJudgement::within_slack); if the judgement lacks these
 // pairs, no-spurious is not judged. A step that was answered by an error breaks `total`, or is
-// Outcome::error if `total` is not claimed. If the built-in detector refuses the input by name
-// (StepResult::problem), the step is always Outcome::error, because `total` speaks of valid input.
+// Outcome::error if `total` is not claimed. If the built-in detector refuses the input with a named
+// problem (StepResult::problem), the step is always Outcome::error, because `total` speaks of valid
+// input.
 // `deterministic` is not judged here, because it needs two runs (same_answers).
 //
 // O(n log n) in the number of pairs. REQUIRES a judgement by judge_under, and, if the contract

@@ -65,8 +65,8 @@ struct Subject {
   static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
                                 DetectorPart part, const WorkerLimits& limits);
 
-  // Returns a process for the detector's cases, which is not yet started. `variation` and
-  // `asks_twice` become those of its WorkerLimits.
+  // Returns a process for the detector's cases, which is not yet started. Its WorkerLimits get
+  // these values of `variation` and `asks_twice`.
   WorkerProcess process(std::uint32_t variation = 0, bool asks_twice = false) const;
 };
 

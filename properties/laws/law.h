@@ -22,7 +22,7 @@ struct LawTally {
   std::uint64_t premise = 0;       // steps in which the premise held
   std::uint64_t close = 0;         // steps with the premise that were close
   std::uint64_t broken_steps = 0;  // steps with the premise that refute the law
-  std::string first_broken;        // case id, step, finding; the least text of several tallies
+  std::string first_broken;        // case id, step, finding; the alphabetically first if several
 
   LawTally& operator+=(const LawTally& other);
   friend bool operator==(const LawTally&, const LawTally&) = default;

@@ -60,10 +60,10 @@ ChildEnd end_by_signal(int signal);
 // Waits for the end of a child of this process. REQUIRES that the child was not waited for before.
 ChildEnd end_of_child(pid_t id);
 
-// Returns whether the child was killed by one of the signals that no error in a process causes, and
-// the host did not send this signal. The signals are SIGKILL and SIGTERM, which an administrator, a
-// job queue or a machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a
-// terminal that is closed or interrupted. A child can also send such a signal to itself on purpose.
+// Returns whether the child was killed by a signal that the host did not send, and that no error in
+// a process causes. Such signals are SIGKILL and SIGTERM, which an administrator, a job queue or a
+// machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that is
+// closed or interrupted. A child can also send such a signal to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
 // A child process. It leads a session and a process group of its own, so that it has no terminal,
@@ -169,9 +169,11 @@ class ProcessorTime {
 
   pid_t process_, worker_;
   std::optional<clockid_t> clock_;
-  double begin_ = 0;                        // own_seconds() at the beginning
-  std::optional<double> of_others_before_;  // seconds of started processes at the first look
-  double of_others_ = 0;                    // their seconds from the first to the last look
+  double begin_ = 0;  // own_seconds() at the beginning
+  // Processor seconds of the processes that the worker started: those before the first look(), and
+  // those between the first and the last look().
+  std::optional<double> of_others_before_;
+  double of_others_ = 0;
 };
 
 // The limits of wall clock, as multiples of the limit of processor time.

@@ -128,10 +128,10 @@ struct JudgedSize {
 };
 ASSAY_FIELDS(JudgedSize, claim, triangles)
 // Returns the sizes for the claims of all configurations, in the order of Claim. A claim about
-// contacts is tried by steps with a contact that the contract does not leave out, `deterministic`
-// is tried by cases that were run twice. A claim that was tried on no mesh is not in the list, such
-// as `progress` if no stratum asks for limits. Empty for a run of queries alone, because queries
-// have no size.
+// contacts is tried by steps with a contact that the contract does not leave out; the claim
+// `deterministic` is tried by cases that were run twice. A claim that was tried on no mesh is not
+// in the list, such as `progress` if no stratum asks for limits. Empty for a run that judges only
+// queries, because queries have no size.
 std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
 
 // Returns the extremes over all judged meshes of trials and of other sources.

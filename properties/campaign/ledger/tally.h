@@ -17,7 +17,8 @@ namespace assay::properties {
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  // Trials in which some configuration has a defect; trials in which some has no verdict.
+  // with_defect: trials in which some configuration has a defect. open: trials in which some
+  // configuration has no verdict.
   std::uint64_t with_defect = 0, open = 0;
   std::uint64_t disturbed = 0;     // trials that were killed from outside and ran again
   std::uint64_t discards = 0;      // trials for which the contract takes no case

@@ -112,20 +112,21 @@ Case long_sequence(std::uint64_t seed);
 
 // Gives these meshes to the plug-in: every scene of the corpus in each of its forms, the long
 // sequence, and CampaignRequest::repeated. The runs of a mesh are those of threads_of_runs: several
-// for a plug-in that claims to be deterministic, otherwise one. Each run has a process of its own;
-// only the last of several runs repeats the mesh in the process of the run before it. Stores a
+// for a plug-in that claims to be deterministic, otherwise one. Each run has a new process, except
+// the last of several runs, which uses the process of the run before it again. Stores a
 // JudgedSource for each mesh that is not stored yet. A run that gives other answers than the first
-// run, or that ends in a way that breaks a claimed `total`, is stored as a failure. The mesh of
-// such a failure is the step that differs. A run that hangs is reported, but is no failure; after
-// three such meshes no further mesh is run.
+// run, or that ends in a way that breaks a claimed `total`, is stored as a failure. If the answers
+// differ, the case stored with the failure has only the step whose answer differs. A run that hangs
+// is reported, but is no failure; after three meshes with such a run no further mesh is run.
 //
 // The oracle judges the answers of the first run to some steps of each scene: the step with the
 // fewest contacts, the first step without a contact, and up to two steps whose answers break a
 // claim if the built-in detector is right. Contacts that the contract leaves out do not count here.
 // The built-in detector only chooses steps; all verdicts are by the oracle. A step that breaks a
-// claim is stored as a failure. Its mesh is the step alone, or, if the answer to the step alone
-// differs, the scene up to this step. In the long sequence the oracle judges every step, and the
-// first four failing steps of each signature are stored.
+// claim is stored as a failure. The stored case has only this step, or, if the detector answers the
+// step differently without the steps before it, the whole scene up to this step. In the long
+// sequence the oracle judges every step, and the first four failing steps of each signature are
+// stored.
 //
 // A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //
@@ -144,7 +145,7 @@ enum class WalkKind : std::uint8_t {
   sliding,      // one body is pushed down and along
   pile,         // three bodies lie on one another
   closing_gap,  // two bodies are driven through each other, to the same goal again and again
-  far_goal,     // in each step the goal of one body is 1000 times its size below it
+  far_goal,     // in each step the goal lies below one body, by 1000 times the body's size
   squeezed,     // two plates close on one body
   far_away,     // a pile that lies 2^20 times the size of a body from the origin
 };
@@ -251,7 +252,7 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
 // the plan, or two minutes if the plan has no time limit.
 double shrinking_seconds(const CampaignPlan& plan);
 
-// The functions below store the failures of curated cases and scenes, as for failing trials.
+// The functions below store the failures of curated cases and scenes, like the failures of trials.
 
 // Stores failures of the corpus, shrinks them, and returns all stored failures of the corpus. For
 // each signature that is not in the store yet, stores the failure with the smallest mesh. Shrinking

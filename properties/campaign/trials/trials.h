@@ -78,7 +78,8 @@ bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint6
 // Returns the configurations with Start::clean in place of Start::verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
-// The functions below count the traits of a case: extremes, tags, set pairs of contacts, and laws.
+// The functions below count the traits of a case: its extremes, its tags, the laws checked, and for
+// each contact the view sets of its two triangles.
 
 // Returns the extremes of a case; nothing is known of a detector beyond the extremes on which it
 // was tried. `truth` has the oracle's judgement of each step. Costs O(vertices + triangles), and

@@ -110,8 +110,8 @@ ValueRange view_range(const detector::Topology& surface, std::span<const std::in
 
 struct CertifiedPatches {
   static constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> patch_of;  // by triangle; `none` if it faces no direction
-  std::set<std::pair<std::int32_t, std::int32_t>> unions;  // of two patches, the lower one first
+  std::vector<std::int32_t> patch_of;  // by triangle; `none`: the triangle faces no direction
+  std::set<std::pair<std::int32_t, std::int32_t>> unions;  // two patches; the lower number first
   // The number of triangles of the largest patch or union. L13 says nothing if this number is below
   // 2.
   std::size_t largest = 0;
