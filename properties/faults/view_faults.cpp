@@ -137,7 +137,7 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<zero_area_is_positive>>, "view/zero-area-is-positive", "L12", "A3_nonstrict_end",
        7, "a triangle that has no area at t=0 or t=1 goes into V+"},
       {wrong<Signs<positive_from_either_place>>, "view/positive-from-either-place", "L10",
-       "F_either_place", 4, "it is enough to be positive from the place at t=0 or t=1"},
+       "F_either_place", 4, "to be positive from the primitive's place at t=0 or t=1 is enough"},
       {wrong<Signs<from_frozen_primitive<Sample::end>>>, "view/primitive-at-its-end", "L5",
        "F_primitive_at_its_end", 6,
        "signs are seen from the primitive's place at t=1, but the winding number is that at t=0"},

@@ -36,7 +36,7 @@ Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (in_question[t] && !clean[t] && !dirty[t]) {
-      return fmt::format("triangle {} was released, and is not clean", t);
+      return fmt::format("triangle {} was released, but is not clean", t);
     }
   }
   return holds();
@@ -67,7 +67,7 @@ Observation compare_with_account(CaseFacts& facts, std::size_t s) {
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (dirty[t] == account[t]) continue;
-    return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+    return fmt::format("triangle {} is {}, but {} by the oracle", t, dirty[t] ? "dirty" : "clean",
                        account[t] ? "dirty" : "clean");
   }
   return holds();
@@ -97,7 +97,7 @@ Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (dirty[t] && facts.starts_by_view_alone()) continue;
     if ((dirty[t] != 0) == (clean[t] != 0)) {
-      return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+      return fmt::format("triangle {} is {}, but {} by the oracle", t, dirty[t] ? "dirty" : "clean",
                          clean[t] ? "clean" : "not");
     }
   }
@@ -217,7 +217,7 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   const TriangleFlags clean = may_be_clean(facts, s, is_held);
   for (std::size_t t = 0; t < is_held.size(); ++t) {
     if (is_held[t] && !clean[t] && facts.result(s).doubts[t] == 0) {
-      return fmt::format("triangle {} was touched, is not clean, and left Vv", t);
+      return fmt::format("triangle {} was touched and is not clean, but left Vv", t);
     }
   }
   return holds();

@@ -51,12 +51,12 @@ Observation clamp_form_is_region_form(CaseFacts& facts, std::size_t s) {
   return each_sample(facts, s, [](const ExactView& view, ViewSign, Random& random) -> std::string {
     for (int i = 0; i < 3; ++i) {
       if (view.by_clamp(view.corner(i)) != view.by_region(view.corner(i))) {
-        return fmt::format("corner {}: the clamp form differs from region {}", i,
+        return fmt::format("corner {}: clamp form and form of region {} differ", i,
                            static_cast<int>(view.region_of(view.corner(i))));
       }
     }
     const auto x = view.inner_point(any_weights(random));
-    if (view.by_clamp(x) != view.by_region(x)) return "an inner point has two values";
+    if (view.by_clamp(x) != view.by_region(x)) return "the forms differ at an inner point";
     return {};
   });
 }
@@ -140,11 +140,11 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   }
   const auto sum = r.view_positive + r.view_negative + r.view_zero + r.against_all;
   if (sum != facts.surface().mesh.triangles.size()) {
-    return fmt::format("the sets hold {} triangles of {}", sum, r.doubts.size());
+    return fmt::format("the sets hold {} of {} triangles", sum, r.doubts.size());
   }
   if (r.view_positive != positive || r.view_negative != negative || r.view_zero != zero ||
       r.against_all != against_all || r.violated != violated || r.dirty != dirty) {
-    return fmt::format("sizes {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
+    return fmt::format("stated {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
                        r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated,
                        r.dirty, positive, negative, zero, against_all, violated, dirty);
   }
