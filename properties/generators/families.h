@@ -33,7 +33,8 @@ struct Family {
   RandomCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // approximate size of every case; 0: the sizes above
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
-  // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
+  // nothing but these two numbers. Even indices give vertex-face queries, odd indices edge-edge
+  // queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
   // The family has one query for each `one_in` queries of "query-small-int". The number is large
   // for a slow family.

@@ -15,7 +15,7 @@
 
 namespace assay::properties {
 
-// A family of cases of the self-test. Each case is made from its seed and index alone.
+// A family of cases of the self-test. Each case is made from nothing but its seed and index.
 struct SelfTestFamily {
   std::string name, about;
   // A listed family has `list_size` queries. All of them are checked if at least `from` random

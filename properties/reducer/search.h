@@ -107,7 +107,7 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 }
 
 // The passes of the reducer, in the order in which they run. Each pass proposes cases to the
-// search, which keeps the best one. A pass has made progress if the best case has become smaller.
+// search, which keeps the best case. A pass has made progress if the best case has become smaller.
 //
 // To add a pass, write a function here, a row in reducer/reducer.cpp, and a test in
 // tests/properties/reducer/reducer_passes_test.

@@ -67,10 +67,11 @@ struct DegeneracyAt {
   int side = 0;  // i of L_i
 };
 
+// All four points move, at t = 0 and at t = 1 (moved_onto).
+inline constexpr unsigned all_ends_move = 0xff;
 // Returns the moved query; nothing if the steps do not come near the goals, or if a number
 // overflows on the way. The bits of `moving` name the places that move: bit i is point i at t = 0,
 // bit 4 + i is point i at t = 1. About 20 us.
-inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);
 

@@ -107,16 +107,16 @@ struct CopyRun {
 using Say = std::function<void(std::string_view)>;
 
 // Makes a copy of this process, runs the work in the copy, and waits without limit until the copy
-// has ended. The copy has one thread and none of the open files, so it does not prolong any lock or
-// pipe of this process. The work must not wait for another thread of this process.
+// has ended. The copy has one thread and none of this process's open files, so it does not prolong
+// any lock or pipe. The work must not wait for another thread of this process.
 // If the work throws std::bad_alloc, throws the same; if the work throws another exception, throws
 // std::runtime_error with its text. Throws std::system_error if the system gives no process or no
 // descriptor for the copy. Cost: about a millisecond for a process of 100 MB.
 CopyRun in_a_copy(const std::function<void(const Say&)>& work);
 
-// The time of a worker is limited as follows. The limit is one of processor time, so that a verdict
-// does not depend on the load of the machine. Wider limits of wall clock end a worker that uses no
-// processor time.
+// The time of a worker is limited as follows. The limit is a limit of processor time, so that a
+// verdict does not depend on the load of the machine. Wider limits of wall clock end a worker that
+// uses no processor time.
 //
 // A worker that answers soon is not measured: no process can use up the limit before the wall clock
 // has reached the limit divided by the number of processors. After that /proc is read about once a

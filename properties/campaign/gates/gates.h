@@ -155,8 +155,8 @@ struct FailureGroup {
   // The traits that all contacts lost by the group have in common; empty if there are none.
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
-  // The number of cases that hold and were compared with the group, and how many of them have a
-  // contact with all `shared` traits.
+  // all_holds: the number of cases that hold and were compared with the group. holds_with: how many
+  // of these cases have a contact with all `shared` traits.
   std::size_t holds_with = 0, all_holds = 0;
 };
 
@@ -171,8 +171,8 @@ struct FailureGroup {
 // whole run. If p is the share of these cases that have the traits, and the group has n failing
 // cases, the traits are named only if p^n, the probability of a coincidence, is at most 1e-4.
 //
-// Deterministic. The oracle judges the cases that hold again, which takes seconds. If the folder of
-// the findings holds no stores, no traits are named.
+// Deterministic. The oracle judges each case that holds once more, which takes seconds. If the
+// folder of the findings has no stores, no traits are named.
 std::vector<FailureGroup> failure_groups(const RunFindings& findings);
 
 // Returns "34 of 51 kinds of failure lose a contact: edge-edge (of 100 colliding cases without

@@ -90,6 +90,8 @@ std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request);
 // or lists candidates.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
+// The number of forms in which a scene is given to a plug-in.
+inline constexpr int forms_of_a_scene = 3;
 // Returns one of the forms in which a scene is given to a plug-in. Form 0 has the wanted number of
 // triangles. The size of any other form is between the wanted number and the size of the largest
 // trial. About half of the other forms consist of several copies side by side, and so of many
@@ -97,17 +99,17 @@ bool is_repeated(const CampaignPlan& plan, bool built_in);
 // corners, and one linear map near the identity, which transforms all frames. So nobody knows these
 // meshes before the seed is known. The map does not change contacts and their times, except by
 // rounding.
-inline constexpr int forms_of_a_scene = 3;
 Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
                     int form);
 
+// The long sequence: the range of its number of steps, and its name.
+inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
+inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 // Returns a small mesh in many steps, so that one detector commits more steps than in any other
 // case. A scene of 60 to 100 triangles, in which the mesh meets itself, is played forwards and
 // backwards again and again, so the mesh meets itself up to the last steps. A linear map near the
 // identity, which changes slowly from frame to frame, transforms all frames, so no two steps are
 // equal. The seed draws the scene, the size, the number of steps, the numbering and the map.
-inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
-inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 Case long_sequence(std::uint64_t seed);
 
 // Gives these meshes to the plug-in: every scene of the corpus in each of its forms, the long
@@ -130,7 +132,7 @@ Case long_sequence(std::uint64_t seed);
 //
 // A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //
-// Throws StoreProblem, so this function is for campaign/ alone.
+// Throws StoreProblem, so this function is only for campaign/.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
                          const OnText& progress);
 
@@ -184,7 +186,7 @@ Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract
 // again repeats the lanes that it had not completed, with the same results. The results depend on
 // plan, seed and share, and are the same for any number of jobs. Of a lane that the deadline ends,
 // only the defects are stored. `corpus` is the folder of the curated cases. `progress` is called
-// from one thread at a time. Throws StoreProblem, so this function is for campaign/ alone.
+// from one thread at a time. Throws StoreProblem, so this function is only for campaign/.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline, const OnText& progress);
 
@@ -196,7 +198,7 @@ void search_share(const CampaignRequest& request, const std::filesystem::path& c
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs = 1);
 
-// Shrinks one case, by judge_of_detector.
+// Shrinks one case, with the judge of judge_of_detector().
 Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
@@ -207,7 +209,7 @@ Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
 // up to two further failures of the signature are tried. If the shrinking of a failure was
 // interrupted, it continues from the smallest mesh so far. Each smaller mesh is stored as soon as
 // it is found. `limits` hold for each failure, the deadline for all failures together. Throws
-// StoreProblem, so this function is for campaign/ alone.
+// StoreProblem, so this function is only for campaign/.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const OnText& progress);
 
@@ -263,11 +265,12 @@ Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
                                              const std::vector<FailureRecord>& failures,
                                              Store& store, const OnText& progress);
 
+// Whether keep_corpus() stores the failures of the corpus, with their meshes.
+enum class KeepMeshes : std::uint8_t { now, later };
 // Stores the rows of the corpus, and removes stored failures of the corpus whose signature is not
 // in `failures`. With KeepMeshes::now, for a run, also stores for each signature the failure with
 // the smallest mesh, so that it is shrunk together with the failures of the trials. With
 // KeepMeshes::later, for a certificate, stores no failures: shrink_corpus_failures does this.
-enum class KeepMeshes : std::uint8_t { now, later };
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
                            const std::vector<FailureRecord>& failures, KeepMeshes when);
 

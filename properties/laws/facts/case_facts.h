@@ -311,8 +311,8 @@ bool has_account(CaseFacts& facts, std::size_t s);
 // winding number is 1. REQUIRES has_views(s).
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
-// Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone.
+// Returns the triangles that are dirty at the start of step s, computed only from the oracle by L8,
+// L9 and L15.
 // - At a new start, a triangle is dirty if it is not clean by the oracle's layers. Layers do not
 //   count with Start::unknown, or with Start::verified under a culling that chooses views
 //   (view_auto, automatic): then a triangle is dirty if its component is not free by view.

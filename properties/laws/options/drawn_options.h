@@ -14,7 +14,7 @@
 namespace assay::properties {
 
 // Draws values of several factors so that all pairs of values occur. Some faults show only if two
-// factors have certain values, and no test of one factor alone finds them.
+// factors have certain values, and no test that varies only one factor finds them.
 
 // A row has one value for each factor; the sizes are the numbers of values of each factor.
 using FactorRow = std::vector<std::uint8_t>;
