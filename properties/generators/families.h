@@ -67,9 +67,9 @@ RandomCase make_case(const Family& family, std::string_view id);
 //
 // Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
 // is shortened to a share s of its displacement. The shortened step is committed if it is free, and
-// reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
-// number, times the greatest power of two that is at most half of the first contact time. Later
-// steps keep their own displacements, and start where the mesh is by then.
+// reverted if it is not (also if the contact is at t = 0). s is the greatest power of two that is
+// at most half of the first contact time, multiplied by 1, 3/4 or 1/4, which the step's number
+// decides. Later steps keep their own displacements, and start where the mesh then is.
 //
 // Frames and script are explicit, so the case replays without the oracle. A view primitive moves
 // with the frames. Expected facts and ghosts are dropped. The oracle judges each step and each

@@ -25,8 +25,8 @@ struct StepTruth {
   // The contacts that the contract lets the detector leave out, ascending: pairs of neighbours,
   // pairs left out by Contract::rings or rest_distance, and pairs that touch only in features that
   // the detector does not test. A pair that does not count when it first touches, but counts later
-  // in the step, is in both lists, here with the time of its first touch. Pairs that the relation
-  // of the case leaves out are in neither list.
+  // in the step, is in both lists; left_out states the time of its first touch. Pairs that the
+  // relation of the case leaves out are in neither list.
   std::vector<PairContact> left_out;
   // The earliest of `pairs`. If the judgement is not complete, its time is an upper bound.
   std::optional<PairContact> first;

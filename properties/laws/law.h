@@ -43,7 +43,7 @@ struct Law {
   // The law is checked on one case in this many, because laws that run the case again are slow.
   int one_in = 1;
   PremiseScope met_under = PremiseScope::any_culling;
-  // The change that the law is about, if the changed case can be put to any detector; else null.
+  // The change that the law is about, if any detector can run the changed case; else null.
   const CaseChange* change = nullptr;
 };
 

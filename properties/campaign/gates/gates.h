@@ -103,9 +103,9 @@ ASSAY_FIELDS(NotJudged, claim, reason)
 
 // Returns the claims of a plug-in that were not judged, in the order of Claim. A claim is not
 // judged if the contract makes it void, or if it was never tested: no step had a contact, or, for
-// a claim about stated times, the interval of the first time was wider than 1e-3 in more than one
-// collision in a hundred. For a detector that is judged by steps and by queries, the steps decide.
-// Empty for the built-in detector, whose contract is the default and whose times are enclosures.
+// a claim about stated times, the interval of the first time was wider than 1e-3 in more than 1 %
+// of the collisions. For a detector that is judged by steps and by queries, the steps decide. Empty
+// for the built-in detector, whose contract is the default and whose times are enclosures.
 std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries = false);
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,

@@ -33,8 +33,8 @@ struct StratumTally {
   };
   std::vector<Outcomes> by_configuration;
   StepMeasures measures;
-  // The most triangles of a judged trial, of a trial with a contact that the contract does not
-  // leave out, and of a trial that was run twice.
+  // The greatest number of triangles: of all judged trials, of trials with a contact that the
+  // contract does not leave out, and of trials that were run twice.
   std::uint64_t triangles = 0, triangles_in_contact = 0, triangles_repeated = 0;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)); -1: no pair

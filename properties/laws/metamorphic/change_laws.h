@@ -14,8 +14,8 @@ namespace assay::properties {
 
 // The law about threads.
 inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
-// Returns whether the law is judged for plug-ins. A law is judged if it is about a change of the
-// case that can be put to any detector, or about threads, which the second runs of trials test.
+// Returns whether the law is judged for plug-ins. A law is judged if it is about a change after
+// which any detector can run the case, or about threads, which the second runs of trials test.
 // Laws about saved states are not judged, because the interface of plug-ins has no call that saves
 // or restores a state.
 bool is_of_plugins(const Law& law);

@@ -89,10 +89,10 @@ struct DrawnOptions {
 };
 
 // Draws a row for the case's kind of mesh and size, from one of several covering arrays. Some pairs
-// are not drawn. A separation is not drawn with cullings and arithmetics that do not answer it,
-// with scaled coordinates, which leave the range of distances, or with many triangles, where the
-// oracle takes long. A far body is not drawn without a tree, with scaled coordinates, or with a
-// vouched start, which is then hard to check.
+// are not drawn. A separation is not drawn with a culling or an arithmetic that does not answer it;
+// with scaled coordinates, because they leave the range of distances; or with many triangles,
+// because the oracle then takes long. A far body is not drawn without a tree, with scaled
+// coordinates, or with a vouched start, because such a start is then hard to check.
 DrawnOptions drawn_options(const CaseFacts& facts);
 
 }  // namespace assay::properties
