@@ -72,7 +72,7 @@ struct Landing {
 
 struct Draft {
   std::vector<Face> faces;
-  std::vector<Points> frames;  // one until a motion adds more
+  std::vector<Points> frames;  // one frame until a motion adds more
   // All triangles are positive from the origin at the start, or nearly so. True for convex and
   // star shapes.
   bool star_shaped = false;

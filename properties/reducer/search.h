@@ -145,7 +145,7 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 
 // small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
-void try_small_spheres(ReductionSearch& search);    // also around it: thousands of proposals
+void try_small_spheres(ReductionSearch& search);    // also around the pair: thousands of proposals
 
 // small_meshes.cpp: lists all triangulated spheres with few vertices.
 
@@ -172,7 +172,7 @@ void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at t
 void simplify_relation(ReductionSearch& search);
 
 // step_passes.cpp: passes on the view primitive that the case states.
-void simplify_view(ReductionSearch& search);  // makes it fixed, a point, or puts it to the origin
+void simplify_view(ReductionSearch& search);  // fixes it, makes it a point, or puts it at 0
 void drop_view(ReductionSearch& search);      // so that the detector chooses its own primitive
 
 // number_passes.cpp: passes that make coordinates simpler.

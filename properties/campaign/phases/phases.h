@@ -31,7 +31,7 @@ struct FaultHunt {
   std::string campaign;  // for ids: campaign:seed.fSEED:family:index
   std::uint64_t seed = 1;
   int seeds = 1;
-  std::uint64_t cases = 0;  // the most cases for each seed; they come from all families in turn
+  std::uint64_t cases = 0;  // the limit for each seed; cases come from all families in turn
   int jobs = 1;
   std::filesystem::path curated;  // folder of the curated cases; empty: they are not tried
 };

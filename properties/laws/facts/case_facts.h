@@ -64,7 +64,7 @@ class ExactView {
 
  private:
   ExactInteger axial(const ExactPoint& x) const;  // the axial coordinate times |d|^2
-  std::array<ExactPoint, 3> triangle_;            // this and the points below: times 2^4
+  std::array<ExactPoint, 3> triangle_;  // these and the points below are multiplied by 2^4
   ExactPoint q0_, q1_, d_, normal_;
   ExactInteger length2_;  // |d|^2, or 1 for a point
 };
