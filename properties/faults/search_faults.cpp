@@ -181,7 +181,7 @@ std::vector<Fault> search_faults() {
       {wrong<ClearedForOthersToo>, "marking/cleared-for-others-too", "L3", "F_cleared_for_others",
        4, "a flag that one leaf loses is cleared on all nodes above"},
       {wrong<MarkedUntilAnyFlag>, "marking/marked-until-any-flag", "L3", "F_marked_until_any_flag",
-       6, "marking ends at a node that has some flag other than P, not at one that has this flag"},
+       6, "marking ends at a node with any flag except P, instead of at a node with the same flag"},
       {wrong<GatheredFromFirstChild>, "marking/gathered-from-first-child", "L3",
        "F_gathered_from_first_child", 4, "clearing gives a node the flags of its first child"},
       {wrong<SkippedForOneSet>, "search/skipped-for-one-set", "L3", "F_skipped_for_one_set", 5,
