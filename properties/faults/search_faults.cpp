@@ -185,7 +185,7 @@ std::vector<Fault> search_faults() {
       {wrong<GatheredFromFirstChild>, "marking/gathered-from-first-child", "L3",
        "F_gathered_from_first_child", 4, "clearing gives a node the flags of its first child"},
       {wrong<SkippedForOneSet>, "search/skipped-for-one-set", "L3", "F_skipped_for_one_set", 5,
-       "a node with one child in one partial tree is skipped, but has two in another such tree"},
+       "a node with one child in one partial tree is skipped, though it has two in another one"},
       {wrong<FittedOnce>, "search/fitted-once", "free-sound", "F_fitted_once", 6,
        "the tree is fitted to the first step and kept"},
       disturbed(Fault{
