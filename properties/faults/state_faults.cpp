@@ -128,7 +128,7 @@ std::vector<Fault> state_faults() {
       {wrong<OneSideDirty>, "state/one-side-dirty", "L8", "F_contacts_carried", 5,
        "only the lower-numbered triangle of a pair in contact gets dirty"},
       {wrong<Forgotten<later_pairs>>, "state/first-pairs-are-all", "L8", "F_first_pairs_only", 6,
-       "after a collision, if only K was searched, triangles without a pair are clean", first_pairs},
+       "after a collision, if only K was searched, triangles with no pair are clean", first_pairs},
       {wrong<LostByContactAlone>, "state/lost-by-contact-alone", "L8", "F_views_dropped", 47,
        "after a free step without views an open component is taken to be as clean as before",
        auto_views},
