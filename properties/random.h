@@ -1,4 +1,4 @@
-// Draws random numbers by arithmetic on integers alone, because the distributions of the standard
+// Draws random numbers with integer arithmetic only, because the distributions of the standard
 // library differ between implementations.
 #pragma once
 

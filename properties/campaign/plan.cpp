@@ -86,7 +86,7 @@ std::vector<CampaignPlan> make_named_plans() {
 
   CampaignPlan release = nightly;
   release.name = "release";
-  release.about = "before a release; best run in shares";
+  release.about = "before a release; best divided among several runs (shares)";
   release.strata = strata(120'000, 60'000, 2e-4, 2e-4);
   add_sizes(release, {200, 100, 20, 10});
   release.seconds = 72 * hour;

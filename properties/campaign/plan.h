@@ -104,11 +104,11 @@ CampaignPlan without_queries(CampaignPlan plan);
 // Returns the campaign without the strata whose cases have a relation, for a detector that takes no
 // relations.
 CampaignPlan without_relations(CampaignPlan plan);
-// Returns the campaign without its question families, which are for the built-in detector alone.
+// Returns the campaign without its question families, which are only for the built-in detector.
 CampaignPlan without_questions(CampaignPlan plan);
 
-// Returns the campaign with the strata of with_queries() alone, without laws and without worlds,
-// because these are about meshes. A plan that asks queries alone does not change.
+// Returns the campaign with only the strata of queries that with_queries() adds. Laws and worlds
+// are left out, because they are about meshes. A plan that asks only queries does not change.
 CampaignPlan query_plan(CampaignPlan plan);
 
 }  // namespace assay::properties

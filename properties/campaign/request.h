@@ -57,9 +57,10 @@ struct CampaignRequest : Subject {
 
   // Returns the limits of the worker that runs a case a second time, to judge the claim
   // `deterministic`. That worker has other hash seeds and addresses, and evaluates each step twice.
-  // If the plug-in has a function that limits its threads, the limit there is another number.
+  // If the plug-in has a function that limits its threads, this worker's limit of threads differs
+  // from the first worker's limit.
   WorkerLimits second_worker_limits() const {
-    constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (phases.h)
+    constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 threads (phases.h)
     auto second = worker_limits(1);
     if (description.parts.takes_threads) second.threads = limits.threads == some ? 1 : some;
     second.asks_twice = true;

@@ -37,8 +37,8 @@ struct CaseChange {
   std::optional<Form> (*draw)(const Case&, Random&);
   // Whether the coordinates of the case are rounded before the change (on_a_grid).
   bool on_grid = false;
-  // The steps of the case stay unchanged, and other steps that must not matter run between them. A
-  // detector that claims to be deterministic then gives the same answers.
+  // The steps of the case stay unchanged, and other steps run between them. A detector that claims
+  // to be deterministic must give the same answers to the steps of the case.
   bool same_calls = false;
   bool keeps_lengths = true;
 
@@ -54,7 +54,7 @@ extern const CaseChange backwards;       // reverses the numbers; needs two or m
 extern const CaseChange power_of_two;    // all lengths are scaled
 extern const CaseChange translation;
 extern const CaseChange mirror;  // also reverses all triangles, so that outside stays outside
-extern const CaseChange axes;    // permuted; an odd permutation also reverses all triangles
+extern const CaseChange axes;    // permutes the axes; an odd permutation reverses all triangles
 extern const CaseChange inside_out;
 extern const CaseChange halves;       // each committed step is divided at t=1/2
 extern const CaseChange played_back;  // each step from its end to its start, the last step first
@@ -147,8 +147,8 @@ void add_mesh(Case& c, const Triangles& triangles,
 void put_side_by_side(Case& c, int copies);
 
 // Keeps only these frames, each once and in this order, and makes `script` the script of the case.
-// Its steps name frames by their old numbers. The script is left out if each step goes from one
-// frame to the next.
+// The steps of `script` name frames by their old numbers. The script is left out if each step goes
+// from one frame to the next.
 void take_frames(Case& c, const Numbers& frames, std::vector<CaseStep> script);
 
 }  // namespace assay::properties

@@ -62,10 +62,10 @@ std::string fault_of_name(std::string_view name) {
 
 std::string fault_of_limits(const Claims& claims, const Contract& contract, bool has_limit) {
   if (claims.has_any(claims_on_limits) != has_limit)
-    return has_limit ? "a function limit, but no claim about limits"
-                     : "claims about limits, but no function limit";
+    return has_limit ? "a function `limit`, but no claim about limits"
+                     : "claims about limits, but no function `limit`";
   if (claims.has(Claim::progress) != (contract.progress > 0))
-    return "only one of the claim progress and the number progress";
+    return "only one of the claim `progress` and the number `progress`";
   return "";
 }
 

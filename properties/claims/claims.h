@@ -139,12 +139,13 @@ struct StepDiff {
   std::optional<StepLoad> overload;  // only if the step was refused as beyond the capacity
 };
 
-// The way in which a step breaks a claim. `kind` is the kind of the failure ("late pair"; null: the
-// claim is not broken). `by` is the evidence: a contact of the oracle, a pair that only comes
-// within the margin, a pair with a wrong time, a pair that is not in contact, or no evidence.
+// A pair that comes within separation + margin (StepDiff::first_in_slack).
 struct WithinSlack {
   PairContact contact;
 };
+// The way in which a step breaks a claim. `kind` is the kind of the failure ("late pair"; null: the
+// claim is not broken). `by` is the evidence: a contact of the oracle, a pair that only comes
+// within the margin, a pair with a wrong time, a pair that is not in contact, or no evidence.
 struct Symptom {
   const char* kind = nullptr;
   std::variant<std::monostate, PairContact, WithinSlack, WrongTime, TrianglePair> by = {};
@@ -348,10 +349,11 @@ static_assert(std::all_of(all_rows<Claim>.begin(), all_rows<Claim>.end(), [](con
          (row.bit == 0 || row.bit == Claims({row.value}).bits());
 }));
 
-// Returns the claims of the built-in detector. With Arithmetic::exact these are all claims about
-// answers, times, pairs and runs; with Arithmetic::bounded the same without no-spurious and
-// times-unique (an interval contains the exact time by construction, see StepResult::first); with
-// other arithmetic only deterministic and total. With Pairs::first, all-pairs is never claimed.
+// Returns the claims of the built-in detector. With Arithmetic::exact it makes all claims about
+// answers, times, pairs and runs. With Arithmetic::bounded it makes the same claims except
+// no-spurious and times-unique (an interval contains the exact time by construction, see
+// StepResult::first). With other arithmetic it claims only deterministic and total. With
+// Pairs::first it never claims all-pairs.
 inline Claims claims_of(const Options& options) {
   const bool exact = options.arithmetic == Arithmetic::exact;
   const bool is_proved = exact || options.arithmetic == Arithmetic::bounded;

@@ -24,9 +24,9 @@ std::string fault_of(const Contract& contract) {
     return "it has a separation, but tests neighbours, which are within every separation";
   if (!is_length(contract.start_distance)) return "its start_distance is no length";
   if (contract.start == StartRule::apart && contract.start_distance == 0)
-    return "its start is apart, but its start_distance is 0";
+    return "its start is `apart`, but its start_distance is 0";
   if (contract.start != StartRule::apart && contract.start_distance > 0)
-    return "it has a start_distance, but its start is not apart";
+    return "it has a start_distance, but its start is not `apart`";
   if (!is_length(contract.least_nonzero) || !is_length(contract.largest))
     return "its range of coordinates is invalid";
   if (contract.least_nonzero > contract.largest)
@@ -39,7 +39,7 @@ std::string fault_of(const Contract& contract) {
   if (contract.motion == MotionGiven::displacement && contract.coordinates != Coordinates::float32)
     return "its motion is a displacement, but its coordinates are not float32";
   if (contract.motion == MotionGiven::displacement && contract.limit_gives == LimitGives::blend)
-    return "its limit_gives is blend, but its motion is a displacement";
+    return "its limit_gives is `blend`, but its motion is a displacement";
   if (!(contract.time_tolerance >= 0)) return "its time_tolerance is no time";
   if (contract.time_tolerance > widest_time_tolerance)
     return "its time_tolerance " + number_text(contract.time_tolerance) + " is above " +

@@ -185,7 +185,7 @@ std::vector<Fault> elementary_faults() {
       {wrong<Rounded<to_float>>, "elementary/time-in-single-precision", "first-time",
        "F_inexact_time", 4, "times are rounded to single precision"},
       {wrong<Dropped<beyond_bound_of_result>>, "elementary/bound-of-result", "free-sound",
-       "F_bound_of_result", 4, "the filter's error bound is a share of the filter's result"},
+       "F_bound_of_result", 4, "the filter's error bound is a fixed fraction of its result"},
       // This fault is planted in a configuration without views, because the tests of a verified
       // start ask for still features first.
       {wrong<TakenForDuplicate>,

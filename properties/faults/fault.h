@@ -15,7 +15,7 @@ namespace assay::properties {
 
 enum class FaultStatus : std::uint8_t {
   planted,
-  open,        // no case is known that shows it, and no proof that no case can
+  open,        // no known case shows it, and nobody has proved that it never shows
   equivalent,  // never shows: an invariant makes it as sound as the stage that it replaces
 };
 

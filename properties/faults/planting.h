@@ -32,9 +32,9 @@ constexpr void at_place_of(const Use& use) {
   std::apply([&](const auto&... place) { (look(place.first, place.second), ...); }, stage_places);
 }
 
-// Returns the standard stages, except that `Wrong` replaces the stage from which it derives. Wrong
-// marks are searched by the binary descent, which reads the flags of every node. The wide descent
-// reads flags on every third level at most.
+// Returns the standard stages, except that `Wrong` replaces the stage from which it derives. If
+// that stage is detector::Marking, the pair search is the binary descent, which reads the flags of
+// every node. The wide descent reads flags on every third level at most.
 template <class Wrong>
 detector::Stages with(const Options& options) {
   detector::Stages stages = detector::standard_stages(options);

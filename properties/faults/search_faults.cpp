@@ -181,11 +181,11 @@ std::vector<Fault> search_faults() {
       {wrong<ClearedForOthersToo>, "marking/cleared-for-others-too", "L3", "F_cleared_for_others",
        4, "a flag that one leaf loses is cleared on all nodes above"},
       {wrong<MarkedUntilAnyFlag>, "marking/marked-until-any-flag", "L3", "F_marked_until_any_flag",
-       6, "marking ends at a node that has some flag other than P, not at one that has this flag"},
+       6, "marking ends at a node with any flag except P, instead of at a node with the same flag"},
       {wrong<GatheredFromFirstChild>, "marking/gathered-from-first-child", "L3",
        "F_gathered_from_first_child", 4, "clearing gives a node the flags of its first child"},
       {wrong<SkippedForOneSet>, "search/skipped-for-one-set", "L3", "F_skipped_for_one_set", 5,
-       "the search goes on with the only child in one partial tree, but other trees have both"},
+       "a node with one child in one partial tree is skipped, though it has two in another one"},
       {wrong<FittedOnce>, "search/fitted-once", "free-sound", "F_fitted_once", 6,
        "the tree is fitted to the first step and kept"},
       disturbed(Fault{
@@ -291,10 +291,10 @@ constexpr Options auto_with_cones{Culling::automatic, Start::verified, Pairs::al
 std::vector<Fault> cone_faults() {
   return {
       {wrong<NormalsAtEnd>, "cone/normals-at-end", "all-pairs (L13)", "F_cone_normals_at_end", 4,
-       "a normal cone is made of the normals at t=1 alone", with_cones},
+       "a normal cone is made of the normals at t=1 only", with_cones},
       {wrong<NormalsAtBothEnds>, "cone/normals-at-both-ends", "all-pairs (L13)",
-       "F_cone_normals_at_both_ends", 4,
-       "a normal cone is made of the normals at t=0 and t=1 alone", with_cones},
+       "F_cone_normals_at_both_ends", 4, "a normal cone is made of the normals at t=0 and t=1 only",
+       with_cones},
       {wrong<EdgeOnFaced>, "cone/edge-on-faced", "all-pairs (L13)", "F_cone_edge_on", 4,
        "N.d >= 0 is taken for N.d > 0", with_cones},
       {wrong<NoContourTest>, "cone/no-contour-test", "all-pairs (L13)", "F_cone_no_contour_test", 5,
@@ -307,9 +307,9 @@ std::vector<Fault> cone_faults() {
        "F_cone_patches_one_by_one", 5,
        "two patches, each free and facing one way, are taken as free together", with_cones},
       {wrong<PatchesOneByOne>, "auto/patches-one-by-one", "L14", "F_auto_patches_one_by_one", 71,
-       "culling auto leaves out two patches that are each free", auto_with_cones},
+       "culling auto leaves out pairs of two patches if each patch is free", auto_with_cones},
       {wrong<NormalsAtEnd>, "auto/normals-at-end", "L14", "F_auto_normals_at_end", 49,
-       "culling auto leaves out patches that face one direction at t=1 alone", auto_with_cones},
+       "culling auto leaves out patches if they face one direction at t=1", auto_with_cones},
   };
 }
 

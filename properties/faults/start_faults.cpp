@@ -157,7 +157,7 @@ std::vector<Fault> start_faults() {
       {wrong<GhostSignsNotAsked>, "state/ghost-signs-not-asked", "L5", "D1_open_allplus", 12,
        "it is enough that mesh triangles are positive, even if ghosts are not"},
       {wrong<LowestLayerIsCommon>, "state/lowest-layer-is-common", "L9", "", 0,
-       "the common layer is that of the lowest untouched triangle, not of most triangles",
+       "the common layer is that of the first untouched triangle, not that of most triangles",
        with_points, FaultStatus::equivalent,
        "L3 holds for every layer taken as the common one, so this choice changes only how many "
        "pairs are candidates"},

@@ -119,15 +119,15 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<sampled<Sample::start, Sample::middle, Sample::end>>>, "view/three-samples",
        "L2", "A4b_three_samples", 4, "equal signs at t=0, 1/2, 1 are used for the whole step"},
       {wrong<Signs<frozen_normal>>, "view/frozen-normal", "L2", "M_frozenN", 4,
-       "the normal is that at t=0 for the whole step"},
+       "the normal of t=0 is used for the whole step"},
       {wrong<Signs<frozen_corner>>, "view/frozen-corner", "L2", "M_frozenV", 4,
-       "p - q is that at t=0 for the whole step, but the normal moves"},
+       "p - q of t=0 is used for the whole step, but the normal moves"},
       {wrong<Signs<linear_normal>>, "view/linear-normal", "L2", "M_linN", 4,
        "the normal is linear between t=0 and t=1"},
       {wrong<Signs<without_cubic_term>>, "view/cubic-term-dropped", "L2", "M_dropcubic", 4,
        "the term t^3 of f is left out"},
       {wrong<Signs<touching_zero_is_positive>>, "view/touching-zero-is-positive", "L2",
-       "A3b_nonstrict_touch", 7, "f >= 0 is enough for V+: touching zero does not count"},
+       "A3b_nonstrict_touch", 7, "f >= 0 is enough for V+, so f may touch zero"},
       {wrong<Signs<in_plain_doubles>>, "view/plain-doubles", "L2", "F_rounded_to_positive", 4,
        "doubles without error bounds: a value near 0 may be promoted to V+"},
       {wrong<Signs<zero_merged<ViewSign::positive>>>, "view/zero-is-positive", "L3", "M_pZtoP", 4,
@@ -137,16 +137,15 @@ std::vector<Fault> view_point_faults() {
       {wrong<Signs<zero_area_is_positive>>, "view/zero-area-is-positive", "L12", "A3_nonstrict_end",
        7, "a triangle that has no area at t=0 or t=1 goes into V+"},
       {wrong<Signs<positive_from_either_place>>, "view/positive-from-either-place", "L10",
-       "F_either_place", 4, "it is enough to be positive from the place at t=0 or t=1"},
+       "F_either_place", 4, "to be positive from the primitive's place at t=0 or t=1 is enough"},
       {wrong<Signs<from_frozen_primitive<Sample::end>>>, "view/primitive-at-its-end", "L5",
        "F_primitive_at_its_end", 6,
        "signs are seen from the primitive's place at t=1, but the winding number is that at t=0"},
       {wrong<Signs<from_frozen_primitive<Sample::start>>>, "view/primitive-stays", "L3", "", 0,
        "a moving primitive stays at its place of t=0 for the whole step", with_points,
        FaultStatus::equivalent,
-       "a fixed place gives one continuous field (L10) with its own winding number. The next step "
-       "uses the place at t=1: in an embedded surface its winding number is 1, or 0 and then not "
-       "all triangles are positive"},
+       "a fixed place gives one continuous field (L10) with its own winding number. In an embedded "
+       "surface, the next step's place has winding number 1 if all triangles are positive"},
   };
 }
 
@@ -270,18 +269,19 @@ std::vector<Fault> view_line_faults() {
       {wrong<Signs<from_midpoint>>, "view-line/midpoint-with-winding-of-an-end", "L5",
        "F_line_midpoint_winding", 6,
        "signs are seen from the line's midpoint, but the winding number is that at q0", with_lines},
-      {wrong<Signs<from_first_end>>, "view-line/from-first-end", "L10", "", 0, "seen from q0 only",
-       with_lines, FaultStatus::equivalent, "the view from one point is one continuous field"},
+      {wrong<Signs<from_first_end>>, "view-line/from-first-end", "L10", "", 0,
+       "triangles are seen from q0 only", with_lines, FaultStatus::equivalent,
+       "the view from one point is one continuous field"},
       midpoint_with_its_winding(
           Fault{wrong<Signs<from_midpoint>>, "view-line/from-midpoint", "L10", "", 0,
-                "seen from the midpoint only, whose winding number is used", with_lines,
+                "triangles are seen from the midpoint only, with its winding number", with_lines,
                 FaultStatus::equivalent, "the view from one point is one continuous field"}),
       {wrong<Signs<from_unclamped_axis>>, "view-line/unclamped-axis", "L10", "", 0,
-       "seen from the whole axis, not from the segment", with_lines, FaultStatus::equivalent,
-       "the view from the axis is one continuous field"},
+       "triangles are seen from the whole axis, not from the segment", with_lines,
+       FaultStatus::equivalent, "the view from the axis is one continuous field"},
       {wrong<Signs<with_swapped_ends>>, "view-line/swapped-ends", "L10", "", 0,
-       "q0 and q1 exchanged", with_lines, FaultStatus::equivalent,
-       "the segment has no direction: the field is the right one"},
+       "q0 and q1 are exchanged", with_lines, FaultStatus::equivalent,
+       "the field does not depend on the direction of the segment"},
   };
 }
 

@@ -46,9 +46,9 @@ ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
 // Returns the strict sign of the view value over [0,1]; zero if it has none.
 ViewSign sign_of(const ViewPieces& pieces);
 
-// `sign_at` returns the sign of the triangle if it and the primitive rest where they are at t=0,
-// 1/2 or 1. `still` returns the point at rest there. Both are exact if the middle of two
-// coordinates is a double.
+// The times t=0, t=1/2 and t=1. sign_at() returns the sign of the triangle if the triangle and the
+// primitive rest where they are at this time. still() returns the point at rest where it is at this
+// time. Both are exact if the middle of two coordinates is a double.
 enum class Sample { start, middle, end };
 ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                  const ViewPrimitive& primitive);

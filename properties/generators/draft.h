@@ -43,7 +43,7 @@ inline double dot(const Point& a, const Point& b) {
 inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-// Returns a for s = 0, and b for s = 1.
+// Returns `a` if s = 0, and `b` if s = 1.
 inline Point between(const Point& a, const Point& b, double s) { return a + s * (b - a); }
 
 // Returns a vector with each coordinate in [-1, 1).
@@ -72,7 +72,7 @@ struct Landing {
 
 struct Draft {
   std::vector<Face> faces;
-  std::vector<Points> frames;  // one until a motion adds more
+  std::vector<Points> frames;  // one frame until a motion adds more
   // All triangles are positive from the origin at the start, or nearly so. True for convex and
   // star shapes.
   bool star_shaped = false;

@@ -33,9 +33,12 @@ struct Family {
   RandomCase (*make)(Random&, std::string id);
   std::uint64_t triangles = 0;  // approximate size of every case; 0: the sizes above
   // For a family of queries (queries/query_families.h): returns query `index` of `seed`, made from
-  // these two numbers alone. Even indices give vertex-face queries, odd ones edge-edge queries.
+  // nothing but these two numbers. Even indices give vertex-face queries, odd indices edge-edge
+  // queries.
   QueryTask (*query)(std::uint64_t seed, std::uint64_t index) = nullptr;
-  int one_in = 1;  // one query for each `one_in` of "query-small-int"; large if slow
+  // The family has one query for each `one_in` queries of "query-small-int". The number is large
+  // for a slow family.
+  int one_in = 1;
 };
 
 // Returns the families of the strata in a fixed order.
@@ -59,13 +62,14 @@ bool is_size_family(std::string_view name);
 // tenth of the cases has a response (below), which costs some more judgements by the oracle.
 RandomCase make_case(const Family& family, std::string_view id);
 
-// Makes a caller's answer to a collision part of a case: try, shorten, try again, commit.
+// Adds to a case the reaction of a caller to a collision: evaluate the step, shorten it, evaluate
+// it again, commit.
 //
 // Each step of `c` that collides becomes an evaluation that is not committed, and then a step that
 // is shortened to a share s of its displacement. The shortened step is committed if it is free, and
-// reverted if it is not (also if the contact is at t = 0). s is 1, 3/4 or 1/4, by the step's
-// number, times the greatest power of two that is at most half of the first contact time. Later
-// steps keep their own displacements, and start where the mesh is by then.
+// reverted if it is not (also if the contact is at t = 0). s is the greatest power of two that is
+// at most half of the first contact time, multiplied by 1, 3/4 or 1/4, which the step's number
+// decides. Later steps keep their own displacements, and start where the mesh then is.
 //
 // Frames and script are explicit, so the case replays without the oracle. A view primitive moves
 // with the frames. Expected facts and ghosts are dropped. The oracle judges each step and each

@@ -139,10 +139,10 @@ double everyday_size(Random& random);
 // 1.
 double units_beyond(double c, int units, double towards);
 
-// Moves the first feature of the four points (the first `first_group` points, which come by `way`)
-// along one axis, until it touches the other feature or has passed it by less than a unit of the
-// last place; then moves it `units` units farther. The feature is a point that meets a face, or an
-// edge that meets an edge. The exact sign of the volume of the four points decides.
+// Moves the first feature of the four points (the first `first_group` points, whose displacement is
+// `way`) along one axis, until it touches the second feature or has passed it by less than a unit
+// of the last place; then moves it `units` units farther. The first feature is a point that meets a
+// face, or an edge that meets an edge. The exact sign of the volume of the four points decides.
 void put_on(std::array<Point, 4>& x, std::size_t first_group, const Point& way, int units);
 
 // Returns by how many units of the last place a motion ends beyond a feature: 0 in four of six

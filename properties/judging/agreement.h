@@ -25,8 +25,8 @@ struct StepTruth {
   // The contacts that the contract lets the detector leave out, ascending: pairs of neighbours,
   // pairs left out by Contract::rings or rest_distance, and pairs that touch only in features that
   // the detector does not test. A pair that does not count when it first touches, but counts later
-  // in the step, is in both lists, here with the time of its first touch. Pairs that the relation
-  // of the case leaves out are in neither list.
+  // in the step, is in both lists; left_out states the time of its first touch. Pairs that the
+  // relation of the case leaves out are in neither list.
   std::vector<PairContact> left_out;
   // The earliest of `pairs`. If the judgement is not complete, its time is an upper bound.
   std::optional<PairContact> first;
@@ -83,8 +83,9 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 // If the contract has a margin, first-time is not judged, and no-spurious is judged by the pairs
 // that come within separation + margin (StepJudgement::within_slack); if the judgement lacks these
 // pairs, no-spurious is not judged. A step that was answered by an error breaks `total`, or is
-// Outcome::error if `total` is not claimed. If the built-in detector refuses the input by name
-// (StepResult::problem), the step is always Outcome::error, because `total` speaks of valid input.
+// Outcome::error if `total` is not claimed. If the built-in detector refuses the input with a named
+// problem (StepResult::problem), the step is always Outcome::error, because `total` speaks of valid
+// input.
 // `deterministic` is not judged here, because it needs two runs (same_answers).
 //
 // O(n log n) in the number of pairs. REQUIRES a judgement by judge_under, and, if the contract

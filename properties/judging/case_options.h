@@ -1,6 +1,7 @@
 // Turns the detector's options into the words of a case file, and back; detector/options.h lists
-// these words. The separation is the shortest decimal that gives back the same double. The option
-// `limits` has the value `asked` if the detector was also asked how far each step may go.
+// these words. The word for a separation is the shortest decimal that gives back the same double.
+// The option `limits` has the value `asked` if the detector was also asked how far each step may
+// go.
 #pragma once
 
 #include <map>

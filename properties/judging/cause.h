@@ -37,7 +37,7 @@ namespace assay::properties {
 
 // Returns the cause for a contact of the oracle in the step. `of_query` says that the two features
 // of a query (query_case.h) are in contact. The triangles of a query's mesh have further features,
-// so "without area" is about the query's face alone.
+// so "without area" is only about the query's face.
 std::string cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                      const PairContact& contact, bool of_distance = false, bool of_query = false);
 // Returns the cause for a pair of triangles that is not in contact, or for two features of a query

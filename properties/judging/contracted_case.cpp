@@ -213,7 +213,7 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
   if (Case displaced = contracted_case;
       contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
-    return "motion displacement: in every step an exact end is no double";
+    return "motion displacement: in every step, some exact end position is no double";
   if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
     return "stops at start-plus: a vertex moves farther than the largest number";
   if (!contract_relation(contracted_case, contract)) return "a rest position is beyond float32";

@@ -39,8 +39,8 @@ Case with_steps(const Case& c, const std::vector<std::size_t>& places,
                 const Contract& contract = {});
 
 // Returns the exact answer to the contract's question about the two features of the query, in the
-// form of a judgement of the query's case (query_case.h). A contact is a contact of triangles 0
-// and 1. Cost: oracle/query/contact.h, oracle/distance/feature_distance.h.
+// form of a judgement of the query's case (query_case.h): a contact of the features becomes a
+// contact of triangles 0 and 1. Cost: oracle/query/contact.h, oracle/distance/feature_distance.h.
 StepJudgement judge_query(const FourPoints& query, const Contract& contract = {});
 
 // Returns whether at t = 0 the two features are not in contact and not nearer than `distance`.

@@ -77,8 +77,8 @@ std::vector<StepJudgement> judge_case(const Case& c, const Contract& contract, i
 // (query_case.h), under on_queries(contract).
 StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract& contract);
 
-// Returns the verdict on a run, from its end, from the answers to its steps (judge_step), and from
-// a second run `again`, if there is one:
+// Returns the verdict on a run. It depends on the end of the run, on the answers to its steps
+// (judge_step), and on a second run `again`, if there is one:
 // - A crash breaks `total`. A refusal breaks `total` too, except if the case is expected to be
 //   refused. If `total` is not claimed, a crash or such a refusal is Outcome::error.
 // - A mesh that the detector refused as beyond its capacity is Outcome::refused if it has more

@@ -37,7 +37,7 @@ struct LimitUse {
   std::uint64_t free = 0;     // steps without any contact
   std::uint64_t cut = 0;      // how many of `free` the limiter stopped before their end
   std::uint64_t contact = 0;  // steps with a contact ahead
-  TimesOff unused;            // over `contact`: the part of the time until the contact not used
+  TimesOff unused;            // of `contact`: the unused part of the time until the contact
   // How many of `contact` use less than the limiter claims, perhaps because of rounding
   // (judge_limit).
   std::uint64_t excused = 0;
@@ -117,9 +117,10 @@ double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk);
 struct ShareInterval {
   double lo = 0, hi = 1;
 };
-// Returns the two-sided interval of Clopper and Pearson for the share of `of` out of `in` trials,
-// with confidence 95 %. Trials depend on each other, so only `independent` trials count as
-// evidence. The numbers can be fractions. Returns [0, 1] if there are no trials.
+// Returns the two-sided interval of Clopper and Pearson, with confidence 95 %, for the share of
+// trials with some property: `of` of the `in` trials have it. Trials depend on each other, so only
+// `independent` trials count as evidence. The numbers can be fractions. Returns [0, 1] if there are
+// no trials.
 ShareInterval share_interval(double of, double in, double independent);
 
 // Returns the risk of each bound if `bounds` bounds hold together with confidence 95 %

@@ -97,7 +97,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
     return Problem{fmt::format(
         "{}: it answers no elementary queries: give `check` frames or a case file", library)};
   if (!of_queries && !has_steps)
-    return Problem{fmt::format("{}: it holds no steps, but a query alone", library)};
+    return Problem{fmt::format("{}: it answers only elementary queries, no steps", library)};
   subject.detector = {fmt::format("{} {}", plugin.name, plugin.version),
                       false,
                       of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),

@@ -28,15 +28,15 @@ struct DetectorUnderTest {
   Claims query_claims{};
   // The parts of the library that are not judged, in words: "elementary query".
   std::vector<std::string> unjudged_parts{};
-  // Configurations in which the built-in detector is asked other questions than for contacts. Each
-  // of them is certified only in the stratum of its name (question_families).
+  // Configurations in which the built-in detector is asked about limits or distances. Each of these
+  // configurations is certified only in the stratum of its name (question_families).
   std::vector<Configuration> of_questions{};
 
   Claims claims_in(const Configuration& configuration) const;
   // Returns the claims on this case, which may be a query (query_case.h).
   Claims claims_on(const Case& c, const Configuration& configuration) const;
-  // Returns the detector in this configuration alone. The contract of the built-in detector depends
-  // on the configuration, because the configuration's options state the question.
+  // Returns the detector with only this configuration. The built-in detector's contract depends on
+  // the configuration, because the configuration's options state the question.
   DetectorUnderTest in(const Configuration& configuration) const;
   // Returns the detector with the configurations that run in a stratum of this family.
   DetectorUnderTest in_stratum(std::string_view family) const;
@@ -65,8 +65,8 @@ struct Subject {
   static Expected<Subject> open(std::filesystem::path worker, const std::string& library,
                                 DetectorPart part, const WorkerLimits& limits);
 
-  // Returns a process for the detector's cases, which is not yet started. `variation` and
-  // `asks_twice` become those of its WorkerLimits.
+  // Returns a process for the detector's cases, which is not yet started. Its WorkerLimits get
+  // these values of `variation` and `asks_twice`.
   WorkerProcess process(std::uint32_t variation = 0, bool asks_twice = false) const;
 };
 

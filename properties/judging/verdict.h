@@ -13,12 +13,13 @@
 
 namespace assay::properties {
 
-// Names triangles by their bodies, where a case has bodies.
+// A triangle, named by its body.
 struct BodyTriangle {
   std::int32_t body = 0;
   std::int32_t triangle = 0;  // the number of the triangle among the triangles of the body
 };
 
+// Names the triangles of a case by their bodies, if the case has bodies.
 class BodyNames {
  public:
   BodyNames() = default;
@@ -26,7 +27,7 @@ class BodyNames {
   BodyNames(const CountedPairs* counted_pairs, const TrianglesView& triangles);
 
   bool empty() const { return by_triangle_.empty(); }
-  // REQUIRES names.
+  // Returns the name of a triangle. REQUIRES names.
   const BodyTriangle& of(std::int32_t triangle) const {
     return by_triangle_[detector::at(triangle)];
   }

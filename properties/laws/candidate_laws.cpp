@@ -59,7 +59,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
         return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
       if (!earlier) {
-        return fmt::format("the place of ({}, {}) is outside K and nothing there met before {}",
+        return fmt::format("the place of ({}, {}) is outside K, and nothing met there before {}",
                            part[0].pair.a, part[0].pair.b, time.lo);
       }
     }
@@ -272,8 +272,8 @@ constexpr Law normal_cone_law_table[] = {
      "still finds every pair in contact.",
      "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
     {"L14_NoContactIsAmongWhatIsProved", "L14",
-     "Culling auto, with views or without, leaves out what normal cones and contours prove apart, "
-     "and still finds every pair in contact.",
+     "With views or without, `--culling auto` leaves out the pairs that normal cones and contours "
+     "prove apart, and still finds every pair in contact.",
      "pair set", check_what_is_proved},
 };
 

@@ -113,7 +113,7 @@ std::string difference_alone(const CaseFacts& facts, const StepResult& among,
     }
     const bool same = next != alone.pairs.end() && own[at(next->pair.a)] == contact.pair.a &&
                       own[at(next->pair.b)] == contact.pair.b && next->time == contact.time;
-    if (!same) return fmt::format("({}, {}) differs if alone", contact.pair.a, contact.pair.b);
+    if (!same) return fmt::format("({}, {}) differs if run alone", contact.pair.a, contact.pair.b);
     ++next;
   }
   return next == alone.pairs.end() ? "" : "more contacts if the component is alone";
@@ -148,7 +148,7 @@ constexpr Law component_law_table[] = {
      "pair set, view signs", each_step<pairs_of_two_components_need_no_signs>},
     {"L10_ComponentsAreCleanByThemselves", "L10",
      "At a new start, a component in the box of another one (nested, or interpenetrating) has the "
-     "same dirty triangles as if it were alone: its layers count only itself.",
+     "same dirty triangles as if it were alone: its layers count only its own triangles.",
      "layers of each component alone", each_step<components_are_clean_by_themselves>},
     {"L10_EachComponentAsIfAlone", "L10",
      "A component that is run alone, with its own primitive and apexes, has the same signs, doubts "

@@ -193,23 +193,23 @@ void check_bad_input(CaseFacts& facts, LawTally& tally) {
 
 constexpr Law doubtful_input_law_table[] = {
     {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
-     "With edges of three or more triangles, or used twice in one direction, the answer is free "
-     "only if there is no contact.",
+     "If edges have three or more triangles, or are used twice in one direction, the answer is "
+     "free only if there is no contact.",
      "pair set", each_step<broken_edges>},
     {"L12_NeverFreeOnAGuess_Collapsed", "L12",
      "Despite zero areas or coincident vertices, the answer is free only if there is no contact.",
      "pair set", each_step<collapsed>},
     {"L12_NeverFreeOnAGuess_SeveralLayers", "L12",
-     "With untouched triangles of one component on several layers, the answer is free only if "
+     "If untouched triangles of one component have several layers, the answer is free only if "
      "there is no contact.",
      "pair set, layers", each_step<several_layers>},
     {"L12_ZeroAreaStaysInV0", "L12",
      "A triangle that is a segment or a point at an end of the step has no sign.", "nothing",
      each_step<zero_area_stays_in_v0>},
     {"L12_BadInputIsNamedAndChangesNothing", "L12",
-     "Bad input is refused by name (an index out of range or repeated, three vertices used twice, "
-     "a frame of another size, a coordinate that is not finite, a wrong number of primitives, a "
-     "commit of no step), and changes nothing in the answer to the next valid step.",
+     "Bad input is refused with an error that names its fault (an index out of range or repeated, "
+     "three vertices used twice, a frame of another size, a coordinate that is not finite, a wrong "
+     "number of primitives, a commit without a step), and does not change the next valid answer.",
      "nothing", check_bad_input, one_case_in_16},
 };
 

@@ -22,7 +22,7 @@ struct LawTally {
   std::uint64_t premise = 0;       // steps in which the premise held
   std::uint64_t close = 0;         // steps with the premise that were close
   std::uint64_t broken_steps = 0;  // steps with the premise that refute the law
-  std::string first_broken;        // case id, step, finding; the least text of several tallies
+  std::string first_broken;        // case id, step, finding; the alphabetically first if several
 
   LawTally& operator+=(const LawTally& other);
   friend bool operator==(const LawTally&, const LawTally&) = default;
@@ -43,7 +43,7 @@ struct Law {
   // The law is checked on one case in this many, because laws that run the case again are slow.
   int one_in = 1;
   PremiseScope met_under = PremiseScope::any_culling;
-  // The change that the law is about, if the changed case can be put to any detector; else null.
+  // The change that the law is about, if any detector can run the changed case; else null.
   const CaseChange* change = nullptr;
 };
 

@@ -103,7 +103,7 @@ void check_stops(CaseFacts& facts, LawTally& tally) {
       is_stopped = questions >= stop_at;
       if (!is_stopped) break;
       if (answer.answer != Answer::undecided) wrong = "the answer of a stopped step";
-      if (!player.value().detector().commit()) wrong = "the refusal to commit a stopped step";
+      if (!player.value().detector().commit()) wrong = "whether a stopped step commits";
     }
     const StepResult after = player.value().play(s);
     alone.value().play(s);
@@ -118,16 +118,16 @@ constexpr int one_case_in_64 = 64;
 
 constexpr Law question_law_table[] = {
     {"L16_WithinADistanceIsWhatTheOracleFinds", "L16",
-     "A detector without views that is asked what comes within a distance finds the oracle's "
+     "A detector without views that is asked for the pairs within a distance finds the oracle's "
      "pairs, each at its time.",
-     "what comes within a distance", check_distance, one_case_in_16},
+     "pairs within a distance", check_distance, one_case_in_16},
     {"L17_LimitsAreFreeAndGoFar", "L17",
-     "The way that a limit allows is free and, unless rounding prevents it, at least nine tenths "
-     "of the possible way; a free step is allowed whole; the state stays as it is.",
+     "A limit allows a way that is free and at least nine tenths of the possible way, unless "
+     "rounding prevents nine tenths; it allows a free step whole; it does not change the state.",
      "contacts in the step, and on the allowed way", check_limits, one_case_in_64},
     {"Change_StopsChangeNothing", "change",
-     "A step that is stopped is undecided and cannot be committed; evaluated whole afterwards, it "
-     "gives the same bytes and the same state.",
+     "A step that is stopped is undecided and cannot be committed; if it is evaluated whole "
+     "afterwards, it gives the same bytes and the same state as a step that was never stopped.",
      "nothing", check_stops, one_case_in_16},
 };
 

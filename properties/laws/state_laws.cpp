@@ -36,7 +36,7 @@ Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (in_question[t] && !clean[t] && !dirty[t]) {
-      return fmt::format("triangle {} was released, and is not clean", t);
+      return fmt::format("triangle {} was released, but is not clean", t);
     }
   }
   return holds();
@@ -67,7 +67,7 @@ Observation compare_with_account(CaseFacts& facts, std::size_t s) {
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (dirty[t] == account[t]) continue;
-    return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+    return fmt::format("triangle {} is {}, but {} by the oracle", t, dirty[t] ? "dirty" : "clean",
                        account[t] ? "dirty" : "clean");
   }
   return holds();
@@ -97,7 +97,7 @@ Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (dirty[t] && facts.starts_by_view_alone()) continue;
     if ((dirty[t] != 0) == (clean[t] != 0)) {
-      return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+      return fmt::format("triangle {} is {}, but {} by the oracle", t, dirty[t] ? "dirty" : "clean",
                          clean[t] ? "clean" : "not");
     }
   }
@@ -139,8 +139,8 @@ constexpr Law state_law_table[] = {
      PremiseScope::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
      "At the start of a step that continues from a committed one, a triangle is dirty exactly if "
-     "it was dirty, touched by a ghost or in contact with its own component until then, and now "
-     "touches something or is not of the common layer of its component.",
+     "it was dirty, touched by a ghost or in contact with its own component in the step before, "
+     "and now touches something or is not of the common layer of its component.",
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
      PremiseScope::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
@@ -155,7 +155,7 @@ constexpr Law state_law_table[] = {
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
      "After a step without views, a triangle is dirty if the step left it in doubt and it now "
      "touches something or is not of the common layer. The step leaves in doubt all triangles of "
-     "components with ghosts; a first step, also triangles of closed components dirty by L9.",
+     "components with ghosts, and a first step also the triangles that are dirty by L9.",
      "pair set, triangles touched by ghosts, layers",
      each_step<steps_without_views_are_in_the_account>, 1, PremiseScope::each_that_chooses_views},
 };
@@ -217,7 +217,7 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   const TriangleFlags clean = may_be_clean(facts, s, is_held);
   for (std::size_t t = 0; t < is_held.size(); ++t) {
     if (is_held[t] && !clean[t] && facts.result(s).doubts[t] == 0) {
-      return fmt::format("triangle {} was touched, is not clean, and left Vv", t);
+      return fmt::format("triangle {} was touched and is not clean, but left Vv", t);
     }
   }
   return holds();

@@ -10,7 +10,8 @@
 
 namespace assay::properties {
 
-// Return the laws of each file, which are about one thing. law.cpp joins all lists.
+// Each function returns the laws of one file; the laws of a file are about one thing. law.cpp joins
+// the lists.
 
 std::span<const Law> view_laws();            // L1, L2, sets
 std::span<const Law> first_contact_laws();   // L3, L6

@@ -51,12 +51,12 @@ Observation clamp_form_is_region_form(CaseFacts& facts, std::size_t s) {
   return each_sample(facts, s, [](const ExactView& view, ViewSign, Random& random) -> std::string {
     for (int i = 0; i < 3; ++i) {
       if (view.by_clamp(view.corner(i)) != view.by_region(view.corner(i))) {
-        return fmt::format("corner {}: the clamp form differs from region {}", i,
+        return fmt::format("corner {}: clamp form and form of region {} differ", i,
                            static_cast<int>(view.region_of(view.corner(i))));
       }
     }
     const auto x = view.inner_point(any_weights(random));
-    if (view.by_clamp(x) != view.by_region(x)) return "an inner point has two values";
+    if (view.by_clamp(x) != view.by_region(x)) return "the forms differ at an inner point";
     return {};
   });
 }
@@ -140,11 +140,11 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   }
   const auto sum = r.view_positive + r.view_negative + r.view_zero + r.against_all;
   if (sum != facts.surface().mesh.triangles.size()) {
-    return fmt::format("the sets hold {} triangles of {}", sum, r.doubts.size());
+    return fmt::format("the sets hold {} of {} triangles", sum, r.doubts.size());
   }
   if (r.view_positive != positive || r.view_negative != negative || r.view_zero != zero ||
       r.against_all != against_all || r.violated != violated || r.dirty != dirty) {
-    return fmt::format("sizes {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
+    return fmt::format("stated {} {} {} {} ({} violated, {} dirty), counted {} {} {} {} ({}, {})",
                        r.view_positive, r.view_negative, r.view_zero, r.against_all, r.violated,
                        r.dirty, positive, negative, zero, against_all, violated, dirty);
   }
@@ -153,8 +153,8 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
 
 constexpr Law view_law_table[] = {
     {"L1_ClampFormIsRegionForm", "L1",
-     "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
-     "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
+     "If s is the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value: before q0 "
+     "seen from q0 (R0), beyond q1 from q1 (R1), between them from the perpendicular's foot (R2).",
      "nothing: exact rationals at sampled times", each_step<clamp_form_is_region_form>},
     {"L1_InnerValuesLieBetweenCornerValues", "L1",
      "The view value at any point of a triangle lies between the least and the greatest of its "
@@ -278,14 +278,14 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
 
 constexpr Law one_sign_law_table[] = {
     {"L4_AllPositiveIsCollisionFree_Point", "L4",
-     "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
+     "Seen from a point, a component whose V-, V0 and Vv are empty has no contact in the step.",
      "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
     {"L4_AllPositiveIsCollisionFree_Line", "L4",
-     "A component with V-, V0 and Vv empty, seen from a segment at rest, has no contact.",
+     "Seen from a segment at rest, a component whose V-, V0 and Vv are empty has no contact.",
      "pair set, view signs",
      each_step<one_sign_is_collision_free<ViewSign::positive, is_fixed_line>>},
     {"L4_AllPositiveIsCollisionFree_MovingLine", "L4",
-     "A component with V-, V0 and Vv empty, seen from a moving segment, has no contact.",
+     "Seen from a moving segment, a component whose V-, V0 and Vv are empty has no contact.",
      "pair set, view signs",
      each_step<one_sign_is_collision_free<ViewSign::positive, is_moving_line>>},
     {"L4_AllNegativeIsCollisionFree", "L4",
@@ -297,7 +297,7 @@ constexpr Law one_sign_law_table[] = {
      "(1,0).",
      "pair set, view signs, winding number, layers", each_step<all_positive_is_free<true>>},
     {"L5_AllPositiveAndWindingOneIsFree_Unclosed", "L5",
-     "The same holds with holes if all ghosts are positive; no ghost touches the component.",
+     "With holes the same holds if all ghosts of the component are positive; then none touches it.",
      "pair set, view signs, winding number, layers, triangles touched by ghosts",
      each_step<all_positive_is_free<false>>},
     {"L5_TheFreePathIsTaken", "L5",

@@ -24,7 +24,7 @@ struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
   std::optional<TimeEnclosure> first = {};                 // set if the method answers with a time
   int rung = 0;                                            // the rung of the method that decided
-  // Set by the distance referee alone: the times between which the first time lies.
+  // Set only by the distance referee: the times between which the first time lies.
   std::optional<oracle::DistanceVerdict> proof = {};
 };
 

@@ -110,7 +110,7 @@ std::optional<std::string> check_step(const SmallStep& step, QueryTally& tally) 
   tally.contacts += judgement.answer == Answer::collision ? 1 : 0;
   tally.rungs += judgement.rungs;
   if (compare(detect(step), judgement, claims_of({})).outcome == Outcome::holds) return {};
-  return "pairs or times of the oracle's step and the detector's differ";
+  return "the pairs or times of the oracle and of the detector differ";
 }
 
 std::string pairs_text(const char* who, const std::vector<PairContact>& pairs) {
@@ -159,7 +159,7 @@ std::optional<std::string> SelfTestFamily::check(std::uint64_t seed, std::uint64
   try {
     wrong = check_step(step(seed, index), tally);
   } catch (const std::exception& thrown) {
-    wrong = fmt::format("threw: {}", thrown.what());
+    wrong = fmt::format("the check threw: {}", thrown.what());
   }
   tally.contradictions += wrong ? 1 : 0;
   return wrong;
@@ -169,7 +169,7 @@ std::string SelfTestFamily::text(std::uint64_t seed, std::uint64_t index) const 
   if (step) return step_text(step(seed, index));
   const auto task = query(seed, index);
   return task ? exact_text(*task) + answers_text(*task)
-              : "no query has this number: an equal query has another number\n";
+              : "no query has this number, because an equal query has another number\n";
 }
 
 Expected<std::vector<QueryTask>> named_queries(const std::filesystem::path& corpus) {
@@ -226,16 +226,16 @@ Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::
                  });
   world("line-3", "all queries on {-1,0,1}", {3, 1, every_point_moves}, 0);
   world("plane-2", "all queries on {0,1}^2", {2, 2, every_point_moves}, 0);
-  world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", {3, 2, one_point_moves}, 0);
-  steps("steps", "pair sets of small meshes, detector without culling", make_small_step);
-  steps("steps-everyday", "as steps, for meshes with everyday numbers", everyday_step);
+  world("plane-3-one", "queries on {-1,0,1}^2, at most 1 point moves", {3, 2, one_point_moves}, 0);
+  steps("steps", "pair sets of small meshes by the detector without culling", make_small_step);
+  steps("steps-everyday", "like `steps`, for meshes with everyday numbers", everyday_step);
   for (const Family& family : self_test_queries())
     random(family.name.substr(std::string_view("query-").size()), family, family.one_in);
   // A query of distance takes longer than one of contact, so there are fewer.
   for (const Family& family : distance_families()) random(family.name, family, 4 * family.one_in);
   world("line-4", "all queries on {0,1,2,3}", {4, 1, every_point_moves}, 20'000);
   world("cube-2", "all queries on {0,1}^3", {2, 3, every_point_moves}, 100'000);
-  world("cube-3-one", "all on {-1,0,1}^3, at most one point moves", {3, 3, one_point_moves},
+  world("cube-3-one", "queries on {-1,0,1}^3, at most 1 point moves", {3, 3, one_point_moves},
         300'000);
   world("plane-3", "all queries on {-1,0,1}^2", {3, 2, every_point_moves}, 2'000'000);
   return all;

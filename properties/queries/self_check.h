@@ -15,7 +15,7 @@
 
 namespace assay::properties {
 
-// A family of cases of the self-test. Each case is made from its seed and index alone.
+// A family of cases of the self-test. Each case is made from nothing but its seed and index.
 struct SelfTestFamily {
   std::string name, about;
   // A listed family has `list_size` queries. All of them are checked if at least `from` random
@@ -48,9 +48,9 @@ Expected<std::vector<SelfTestFamily>> self_test_families(const std::filesystem::
 
 struct SelfTestOptions {
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;  // random small-integer queries; other families scale with it
+  std::uint64_t queries = 20'000;  // random small-integer queries; other families: in proportion
   int jobs = 1;                    // threads; counts and failures do not depend on it
-  std::function<bool()> stop;      // asked between cases, from any thread; may be empty
+  std::function<bool()> stop;      // is called between cases, from any thread; may be empty
 };
 
 struct SelfTestFailure {

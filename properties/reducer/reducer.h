@@ -87,9 +87,9 @@ struct MeshSize {
 };
 
 // Returns how hard a number is to read. A whole number from -9 to 9 costs its magnitude; a longer
-// one costs 10 for each digit. Any other number costs 100, and 10 more for each character of the
-// shortest decimal that reads back to the same double. Examples: 7 costs 7, 250 costs 30, 0.5 costs
-// 130.
+// whole number, up to 15 digits, costs 10 for each digit. Any other number costs 100, and 10 more
+// for each character of the shortest decimal that reads back to the same double. Examples: 7 costs
+// 7, 250 costs 30, 0.5 costs 130.
 std::uint64_t number_cost(double value);
 
 // Measures a case. O(size of the case).

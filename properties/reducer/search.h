@@ -1,5 +1,5 @@
-// The reducer's search, which has the best case so far, and the judge behind a cache and limits;
-// and the passes, which propose cases to the search.
+// The reducer's search, and the passes, which propose cases to the search. The search holds the
+// best case so far, and calls the judge through a cache and limits.
 #pragma once
 
 #include <array>
@@ -107,7 +107,7 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 }
 
 // The passes of the reducer, in the order in which they run. Each pass proposes cases to the
-// search, which keeps the best one. A pass has made progress if the best case has become smaller.
+// search, which keeps the best case. A pass has made progress if the best case has become smaller.
 //
 // To add a pass, write a function here, a row in reducer/reducer.cpp, and a test in
 // tests/properties/reducer/reducer_passes_test.
@@ -117,8 +117,8 @@ void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
 // around the reported pair with which the case still fails; then it tries to leave out halves and
 // quarters of the triangles. A failure counts as the same if it has the same claim and kind,
 // because another contact may now come first. Returns the number of remaining triangles if it is
-// above 1,000: the failure then depends on size. Returns 0 if it is not, or if a limit ended the
-// search.
+// above 1,000: the failure then depends on size. Returns 0 if it is at most 1,000, or if a limit
+// ended the search.
 std::size_t cut_large_mesh(ReductionSearch& search);
 
 // step_passes.cpp: passes that shorten the sequence.
@@ -145,7 +145,7 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 
 // small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
-void try_small_spheres(ReductionSearch& search);    // also around it: thousands of proposals
+void try_small_spheres(ReductionSearch& search);    // also around the pair: thousands of proposals
 
 // small_meshes.cpp: lists all triangulated spheres with few vertices.
 
@@ -167,11 +167,12 @@ SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 // step_passes.cpp: puts moving vertices to rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at t=0 or t=1
 
-// step_passes.cpp: simplifies the relation.
-void simplify_relation(ReductionSearch& search);  // drops all or parts, or takes rest from frame 0
+// step_passes.cpp: simplifies the relation. Drops all of it, or parts of it, or takes the positions
+// at rest from frame 0.
+void simplify_relation(ReductionSearch& search);
 
 // step_passes.cpp: passes on the view primitive that the case states.
-void simplify_view(ReductionSearch& search);  // makes it fixed, a point, or puts it to the origin
+void simplify_view(ReductionSearch& search);  // fixes it, makes it a point, or puts it at 0
 void drop_view(ReductionSearch& search);      // so that the detector chooses its own primitive
 
 // number_passes.cpp: passes that make coordinates simpler.

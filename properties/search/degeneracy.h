@@ -33,8 +33,8 @@ constexpr auto names_of(Hardness) {
 }
 
 // For each kind, how far the query is from it: a share from 0 (exactly degenerate) to 1. At a root
-// that is no double, a share below 2^-53 can be rounded to 0. The zeros of F at t = 0 and 1, of its
-// discriminant and of F itself are found exactly.
+// that is no double, a share below 2^-53 can be rounded to 0. Three questions are decided exactly:
+// whether F is 0 at t = 0 or 1, whether its discriminant is 0, and whether F is 0 throughout.
 struct Gap {
   std::array<double, all_values<Hardness>.size()> share{};
   double& operator[](Hardness kind) { return share[static_cast<std::size_t>(kind)]; }
@@ -67,10 +67,11 @@ struct DegeneracyAt {
   int side = 0;  // i of L_i
 };
 
+// All four points move, at t = 0 and at t = 1 (moved_onto).
+inline constexpr unsigned all_ends_move = 0xff;
 // Returns the moved query; nothing if the steps do not come near the goals, or if a number
 // overflows on the way. The bits of `moving` name the places that move: bit i is point i at t = 0,
 // bit 4 + i is point i at t = 1. About 20 us.
-inline constexpr unsigned all_ends_move = 0xff;
 std::optional<FourPoints> moved_onto(const FourPoints& query, std::span<const DegeneracyAt> goals,
                                      unsigned moving = all_ends_move);
 

@@ -307,8 +307,8 @@ void shake(Random& random, Candidate& child, const MoveContext&) {
 }
 
 constexpr Move of_features[] = {
-    {"meet", "the features meet at a time and place", MoveKind::features, 5, in_focus<meet>},
-    {"scale", "scaled by a power of two, or moved away", MoveKind::features, 2, scale},
+    {"meet", "the features meet at a drawn time and place", MoveKind::features, 5, in_focus<meet>},
+    {"scale", "the case is scaled by a power of two, or moved away", MoveKind::features, 2, scale},
     {"newton", "Newton steps onto one degeneracy, or onto two at once", MoveKind::features, 6,
      in_focus<newton>},
     {"ulps", "some coordinates go to neighbouring numbers", MoveKind::features, 2, in_focus<ulps>},
@@ -320,7 +320,7 @@ constexpr Move of_features[] = {
     {"graze", "vertex and face touch and part again: a double root", MoveKind::features, 2,
      in_focus<graze>},
     {"align", "parallel edges, or a face without area", MoveKind::features, 2, in_focus<align>},
-    {"transplant", "the paths of the features of another case", MoveKind::features, 2,
+    {"transplant", "the features take the paths of another case", MoveKind::features, 2,
      in_focus<transplant>},
     {"rest", "points rest, or go the other way", MoveKind::features, 2, in_focus<rest>},
     {"shake", "all vertices, or some, move a little", MoveKind::features, 3, shake},

@@ -121,7 +121,7 @@ constexpr Move of_meshes[] = {
     {"unite", "another mesh beside this one", MoveKind::mesh, 2, unite},
     {"renumber", "triangles in another order", MoveKind::mesh, 1, renumber},
     {"nest", "a copy of the mesh inside the mesh", MoveKind::mesh, 1, nest},
-    {"bridge", "two triangles join the two in focus", MoveKind::mesh, 2, bridge},
+    {"bridge", "two new triangles join the two triangles in focus", MoveKind::mesh, 2, bridge},
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The moves of the search: small changes that bring a case nearer to a degeneracy, or make another
-// case of it. All moves keep a case valid; whether the case satisfies the contract is checked
-// afterwards.
+// The moves of the search: small changes that bring a case nearer to a degeneracy, or turn one
+// degenerate case into another. All moves keep a case valid; whether the case satisfies the
+// contract is checked afterwards.
 #pragma once
 
 #include <array>

@@ -26,7 +26,7 @@ using ExamineCases = std::function<std::vector<CaseResults>(std::vector<Case>)>;
 // dropped.
 struct CaseSource {
   std::string name;
-  int weight = 1;  // the relative frequency with which it is drawn from
+  int weight = 1;  // the relative frequency of draws from this source
   std::function<Case(Random&, const std::string& id, Eigen::Index most_triangles)> draw;
 };
 
@@ -59,11 +59,11 @@ struct SearchDefect {
 };
 
 struct LaneResult {
-  bool complete = false;            // it was not stopped
+  bool complete = false;            // the lane was not stopped
   std::uint64_t cases = 0;          // the number of cases that were examined
   std::uint64_t defects = 0;        // cases on which some configuration fails
   std::uint64_t open = 0;           // cases on which some configuration has no verdict
-  std::vector<SearchDefect> finds;  // the first of each signature and configuration
+  std::vector<SearchDefect> finds;  // the first defect of each signature and configuration
   std::set<std::string> causes;     // the causes of the cases that the archive holds
 };
 

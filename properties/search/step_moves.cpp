@@ -186,7 +186,7 @@ void onto_ghost(Random& random, Candidate& child, const MoveContext&) {
 
 constexpr Move of_steps[] = {
     {"steps", "one more step", MoveKind::steps, 2, more_steps},
-    {"past", "the step in focus has another past", MoveKind::past, 2, past},
+    {"past", "other steps lead to the step in focus", MoveKind::past, 2, past},
     {"ghost", "a vertex or an edge meets a ghost", MoveKind::steps, 2, onto_ghost},
 };
 

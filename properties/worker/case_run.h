@@ -26,7 +26,7 @@ struct Configuration {
 
 // Processor seconds and memory of the process that ran a case, with all of its threads. The process
 // itself states these numbers, so a plug-in, which runs in that process, could forge them. They are
-// for benches alone, and no verdict depends on them.
+// only for benches, and no verdict depends on them.
 struct RunTimes {
   double create = 0;
   std::vector<double> steps;  // for each step the time until its answer, commit included
@@ -104,7 +104,7 @@ struct CaseRun {
 
 // Runs the case in this process, so that a crash of the detector ends the caller. Steps that commit
 // advance the state. The detector is given the case's view primitive if its culling uses views (for
-// view-point the primitive's q0 alone). A step that runs out of memory is undecided.
+// view-point only the primitive's q0). A step that runs out of memory is undecided.
 CaseRun run_case(const Case& c, const Configuration& configuration);
 
 // Runs the case like run_case, with disturbances. Each step is first evaluated several times with a
@@ -162,7 +162,7 @@ class RunClock {
 
 // Returns the primitive that the case states for the step (corpus::view_of_step), in the form for
 // the detector. Returns no primitive if the case states none, or if the culling uses no views. The
-// function is inline because tests/mutation links the detector alone.
+// function is inline because tests/mutation links only the detector.
 inline std::vector<ViewPrimitive> given_view(std::optional<ViewPrimitive> view, Culling culling) {
   if (!view || !uses_views(culling)) return {};
   // If the case states a segment, view-point takes its first end.

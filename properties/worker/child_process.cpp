@@ -405,7 +405,7 @@ std::string WorkerWatch::why() const {
   std::ostringstream text;
   text << "no answer in " << limit_ << " s of processor time";
   if (end_ == End::asleep) text << ": asleep for " << asleep_limit * limit_ << " s";
-  if (end_ == End::endless) text << ", nor in " << wall_limit * limit_ << " s";
+  if (end_ == End::endless) text << ", nor in " << wall_limit * limit_ << " s by the clock";
   return text.str();
 }
 

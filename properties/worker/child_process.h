@@ -60,10 +60,10 @@ ChildEnd end_by_signal(int signal);
 // Waits for the end of a child of this process. REQUIRES that the child was not waited for before.
 ChildEnd end_of_child(pid_t id);
 
-// Returns whether the child was killed by one of the signals that no error in a process causes, and
-// the host did not send this signal. The signals are SIGKILL and SIGTERM, which an administrator, a
-// job queue or a machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a
-// terminal that is closed or interrupted. A child can also send such a signal to itself on purpose.
+// Returns whether the child was killed by a signal that the host did not send, and that no error in
+// a process causes. Such signals are SIGKILL and SIGTERM, which an administrator, a job queue or a
+// machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that is
+// closed or interrupted. A child can also send such a signal to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
 // A child process. It leads a session and a process group of its own, so that it has no terminal,
@@ -107,16 +107,16 @@ struct CopyRun {
 using Say = std::function<void(std::string_view)>;
 
 // Makes a copy of this process, runs the work in the copy, and waits without limit until the copy
-// has ended. The copy has one thread and none of the open files, so it does not prolong any lock or
-// pipe of this process. The work must not wait for another thread of this process.
+// has ended. The copy has one thread and none of this process's open files, so it does not prolong
+// any lock or pipe. The work must not wait for another thread of this process.
 // If the work throws std::bad_alloc, throws the same; if the work throws another exception, throws
 // std::runtime_error with its text. Throws std::system_error if the system gives no process or no
 // descriptor for the copy. Cost: about a millisecond for a process of 100 MB.
 CopyRun in_a_copy(const std::function<void(const Say&)>& work);
 
-// The time of a worker is limited as follows. The limit is one of processor time, so that a verdict
-// does not depend on the load of the machine. Wider limits of wall clock end a worker that uses no
-// processor time.
+// The time of a worker is limited as follows. The limit is a limit of processor time, so that a
+// verdict does not depend on the load of the machine. Wider limits of wall clock end a worker that
+// uses no processor time.
 //
 // A worker that answers soon is not measured: no process can use up the limit before the wall clock
 // has reached the limit divided by the number of processors. After that /proc is read about once a
@@ -169,9 +169,11 @@ class ProcessorTime {
 
   pid_t process_, worker_;
   std::optional<clockid_t> clock_;
-  double begin_ = 0;                        // own_seconds() at the beginning
-  std::optional<double> of_others_before_;  // seconds of started processes at the first look
-  double of_others_ = 0;                    // their seconds from the first to the last look
+  double begin_ = 0;  // own_seconds() at the beginning
+  // Processor seconds of the processes that the worker started: those before the first look(), and
+  // those between the first and the last look().
+  std::optional<double> of_others_before_;
+  double of_others_ = 0;
 };
 
 // The limits of wall clock, as multiples of the limit of processor time.

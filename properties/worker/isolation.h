@@ -20,8 +20,8 @@ namespace assay::properties {
 enum class Isolation : std::uint8_t {
   // A process of its own with limits of time, memory, files and processes.
   limits,
-  // The same limits, and the program bwrap: the plug-in has no network, sees no other process, can
-  // only read files, except in one scratch folder, and all processes that it starts end with it.
+  // The same limits, and the program bwrap: the plug-in has no network, sees no other process, and
+  // can write files only in one scratch folder. All processes that it starts end with it.
   bubblewrap,
 };
 constexpr auto names_of(Isolation) {
@@ -93,10 +93,10 @@ class PrintedFile {
 // still forbid its work.
 const std::string& fault_of_bubblewrap();
 
-// Starts the program behind bwrap, otherwise like ChildProcess::start. The program and its
-// processes can write only into the folder `scratch`, which is also their /dev/shm. The child is
-// bwrap. When the program ends, bwrap ends and passes on how (end_behind_bubblewrap). When bwrap
-// ends, the program and all its processes end.
+// Starts the program like ChildProcess::start, but behind bwrap. The program and its processes can
+// write only into the folder `scratch`, which is also their /dev/shm. The child is bwrap. When the
+// program ends, bwrap ends too, and its end tells how the program ended (end_behind_bubblewrap).
+// When bwrap ends, the program and all its processes end.
 Expected<ChildProcess> start_behind_bubblewrap(const std::filesystem::path& program,
                                                const std::vector<std::string>& arguments,
                                                const std::filesystem::path& scratch,

@@ -71,7 +71,7 @@ class Reader {
     for (const auto& part : findings_.parts) {
       if (part.seed == run.seed)
         throw StoreProblem(
-            fmt::format("{}: a store beside it has seed {} too", file.string(), run.seed));
+            fmt::format("{}: another store has the same seed, {}", file.string(), run.seed));
     }
     // A digest of the lasting fields of all rows, made as a chain: the digest so far and the hash
     // of the next row make the next digest.

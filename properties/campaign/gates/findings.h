@@ -97,16 +97,16 @@ std::vector<BoundDetector::Configuration> configurations_in(const BoundDetector&
 
 // Returns the number of bounds: for each stratum the number of claims of its configurations. Strata
 // of large sizes (size_families) do not count here, because each bound of such a stratum is stated
-// alone. A trial that breaks any claim of a configuration counts against the bound of that
-// configuration, so one bound would do for all claims of the configuration. To count every claim
-// only widens the bounds.
+// separately. A trial that breaks any claim of a configuration counts against the bound of that
+// configuration, so one bound would suffice for all claims of the configuration. To count every
+// claim only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
 
 // Returns the risk of each bound, such that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
 // Returns the risk of each bound of a stratum: risk_of_each, or 1 - family_confidence for a stratum
-// of large sizes, whose bounds are stated alone.
+// of large sizes, because each bound of such a stratum is stated separately.
 double risk_in(const StratumPlan& stratum, const BoundRun& run);
 
 // Returns the bound on the share of cases in which one configuration does not hold.

@@ -56,7 +56,7 @@ void check_power(const RunFindings& f, Lines& lines) {
     if (proof.status == FaultStatus::planted && !proof.is_found() && was_tried)
       hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
     if (proof.status == FaultStatus::equivalent && proof.is_found())
-      lines.push_back(fmt::format("{} is registered as equivalent, but was found", proof.fault));
+      lines.push_back(fmt::format("fault {} is registered equivalent, but was found", proof.fault));
   }
   const auto faults = static_cast<double>(f.faults());
   if (faults - static_cast<double>(hidden.size()) < f.run.plan.policy.power * faults)
@@ -71,7 +71,7 @@ void check_tallies(const RunFindings& f, Lines& lines) {
   }
   if (defects != f.claims_broken)
     lines.push_back(
-        fmt::format("{} defects in trials, but {} stored failures", defects, f.claims_broken));
+        fmt::format("trials have {} defects, but {} are stored", defects, f.claims_broken));
 }
 
 void check_faults(const RunFindings& f, GateFindings& gate) {
@@ -88,7 +88,7 @@ void check_faults(const RunFindings& f, GateFindings& gate) {
         fmt::format("{} of {} planted faults were tried", f.faults(), f.run.planted_faults));
   for (const auto& proof : f.evidence.faults) {
     if (f.is_whole() ? !proof.is_whole(plan) : proof.time_over)
-      gate.add_to_do(fmt::format("the time ended before all cases for {} were run", proof.fault));
+      gate.add_to_do(fmt::format("time ended before all cases for fault {} were run", proof.fault));
   }
 }
 
@@ -274,7 +274,7 @@ GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
   GateFindings gate;
   const auto& limits = f.run.plan.policy.speed_limits;
   if (!f.run.detector.built_in) {
-    gate.not_judged = "limits are set for the built-in detector alone";
+    gate.not_judged = "limits are set only for the built-in detector";
   } else if (limits.empty()) {
     gate.not_judged = "the campaign sets no limit";
   } else {

@@ -103,9 +103,9 @@ ASSAY_FIELDS(NotJudged, claim, reason)
 
 // Returns the claims of a plug-in that were not judged, in the order of Claim. A claim is not
 // judged if the contract makes it void, or if it was never tested: no step had a contact, or, for
-// a claim about stated times, the interval of the first time was wider than 1e-3 in more than one
-// collision in a hundred. For a detector that is judged by steps and by queries, the steps decide.
-// Empty for the built-in detector, whose contract is the default and whose times are enclosures.
+// a claim about stated times, the interval of the first time was wider than 1e-3 in more than 1 %
+// of the collisions. For a detector that is judged by steps and by queries, the steps decide. Empty
+// for the built-in detector, whose contract is the default and whose times are enclosures.
 std::vector<NotJudged> not_judged(const Claims& claims, const Contract& contract,
                                   const StepMeasures& measures, bool of_queries = false);
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures,
@@ -128,10 +128,10 @@ struct JudgedSize {
 };
 ASSAY_FIELDS(JudgedSize, claim, triangles)
 // Returns the sizes for the claims of all configurations, in the order of Claim. A claim about
-// contacts is tried by steps with a contact that the contract does not leave out, `deterministic`
-// is tried by cases that were run twice. A claim that was tried on no mesh is not in the list, such
-// as `progress` if no stratum asks for limits. Empty for a run of queries alone, because queries
-// have no size.
+// contacts is tried by steps with a contact that the contract does not leave out; the claim
+// `deterministic` is tried by cases that were run twice. A claim that was tried on no mesh is not
+// in the list, such as `progress` if no stratum asks for limits. Empty for a run that judges only
+// queries, because queries have no size.
 std::vector<JudgedSize> judged_sizes(const RunFindings& findings);
 
 // Returns the extremes over all judged meshes of trials and of other sources.
@@ -155,8 +155,8 @@ struct FailureGroup {
   // The traits that all contacts lost by the group have in common; empty if there are none.
   std::vector<std::string> shared;
   std::string smallest;  // the kind whose stored mesh is the smallest
-  // The number of cases that hold and were compared with the group, and how many of them have a
-  // contact with all `shared` traits.
+  // all_holds: the number of cases that hold and were compared with the group. holds_with: how many
+  // of these cases have a contact with all `shared` traits.
   std::size_t holds_with = 0, all_holds = 0;
 };
 
@@ -171,8 +171,8 @@ struct FailureGroup {
 // whole run. If p is the share of these cases that have the traits, and the group has n failing
 // cases, the traits are named only if p^n, the probability of a coincidence, is at most 1e-4.
 //
-// Deterministic. The oracle judges the cases that hold again, which takes seconds. If the folder of
-// the findings holds no stores, no traits are named.
+// Deterministic. The oracle judges each case that holds once more, which takes seconds. If the
+// folder of the findings has no stores, no traits are named.
 std::vector<FailureGroup> failure_groups(const RunFindings& findings);
 
 // Returns "34 of 51 kinds of failure lose a contact: edge-edge (of 100 colliding cases without

@@ -56,9 +56,9 @@ nlohmann::json json_of(const BoundDigests& digests);
 // Reads a binding. Fails if the text is no binding of this schema; the problem names `file`.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
-// Returns how two bindings differ: "seed 1 and 2, another build of assay". Empty if they agree.
-// Runs that are judged together may differ in seeds and shares.
+// How two runs belong together. Runs that are judged together can differ in seed and shares.
 enum class Runs : std::uint8_t { the_same, judged_together };
+// Returns how two bindings differ: "seed 1 and 2, another build of assay". Empty if they agree.
 std::string difference_of(const std::string& a, const std::string& b, Runs runs = Runs::the_same);
 
 }  // namespace assay::properties

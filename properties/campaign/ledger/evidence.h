@@ -51,7 +51,7 @@ struct FaultProof {
   // For each seed the number of random cases until the fault showed; nothing if the fault did not
   // show within `cases` random cases.
   std::vector<std::optional<std::uint64_t>> needed;
-  std::uint64_t cases = 0;           // the most random cases that were tried under each seed
+  std::uint64_t cases = 0;           // greatest number of random cases tried under each seed
   bool time_over = false;            // a time limit ended the hunt
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows the fault; 0: unknown
 

@@ -98,9 +98,9 @@ struct SourceRow {
   Source counts_as;    // itself, or the source that it is a part of
   bool is_drawn;       // its cases depend on the seed, so results under different seeds add up
   const char* prefix;  // the ids of its failures begin with this text; no id of a trial does
-  // contact_text (on the terminal) and met_in_summary (in a summary) say where a kind of failure
-  // was found that no trial shows. `defects` is the label of the number of defects in the line of a
-  // verdict.
+  // Some kinds of failure are shown by no trial. contact_text (on the terminal) and met_in_summary
+  // (in a summary) say where such a kind was found. `defects` is the label in front of the number
+  // of defects, in the line that states a verdict.
   const char *contact_text = "", *met_in_summary = "", *defects = "";
   // section: the section of a certificate that lists the source's inputs, if any. shown_text: the
   // members of JudgedSource in that section; "queries=cases" shows `cases` under the name
@@ -109,7 +109,7 @@ struct SourceRow {
 };
 constexpr auto names_of(Source) {
   using enum Source;
-  constexpr const char* in_corpus = "met in the corpus alone";
+  constexpr const char* in_corpus = "met only in the corpus";
   return std::to_array<SourceRow>(
       {{trial, "trial", trial, true, ""},
        {corpus, "corpus", corpus, false, "corpus/", in_corpus, in_corpus, "", "corpus",
@@ -120,7 +120,7 @@ constexpr auto names_of(Source) {
         in_corpus, "wrong steps of larger meshes", "repeated",
         "broken configuration extremes input judged runs steps threads triangles what"},
        {search, "search", search, true, "search/", "found by the search",
-        "found by the search alone", "cases of the search with a defect", "search"},
+        "found only by the search", "cases of the search with a defect", "search"},
        {self_test, "self-test", self_test, false, "", "", "", "", "",
         "family=input complete contacts=collisions contradictions=defects open=undecided "
         "queries=cases"}});

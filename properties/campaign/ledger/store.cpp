@@ -253,7 +253,7 @@ Expected<void> expect_no_other_store(const std::filesystem::path& folder,
   for (const auto& file : there.value()) {
     if (!outputs.contains(file))
       return Problem{
-          fmt::format("{}: is of another run; name a new folder: --out NEW", file.string())};
+          fmt::format("{}: belongs to another run; name a new folder: --out NEW", file.string())};
   }
   return boost::outcome_v2::success();
 }

@@ -25,7 +25,7 @@ struct FailureList {
 };
 
 // Functions that return Expected are for all rooms. All other functions throw StoreProblem and are
-// for campaign/ alone (campaign/ledger/database.h).
+// only for campaign/ (campaign/ledger/database.h).
 class Store {
  public:
   // Opens the file for writing; makes the file if it does not exist. `binding` says to which run
@@ -85,7 +85,7 @@ class Store {
   Database db_;
 };
 
-// Copies a store into another file, whose bytes depend on the rows alone. Fails if Store::read
+// Copies a store into another file, whose bytes depend only on the rows. Fails if Store::read
 // fails, or if the copy cannot be written; the other file then stays as it was.
 Expected<void> copy_store(const std::filesystem::path& from, const std::filesystem::path& to);
 
@@ -117,7 +117,7 @@ Expected<void> expect_no_other_store(const std::filesystem::path& folder,
 
 // note_library stores the path of a plug-in's library, as given to the run. note_begin stores the
 // time at which the run began, if no such time is stored yet. Both throw StoreProblem, so they are
-// for campaign/ alone. The constants are the keys of the two notes.
+// only for campaign/. The constants are the keys of the two notes.
 inline constexpr const char *library_note = "library", *begin_note = "begun";
 void note_library(Store& store, const std::filesystem::path& library);
 void note_begin(Store& store);

@@ -17,7 +17,8 @@ namespace assay::properties {
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  // Trials in which some configuration has a defect; trials in which some has no verdict.
+  // with_defect: trials in which some configuration has a defect. open: trials in which some
+  // configuration has no verdict.
   std::uint64_t with_defect = 0, open = 0;
   std::uint64_t disturbed = 0;     // trials that were killed from outside and ran again
   std::uint64_t discards = 0;      // trials for which the contract takes no case
@@ -32,8 +33,8 @@ struct StratumTally {
   };
   std::vector<Outcomes> by_configuration;
   StepMeasures measures;
-  // The most triangles of a judged trial, of a trial with a contact that the contract does not
-  // leave out, and of a trial that was run twice.
+  // The greatest number of triangles: of all judged trials, of trials with a contact that the
+  // contract does not leave out, and of trials that were run twice.
   std::uint64_t triangles = 0, triangles_in_contact = 0, triangles_repeated = 0;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)); -1: no pair

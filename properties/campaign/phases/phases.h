@@ -31,7 +31,7 @@ struct FaultHunt {
   std::string campaign;  // for ids: campaign:seed.fSEED:family:index
   std::uint64_t seed = 1;
   int seeds = 1;
-  std::uint64_t cases = 0;  // the most cases for each seed; they come from all families in turn
+  std::uint64_t cases = 0;  // the limit for each seed; cases come from all families in turn
   int jobs = 1;
   std::filesystem::path curated;  // folder of the curated cases; empty: they are not tried
 };
@@ -90,6 +90,8 @@ std::vector<std::uint64_t> threads_of_runs(const CampaignRequest& request);
 // or lists candidates.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
+// The number of forms in which a scene is given to a plug-in.
+inline constexpr int forms_of_a_scene = 3;
 // Returns one of the forms in which a scene is given to a plug-in. Form 0 has the wanted number of
 // triangles. The size of any other form is between the wanted number and the size of the largest
 // trial. About half of the other forms consist of several copies side by side, and so of many
@@ -97,39 +99,40 @@ bool is_repeated(const CampaignPlan& plan, bool built_in);
 // corners, and one linear map near the identity, which transforms all frames. So nobody knows these
 // meshes before the seed is known. The map does not change contacts and their times, except by
 // rounding.
-inline constexpr int forms_of_a_scene = 3;
 Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles, std::uint64_t seed,
                     int form);
 
+// The long sequence: the range of its number of steps, and its name.
+inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
+inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 // Returns a small mesh in many steps, so that one detector commits more steps than in any other
 // case. A scene of 60 to 100 triangles, in which the mesh meets itself, is played forwards and
 // backwards again and again, so the mesh meets itself up to the last steps. A linear map near the
 // identity, which changes slowly from frame to frame, transforms all frames, so no two steps are
 // equal. The seed draws the scene, the size, the number of steps, the numbering and the map.
-inline constexpr int fewest_long_steps = 120, most_long_steps = 200;
-inline constexpr const char* name_of_long_sequence = "long-sequence";  // the name in the store
 Case long_sequence(std::uint64_t seed);
 
 // Gives these meshes to the plug-in: every scene of the corpus in each of its forms, the long
 // sequence, and CampaignRequest::repeated. The runs of a mesh are those of threads_of_runs: several
-// for a plug-in that claims to be deterministic, otherwise one. Each run has a process of its own;
-// only the last of several runs repeats the mesh in the process of the run before it. Stores a
+// for a plug-in that claims to be deterministic, otherwise one. Each run has a new process, except
+// the last of several runs, which uses the process of the run before it again. Stores a
 // JudgedSource for each mesh that is not stored yet. A run that gives other answers than the first
-// run, or that ends in a way that breaks a claimed `total`, is stored as a failure. The mesh of
-// such a failure is the step that differs. A run that hangs is reported, but is no failure; after
-// three such meshes no further mesh is run.
+// run, or that ends in a way that breaks a claimed `total`, is stored as a failure. If the answers
+// differ, the case stored with the failure has only the step whose answer differs. A run that hangs
+// is reported, but is no failure; after three meshes with such a run no further mesh is run.
 //
 // The oracle judges the answers of the first run to some steps of each scene: the step with the
 // fewest contacts, the first step without a contact, and up to two steps whose answers break a
 // claim if the built-in detector is right. Contacts that the contract leaves out do not count here.
 // The built-in detector only chooses steps; all verdicts are by the oracle. A step that breaks a
-// claim is stored as a failure. Its mesh is the step alone, or, if the answer to the step alone
-// differs, the scene up to this step. In the long sequence the oracle judges every step, and the
-// first four failing steps of each signature are stored.
+// claim is stored as a failure. The stored case has only this step, or, if the detector answers the
+// step differently without the steps before it, the whole scene up to this step. In the long
+// sequence the oracle judges every step, and the first four failing steps of each signature are
+// stored.
 //
 // A limiter also makes a walk of each WalkKind, and the oracle judges every step.
 //
-// Throws StoreProblem, so this function is for campaign/ alone.
+// Throws StoreProblem, so this function is only for campaign/.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
                          const OnText& progress);
 
@@ -144,7 +147,7 @@ enum class WalkKind : std::uint8_t {
   sliding,      // one body is pushed down and along
   pile,         // three bodies lie on one another
   closing_gap,  // two bodies are driven through each other, to the same goal again and again
-  far_goal,     // in each step the goal of one body is 1000 times its size below it
+  far_goal,     // in each step the goal lies below one body, by 1000 times the body's size
   squeezed,     // two plates close on one body
   far_away,     // a pile that lies 2^20 times the size of a body from the origin
 };
@@ -183,7 +186,7 @@ Case walk(WalkKind kind, std::uint64_t seed, int steps, const Contract& contract
 // again repeats the lanes that it had not completed, with the same results. The results depend on
 // plan, seed and share, and are the same for any number of jobs. Of a lane that the deadline ends,
 // only the defects are stored. `corpus` is the folder of the curated cases. `progress` is called
-// from one thread at a time. Throws StoreProblem, so this function is for campaign/ alone.
+// from one thread at a time. Throws StoreProblem, so this function is only for campaign/.
 void search_share(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   RunDeadline deadline, const OnText& progress);
 
@@ -195,7 +198,7 @@ void search_share(const CampaignRequest& request, const std::filesystem::path& c
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker, int jobs = 1);
 
-// Shrinks one case, by judge_of_detector.
+// Shrinks one case, with the judge of judge_of_detector().
 Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {}, int jobs = 1);
@@ -206,7 +209,7 @@ Reduction shrink_case(const Case& failing, const DetectorUnderTest& detector,
 // up to two further failures of the signature are tried. If the shrinking of a failure was
 // interrupted, it continues from the smallest mesh so far. Each smaller mesh is stored as soon as
 // it is found. `limits` hold for each failure, the deadline for all failures together. Throws
-// StoreProblem, so this function is for campaign/ alone.
+// StoreProblem, so this function is only for campaign/.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const OnText& progress);
 
@@ -251,7 +254,7 @@ Expected<void> run_campaign(const CampaignRequest& request, const std::filesyste
 // the plan, or two minutes if the plan has no time limit.
 double shrinking_seconds(const CampaignPlan& plan);
 
-// The functions below store the failures of curated cases and scenes, as for failing trials.
+// The functions below store the failures of curated cases and scenes, like the failures of trials.
 
 // Stores failures of the corpus, shrinks them, and returns all stored failures of the corpus. For
 // each signature that is not in the store yet, stores the failure with the smallest mesh. Shrinking
@@ -262,11 +265,12 @@ Expected<FailureList> shrink_corpus_failures(const CampaignRequest& request,
                                              const std::vector<FailureRecord>& failures,
                                              Store& store, const OnText& progress);
 
+// Whether keep_corpus() stores the failures of the corpus, with their meshes.
+enum class KeepMeshes : std::uint8_t { now, later };
 // Stores the rows of the corpus, and removes stored failures of the corpus whose signature is not
 // in `failures`. With KeepMeshes::now, for a run, also stores for each signature the failure with
 // the smallest mesh, so that it is shrunk together with the failures of the trials. With
 // KeepMeshes::later, for a certificate, stores no failures: shrink_corpus_failures does this.
-enum class KeepMeshes : std::uint8_t { now, later };
 Expected<void> keep_corpus(Store& store, const std::vector<JudgedSource>& rows,
                            const std::vector<FailureRecord>& failures, KeepMeshes when);
 

@@ -227,7 +227,7 @@ struct Repetitions {
     if (!contracted_case) {
       row.what = "the contract does not take this mesh";
     } else if (hung_ >= most_hung_repetitions) {
-      row.what = fmt::format("not run: the detector hung on {} large meshes before", hung_);
+      row.what = fmt::format("not run: the detector hung on {} earlier large meshes", hung_);
     } else {
       row.steps = steps_of(*contracted_case).size();
       run_all(*contracted_case, steps, row);

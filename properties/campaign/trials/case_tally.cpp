@@ -223,7 +223,7 @@ std::vector<LawTally> check_in_copies(std::size_t count,
     const std::string case_id = case_of(tallies.size());
     if (was_killed_from_outside(run.end)) {
       if (++kills == most_kills)
-        throw std::runtime_error(fmt::format("{}: the copy that checks laws was {}, {} times",
+        throw std::runtime_error(fmt::format("{}: the process that checks laws was {}, {} times",
                                              case_id, run.end.text, kills));
       continue;
     }

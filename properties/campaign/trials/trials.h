@@ -39,10 +39,12 @@ struct TrialCase {
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
 
+// Limits of the cases that case_within() rejects for one trial.
+inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 // Returns the case of a trial id, changed by brought_into_contract. A rejected case is replaced by
 // the case of the next id ("quick:1:broken:3~1", then "~2", ...), at most most_redrawn times; after
-// that, returns the last drawn case that the contract takes. So a stratum has as many cases under
-// every contract. A case is rejected
+// that, returns the last drawn case that the contract takes. So a stratum has the same number of
+// cases under every contract. A case is rejected
 //   if the contract takes none of its steps;
 //   if all of its steps start within the contract's separation;
 //   if it has no contact that counts. This last rule is only for every fourth case of a family, and
@@ -50,11 +52,10 @@ struct TrialCase {
 //   most_without_contact cases.
 // Under a contract with a separation about every second case is aimed at the separation (parts.h).
 // Under the default contract the result for a mesh is the case of the id, unchanged.
-inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 TrialCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
-// Scales the case by a power of two, so that the contract is more likely to take the case. Of these
-// rules the first applies that leads to no coordinate above the contract's range:
+// Scales the case by a power of two, so that the contract is more likely to take the case. Applies
+// the first of these rules that makes no coordinate exceed the contract's range:
 //   If the contract has a separation, the mesh becomes twice to 512 times as large as the
 //   separation. In a mesh of more than 400 triangles, the median edge becomes twice to 8 times as
 //   long as the separation instead.
@@ -78,7 +79,8 @@ bool is_vouched_for(const DetectorUnderTest& detector, const Case& c, std::uint6
 // Returns the configurations with Start::clean in place of Start::verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
-// The functions below count the traits of a case: extremes, tags, set pairs of contacts, and laws.
+// The functions below count the traits of a case: its extremes, its tags, the laws checked, and for
+// each contact the view sets of its two triangles.
 
 // Returns the extremes of a case; nothing is known of a detector beyond the extremes on which it
 // was tried. `truth` has the oracle's judgement of each step. Costs O(vertices + triangles), and
@@ -176,8 +178,8 @@ struct TrialsEnd {
 // jobs. `progress` is called from one thread at a time. `only` has the ids of the trials to run; if
 // it is null, all planned trials run.
 //
-// Throws StoreProblem if the store cannot be read at the beginning, so this function is for
-// campaign/ alone.
+// Throws StoreProblem if the store cannot be read at the beginning, so this function is only for
+// campaign/.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const OnTrial& progress, const std::set<std::string>* only = nullptr);
 
@@ -191,7 +193,7 @@ FailureRecord stored_failure(Source source, const Case& c, const Configuration& 
                              const DetectorUnderTest& detector, const Failure& failure, bool flaky,
                              const std::string& output);
 
-// Throw StoreProblem if there was no worker, so both functions are for campaign/ alone.
+// Throw StoreProblem if there was no worker, so both functions are only for campaign/.
 void throw_if_not_run(const CaseResults& results);
 void throw_if_not_run(const CaseRun& run);
 

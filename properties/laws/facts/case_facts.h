@@ -64,7 +64,7 @@ class ExactView {
 
  private:
   ExactInteger axial(const ExactPoint& x) const;  // the axial coordinate times |d|^2
-  std::array<ExactPoint, 3> triangle_;            // this and the points below: times 2^4
+  std::array<ExactPoint, 3> triangle_;  // these and the points below are multiplied by 2^4
   ExactPoint q0_, q1_, d_, normal_;
   ExactInteger length2_;  // |d|^2, or 1 for a point
 };
@@ -110,8 +110,8 @@ ValueRange view_range(const detector::Topology& surface, std::span<const std::in
 
 struct CertifiedPatches {
   static constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> patch_of;  // by triangle; `none` if it faces no direction
-  std::set<std::pair<std::int32_t, std::int32_t>> unions;  // of two patches, the lower one first
+  std::vector<std::int32_t> patch_of;  // by triangle; `none`: the triangle faces no direction
+  std::set<std::pair<std::int32_t, std::int32_t>> unions;  // two patches; the lower number first
   // The number of triangles of the largest patch or union. L13 says nothing if this number is below
   // 2.
   std::size_t largest = 0;
@@ -311,8 +311,8 @@ bool has_account(CaseFacts& facts, std::size_t s);
 // winding number is 1. REQUIRES has_views(s).
 bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
 
-// Returns the triangles that are dirty at the start of step s, by L8, L9 and L15 and the oracle
-// alone.
+// Returns the triangles that are dirty at the start of step s, computed only from the oracle by L8,
+// L9 and L15.
 // - At a new start, a triangle is dirty if it is not clean by the oracle's layers. Layers do not
 //   count with Start::unknown, or with Start::verified under a culling that chooses views
 //   (view_auto, automatic): then a triangle is dirty if its component is not free by view.

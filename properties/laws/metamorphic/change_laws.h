@@ -1,7 +1,7 @@
-// Metamorphic laws: a case that is changed in a way that must not matter gives the same answers,
-// changed likewise. For the built-in detector every bit is compared, in pinned runs. Laws that need
-// nothing from the inside of a detector are judged for plug-ins, too; a plug-in runs the changed
-// case.
+// Metamorphic laws: if a case is changed in a way that must not matter, its answers stay the same,
+// or change in the same way. For the built-in detector every bit is compared, in pinned runs. Laws
+// that need nothing from the inside of a detector are judged for plug-ins, too; a plug-in runs the
+// changed case.
 #pragma once
 
 #include <string>
@@ -12,11 +12,12 @@
 
 namespace assay::properties {
 
-// Returns whether the law is judged for plug-ins. A law is judged if it is about a change of the
-// case that can be put to any detector, or about threads, which the second runs of trials test.
+// The law about threads.
+inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
+// Returns whether the law is judged for plug-ins. A law is judged if it is about a change after
+// which any detector can run the case, or about threads, which the second runs of trials test.
 // Laws about saved states are not judged, because the interface of plug-ins has no call that saves
 // or restores a state.
-inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
 bool is_of_plugins(const Law& law);
 
 // Returns whether the case is in the share of cases that a plug-in gets in the form of this law.

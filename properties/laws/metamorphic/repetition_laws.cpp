@@ -139,10 +139,10 @@ bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Dete
 std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& state,
                     CasePlayer& other) {
   auto busy = busy_detector(facts);
-  if (!busy) return "whether there is a detector for the state";
-  if (is_taken_with_one_too_few(state, *busy)) return "the refusal of a state that does not fit";
-  if (busy->restore(state)) return "whether the restored state is taken";
-  if (!busy->commit()) return "the refusal to commit an earlier evaluation";
+  if (!busy) return "whether a second detector can be made";
+  if (is_taken_with_one_too_few(state, *busy)) return "whether a wrong state is refused";
+  if (busy->restore(state)) return "whether the state can be restored";
+  if (!busy->commit()) return "whether commit is refused right after a restore";
   if (busy->state() != state) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
@@ -275,8 +275,8 @@ constexpr Law repetition_law_table[] = {
      "nothing", check_form<changes::played_back>, one_case_in_16, PremiseScope::any_culling,
      &changes::played_back},
     {"Change_StepsBeforeDoNotShow", "change",
-     "If a sequence is played after its own steps in another order, it has the same answers, pairs "
-     "and times as without them.",
+     "If a detector first plays the steps of a sequence in another order, and then the sequence, "
+     "the sequence has the same answers, pairs and times as in a new detector.",
      "nothing", check_form<changes::other_steps_first>, one_case_in_16, PremiseScope::any_culling,
      &changes::other_steps_first},
 };

@@ -14,7 +14,7 @@
 namespace assay::properties {
 
 // Draws values of several factors so that all pairs of values occur. Some faults show only if two
-// factors have certain values, and no test of one factor alone finds them.
+// factors have certain values, and no test that varies only one factor finds them.
 
 // A row has one value for each factor; the sizes are the numbers of values of each factor.
 using FactorRow = std::vector<std::uint8_t>;
@@ -70,7 +70,7 @@ enum class Question : std::uint8_t {
 };
 constexpr auto names_of(Question) {
   using enum Question;
-  return std::to_array<Named<Question>>({{none, "steps alone"},
+  return std::to_array<Named<Question>>({{none, "only steps"},
                                          {limit, "limits"},
                                          {stopped_step, "stopped steps"},
                                          {stopped_limit, "stopped limits"}});
@@ -89,10 +89,10 @@ struct DrawnOptions {
 };
 
 // Draws a row for the case's kind of mesh and size, from one of several covering arrays. Some pairs
-// are not drawn. A separation is not drawn with cullings and arithmetics that do not answer it,
-// with scaled coordinates, which leave the range of distances, or with many triangles, where the
-// oracle takes long. A far body is not drawn without a tree, with scaled coordinates, or with a
-// vouched start, which is then hard to check.
+// are not drawn. A separation is not drawn with a culling or an arithmetic that does not answer it;
+// with scaled coordinates, because they leave the range of distances; or with many triangles,
+// because the oracle then takes long. A far body is not drawn without a tree, with scaled
+// coordinates, or with a vouched start, because such a start is then hard to check.
 DrawnOptions drawn_options(const CaseFacts& facts);
 
 }  // namespace assay::properties

@@ -294,9 +294,9 @@ constexpr Law option_law_table[] = {
     {"Claim_InEveryPairOfOptions", "claim",
      "The claims hold in drawn configurations with pairwise coverage of culling, arithmetic, "
      "start, pairs, threads, separation, relation, question, state before the case, mesh and size. "
-     "Some ask for limits; some stop steps or limits. `--start clean` is drawn only for a clean "
-     "start.",
-     "contacts, what comes within a distance, and layers of a clean start", check_options, 4},
+     "Some configurations ask for limits, and some stop steps or limits. `--start clean` is drawn "
+     "only for a clean start.",
+     "contacts, pairs within a distance, and layers of a clean start", check_options, 4},
 };
 
 }  // namespace

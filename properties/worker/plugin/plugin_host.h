@@ -28,7 +28,7 @@ class PluginHost {
   void ask_twice(bool asks_twice) { asks_twice_ = asks_twice; }
 
   // Runs a case as run_case does. If a result breaks the rules of the plug-in interface (an index
-  // out of range, an invalid interval), the step is an error, which CaseRun::explanation states.
+  // out of range, an invalid interval), the answer is an error, which CaseRun::explanation states.
   // Coordinates are rounded as the contract says. The caller must leave out the steps that the
   // contract leaves out. If the case is a query (query_case.h), the plug-in's function for queries
   // is called, with unrounded coordinates.

@@ -111,7 +111,7 @@ test("a certificate tells on its first screen what it is about", async () => {
   assert.equal(await visible(at.page, "#faults table").count(), 0, "the list is folded");
   await at.page.locator("#laws summary").click();
   const law = at.page.locator("#laws tr", { hasText: "L4_AllPositiveIsCollisionFree_Point" });
-  assert.match(await law.textContent(), /^A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step\./);
+  assert.match(await law.textContent(), /^Seen from a point, a component whose V-, V0 and Vv are empty has no contact in the step\./);
   await at.close();
 });
 

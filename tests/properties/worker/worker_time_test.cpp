@@ -145,9 +145,9 @@ TEST(WorkerTime, WhatIsStoppedSleepsAndWhatIsDebuggedDoesNotAndSendingEndsToo) {
     const auto begin = Clock::now();
     const auto run = worker.run(c, plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::hung);
-    EXPECT_EQ(run.explanation, is_debugged
-                                   ? "no answer in 0.05 s of processor time, nor in 5 s"
-                                   : "no answer in 0.05 s of processor time: asleep for 0.5 s");
+    EXPECT_EQ(run.explanation,
+              is_debugged ? "no answer in 0.05 s of processor time, nor in 5 s by the clock"
+                          : "no answer in 0.05 s of processor time: asleep for 0.5 s");
     EXPECT_GE(seconds_since(begin), (is_debugged ? 100 : 10) * limit);
     EXPECT_EQ(run.disturbances, 0u);
   }

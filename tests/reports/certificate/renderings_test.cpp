@@ -79,8 +79,7 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
       {"## Assay: defect\n", "| claims | **fails** | a\\|b, met once; tiny:1:broken:3 (bvh)",
        "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
        "2 of 2 planted faults found: 0 by random cases, 2 by their curated case alone.",
-       "**c** (bvh), met in the corpus alone\n",
-       "All 3 bounds together hold with confidence 95 %"});
+       "**c** (bvh), met only in the corpus\n", "All 3 bounds together hold with confidence 95 %"});
 }
 
 TEST(Summary, ACertificateTellsItsDayAndARunThatOfItsBegin) {

@@ -97,7 +97,7 @@ TEST_F(Runs, ASeedThatIsThereTwiceIsRefused) {
   run.request.shares = 2;
   run.judge("closed-generic", 4, 'H').store(scratch / "twice");
   std::filesystem::copy_file(scratch / "twice/run.sqlite", scratch / "twice/seed-2.sqlite");
-  expect_refused(scratch / "twice", "seed-2.sqlite: a store beside it has seed 1 too");
+  expect_refused(scratch / "twice", "seed-2.sqlite: another store has the same seed, 1");
 }
 
 TEST_F(Runs, SharesAreSummed) {

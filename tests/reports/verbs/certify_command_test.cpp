@@ -240,7 +240,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   ASSERT_FALSE(failure["after"].is_null());
   EXPECT_LT(failure["after"]["triangles"].get<int>(), failure["before"]["triangles"].get<int>());
   EXPECT_EQ(replayed_beside(failure, "fault_view-line_one-corner"), 1);
-  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "met in the corpus alone"));
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "met only in the corpus"));
   expect_ended("verify " + certificate, 1, {"verdict defect\n"});
   const auto page = scratch / "page.html";
   ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);

@@ -147,11 +147,11 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   // No run goes on there, which would be judged with them.
   for (const std::string verb : {"run", "certify"})
     expect_problem(run_assay(verb + " --campaign smoke --out " + out),
-                   "seed-1.sqlite: is of another run");
+                   "seed-1.sqlite: belongs to another run");
   std::filesystem::remove_all(out);
   // A folder with another sum in it.
   ASSERT_EQ(judge(first).exit_code, 3);
-  expect_problem(judge(good(2)), "seed-1.sqlite: is of another run");
+  expect_problem(judge(good(2)), "seed-1.sqlite: belongs to another run");
 }
 
 // A share whose trials were changed does not verify, and nothing is made of it.
