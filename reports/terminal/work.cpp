@@ -92,7 +92,7 @@ bool Limits::exceeded() {
 
 void Limits::memory_failed() {
   if (!limit_text_.empty()) return;
-  limit_text_ = "memory of this machine";
+  limit_text_ = "memory limit of this machine";
   is_out_of_memory_ = true;
 }
 

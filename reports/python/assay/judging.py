@@ -103,7 +103,7 @@ class _Report:
         return self.text
 
     def __bool__(self) -> bool:
-        raise TypeError("a report is no verdict: compare its outcome with a word")
+        raise TypeError("a report has no truth value: compare its member .outcome with a word")
 
 
 @dataclass(frozen=True, repr=False)

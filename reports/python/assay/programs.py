@@ -81,7 +81,7 @@ class Outcome:
         return self.text
 
     def __bool__(self) -> bool:
-        raise TypeError("an outcome is no truth value: compare its outcome with 'holds'")
+        raise TypeError("this object has no truth value: compare its member .outcome with 'holds'")
 
 
 @dataclass(frozen=True, repr=False)

@@ -197,7 +197,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
     expect_refused(command, "are not beside it: ask its issuer for the whole folder");
   const auto of_check = scratch.write("o.json", R"({"schema": "assay-check/1"})");
   expect_refused("report " + of_check + " --out " + (scratch / "p.html"),
-                 "of schema \"assay-check/1\", no certificate and no run");
+                 "schema \"assay-check/1\" is neither a certificate nor a run");
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
@@ -257,7 +257,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   std::filesystem::create_directories(out);
   write(certificate, old.dump(1) + "\n");
   expect_ended("verify " + certificate, 1,
-               {"of schema assay-certificate/1, this assay verifies "
+               {"its schema is assay-certificate/1, this assay verifies "
                 "assay-certificate/8: use the assay that issued the certificate"});
 }
 
