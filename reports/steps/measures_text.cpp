@@ -198,7 +198,7 @@ std::string measures_sentence(const properties::StepMeasures& m) {
   if (m.left_out_misses > 0)
     parts.push_back(fmt::format("{} step{} would be a miss if the contract left nothing out",
                                 m.left_out_misses, m.left_out_misses == 1 ? "" : "s"));
-  return (parts.empty() ? "" : fmt::format("whether claimed or not: {}\n", join(parts, "; "))) +
+  return (parts.empty() ? "" : fmt::format("whatever it claims: {}\n", join(parts, "; "))) +
          limits_text(e.limits);
 }
 

@@ -42,7 +42,7 @@ export function history(runs: Run[]): HTMLElement {
   return section(
     "history",
     "History",
-    html("p", {}, "Runs in the order in which they were given, the oldest first. Choose one to see it in full."),
+    html("p", {}, "Runs in the order in which they were given, the oldest first. Choose a run to see it in full."),
     table(
       "Runs",
       [

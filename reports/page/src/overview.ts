@@ -93,7 +93,7 @@ function notes({ findings: { times, versions }, subject, verdict, begun }: Run):
       : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
     subject !== null || verdict === "unverified"
       ? ""
-      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}. To issue one, run assay certify.`,
+      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}. To issue a certificate, run assay certify.`,
   ].filter((note) => note !== "");
 }
 
