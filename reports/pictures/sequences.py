@@ -85,7 +85,7 @@ def chart(sequences):
 
 
 def main():
-    p = argparse.ArgumentParser(description="Times whole sequences by auto and by bvh")
+    p = argparse.ArgumentParser(description="Times whole sequences with culling auto and with culling bvh")
     p.add_argument("assay")
     p.add_argument("out", type=Path)
     p.add_argument("--data", type=Path, default=Path("../shared/data"))

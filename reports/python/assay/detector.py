@@ -144,7 +144,7 @@ def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
     if not (math.isfinite(separation) and separation >= 0):
         raise ValueError("separation: a length is wanted, finite and not below 0")
     if separation > 0 and arithmetic != "exact":
-        raise ValueError("separation: only exact arithmetic has one")
+        raise ValueError("separation: a distance needs exact arithmetic")
     return arithmetic, separation
 
 

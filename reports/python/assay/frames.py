@@ -66,7 +66,7 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
         return first
     for file, (part, _) in zip(files, parts):
         if not np.array_equal(part.triangles, first.triangles):
-            raise ValueError(f"{file}: its triangles differ from those of {files[0]}")
+            raise ValueError(f"{file}: its triangles differ from the triangles of {files[0]}")
         if len(part.positions[0]) != len(first.positions[0]):
             raise ValueError(f"{file}: it has more or fewer vertices than {files[0]}")
     return Frames(first.triangles, [part.positions[0] for part, _ in parts], files)
@@ -119,7 +119,7 @@ def _by_meshio(file: str) -> _Read:
     others = {block.type for block in mesh.cells} - {"triangle"} - _NO_SURFACE
     if others or not triangles:
         what = ", ".join(sorted(others)) or "no triangles"
-        raise ValueError(f"{file}: it holds {what}: a mesh of triangles alone is wanted")
+        raise ValueError(f"{file}: it holds {what}: a mesh of only triangles is wanted")
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3:
         raise ValueError(f"{file}: points of three coordinates are wanted")
     corners = np.ascontiguousarray(np.concatenate(triangles), np.int32)

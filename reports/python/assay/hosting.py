@@ -75,7 +75,7 @@ def class_of(module, name):
     finally:
         _imported = None
     if not hasattr(found, name):
-        late = ": the module judges a detector before it defines this one; put that under if __name__ == '__main__'" if judges else ""
+        late = ": the module judges a detector before it defines this one; judge under if __name__ == '__main__'" if judges else ""
         raise ValueError(f"{module} has no class {name}{late}")
     sys.modules[module] = found
     return getattr(found, name)
@@ -116,7 +116,7 @@ def described(claims, contract, claim_words, members):
     numbers = dict.fromkeys(members, 0)
     for member, value in contract.items():
         if member not in members:
-            raise ValueError(f"contract: {member!r} is not a member of it")
+            raise ValueError(f"contract: {member!r} is not a member of a contract")
         words = members[member]
         numbers[member] = _place(value, words, f"contract: {member}") if words else value
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers

@@ -284,7 +284,7 @@ def check(
         raise ValueError("culling, start, pairs and arithmetic are options of the built-in detector")
     of_a_detector = detector is not None or culling or start or pairs or arithmetic
     if separation is not None and of_a_detector:
-        raise ValueError("separation is asked of the oracle alone: leave out detector, culling, start, pairs and arithmetic")
+        raise ValueError("only the oracle answers a separation: leave out detector, culling, start, pairs and arithmetic")
     asked = {
         "separation": None if separation is None else _length(separation),
         "culling": culling,

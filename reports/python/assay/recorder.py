@@ -99,7 +99,7 @@ class Recorder:
             if isinstance(answer, str):
                 answer = {"answer": answer, "first": first, "pairs": pairs, "times": pair_times}
             elif first is not None or pairs is not None or pair_times is not None:
-                raise ValueError("first, pairs and pair_times: this answer states them itself")
+                raise ValueError("first, pairs and pair_times: this answer already states them")
             told = hosting.parts_of(answer, hosting.ANSWERS + ("error",))
         elif any(part is not None for part in (first, pairs, pair_times, message)):
             raise ValueError("first, pairs, pair_times and message need an answer")
