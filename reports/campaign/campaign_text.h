@@ -48,12 +48,12 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
 inline constexpr std::size_t most_groups_shown = 5;
 
 // Returns the groups of failures (properties/campaign/gates/gates.h), each with its smallest mesh,
-// and how many more failures there are. Empty if there are fewer than two kinds of failure.
+// and how many more kinds of failure there are. Empty if there are fewer than two kinds of failure.
 std::string groups_text(const properties::RunFindings& findings,
                         const nlohmann::ordered_json& predicate);
 
-// Returns the groups of failures, then a paragraph for each signature, and a line for each further
-// case of it.
+// Returns the groups of failures, then a paragraph for each signature, with a line for each further
+// case of the signature.
 std::string failures_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 

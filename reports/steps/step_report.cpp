@@ -102,8 +102,8 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
                                                : "");
 }
 
-// Returns " limit: 0.71 of the step, contact ahead at t = 0.75", and perhaps
-// "; contact at t = 0.9 of the way there".
+// Returns "limit: 0.71 of the step, contact ahead at t = 0.75; contact at t = 0.9 of the way
+// there".
 std::string limit_text(const properties::LimitDiff& limit) {
   std::string out = fmt::format("  limit: {:.9g} of the {}", limit.way,
                                 limit.share < 0 ? "way of the step, stated as positions" : "step");

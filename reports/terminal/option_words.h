@@ -88,7 +88,7 @@ using properties::DetectorPart;
 struct DetectorWords {
   std::string library;  // of a plug-in; empty: the built-in detector
   std::optional<properties::Isolation> isolation = {};  // nothing: bubblewrap where it works
-  std::uint64_t threads = 1;                            // threads that it may use
+  std::uint64_t threads = 1;                            // how many the detector may use
   DetectorPart part = DetectorPart::by_library;
 };
 

@@ -1,5 +1,5 @@
-// The parts that a certificate adds to a run: the corpus, speed, the checks of the oracle, and the
-// digests of everything that was judged.
+// Shows the parts that a certificate adds to a run: the corpus, speed, the checks of the oracle,
+// and the digests of everything that was judged.
 import { facts, html, section, table } from "./dom";
 import { pasteNote, replayLine } from "./failure_facts";
 import type { Findings, Run } from "./report";

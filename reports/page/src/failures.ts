@@ -12,7 +12,7 @@ import { picture, staticPicture, Viewer } from "./viewer/viewer";
 export interface FailuresView {
   element: HTMLElement;
   all: Failure[];
-  open: (name: string) => HTMLElement | null; // the place where it is shown; null: there is none of this name
+  open: (name: string) => HTMLElement | null; // where the failure is shown; null: no failure has this name
   viewer: () => Viewer | null;
   close: () => void;
 }

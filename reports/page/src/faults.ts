@@ -24,7 +24,7 @@ function canaryText(canaries: Power["canaries"]): string {
     : `The canary (${worst.fault}) was found after ${counted(worst.found_after, "case")}.`;
 }
 
-// Returns how many faults took "1", "2 to 9", "10 to 99" ... random cases.
+// Returns how many faults needed "1", "2 to 9", "10 to 99" ... random cases.
 function byCases(faults: Fault[]): { label: string; value: number }[] {
   const medians = faults.flatMap((f) => (f.median_cases === null ? [] : [f.median_cases]));
   const rows: { label: string; value: number }[] = [];

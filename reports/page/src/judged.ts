@@ -99,8 +99,8 @@ const off = ({ steps, median, p99, worst }: TimesOff): HTMLElement | string =>
 const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
   steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
 
-// Says how much of the time until a contact a limiter uses, and how often it stays although the
-// step has room.
+// Says how much of the time until a contact a limiter uses, and how often it allows no motion
+// although the step has room.
 const limitsText = ({ free, cut, contact, used, stalls }: NonNullable<Stratum["measures"]>["limits"]): string =>
   free + contact === 0
     ? "\u2013"

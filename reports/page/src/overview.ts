@@ -37,8 +37,8 @@ export function named({ detector, versions }: Findings): { name: string; version
     : { name: detector.name, version: null };
 }
 
-// Returns a title that begins with what differs most between pages, because a row of tabs shows
-// only that.
+// Returns a title that begins with the words that differ most between pages, because a row of tabs
+// shows only the beginning.
 export function titleOf({ verdict, findings }: Run): string {
   const { name, version } = named(findings);
   const { campaign } = findings;
