@@ -3,9 +3,9 @@
 
 usage: benches.py FILE.json OUT.svg
 
-Suites speed-error and peers: speed against error, a point with intervals for each subject; unsafe
-steps at the left, false alarms at the right. Suite stability: for each hard family and arithmetic a
-cell with the share of right answers. The same figures give the same bytes.
+For the suites speed-error and peers, draws speed against error, a point with intervals for each
+subject: unsafe steps at the left, false alarms at the right. For the suite stability, draws the
+share of right answers, a cell for each hard family and arithmetic. Equal figures give equal bytes.
 """
 import json
 import math

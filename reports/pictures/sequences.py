@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times whole sequences with culling auto and with culling bvh, for the top README.
+"""Measures the time of whole sequences with culling auto and with bvh, for the top README.
 
 usage: sequences.py ASSAY OUT.svg [--data DIR] [--scenes NAME...] [--rounds N]
 
