@@ -44,7 +44,7 @@ struct VerbManual {
 // a plug-in.
 const std::vector<VerbManual>& verb_manuals();
 
-constexpr const char* beside_the_verbs = "Beside it";
+constexpr const char* beside_the_verbs = "Help and version";
 
 // Returns all exit codes as lines, and which code is used if several apply.
 std::string exit_codes_text();

@@ -111,7 +111,7 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
     }
     if (!last_row)
       return Problem{
-          fmt::format("{}is for {}, but this is {} ({}): leave it out, or assay check {} {}",
+          fmt::format("{}is for {}, but the input is {} ({}): leave it out, or assay check {} {}",
                       name_in(word).substr(1), join(corpus::names_among(takers), " or "),
                       all[0].name, file, takers[0].input, word)};
     const auto is_beside = [&](const std::string& other) {

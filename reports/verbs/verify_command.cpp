@@ -33,7 +33,7 @@ std::string others_text(const std::vector<std::string>& files) {
   constexpr std::size_t most_named = 3;
   const auto count = std::min(files.size(), most_named);
   return fmt::format(
-      "not looked at, because the certificate does not rest on them: {}{}\n",
+      "the certificate does not rest on these files, so they were not examined: {}{}\n",
       fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count), ", "),
       files.size() > count ? fmt::format(" and {} more files", files.size() - count) : "");
 }

@@ -84,8 +84,8 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   JudgedCounts of[2];  // of peers; of the built-in detector
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
   return text +
-         "answer: a (collision or not), t (first time), p (pairs); each under its own contract\n"
-         "time, create: ratio to built-in, exact, bvh on the same steps, median over families\n"
+         "answer: a (collision or not), t (first time), p (pairs); by the detector's contract\n"
+         "time, create: ratio to `built-in, exact, bvh` on the same steps, median over families\n"
          "(n): free-sound is not claimed; late, early: number of steps, worst share of a step\n"
          "slow: cases with a step over 5 s, run only once; bytes: peak memory a triangle\n" +
          fmt::format(

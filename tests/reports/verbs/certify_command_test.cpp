@@ -178,8 +178,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
   // What is beside it and is of no digest is named.
   EXPECT_FALSE(contains(verified.out, "not looked at"));
   write(out + "/page.html", "anything");
-  expect_ended("verify " + certificate, 0,
-               {"not looked at, because the certificate does not rest on them: page.html\n"});
+  expect_ended("verify " + certificate, 0, {"these files, so they were not examined: page.html\n"});
   std::filesystem::remove(out + "/page.html");
 
   // In another folder: digests are of rows and bytes, not of places.

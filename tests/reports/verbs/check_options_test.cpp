@@ -95,7 +95,7 @@ TEST_F(CheckOptions, EachIsTakenByItsKindsAloneAndTheRefusalNamesBoth) {
       const bool is_one = words.find(" --") == std::string::npos && words.find("--det") != 0;
       if (is_taken || !is_one) continue;
       expect_refused(outcome, name_in(words) + " is for ");
-      expect_refused(outcome, std::string("but this is ") + said[k]);
+      expect_refused(outcome, std::string("but the input is ") + said[k]);
       expect_refused(outcome, "leave it out, or assay check ");
     }
   }
