@@ -155,7 +155,7 @@ class Plugin {
       if (succeeded("limit", api_->limit(handle, x_t0, way.data(), &raw), found)) {
         found.share = raw.share;
         if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1))
-          found.error = "the share of limit is not from 0 to 1";
+          found.error = "limit gives a share that is not from 0 to 1";
         // If no positions are given, a share of 1 stands for the end, and any other for the start.
         const double* const stop = raw.positions    ? raw.positions
                                    : raw.share == 1 ? case_.frame(step.to)

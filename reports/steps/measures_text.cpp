@@ -207,8 +207,8 @@ std::string measures_text(const properties::RunFindings& findings) {
   const bool alone = properties::asks_queries_alone(findings.run.plan);
   std::string out = fmt::format(
       "whatever is claimed (rates in %, with intervals of 95 %; late, early: how many first times "
-      "are after or before the oracle's, and by which share of the step: median, 99 %, worst; left "
-      "out: cases + steps)\n{:24} {}\n",
+      "are after or before the oracle's time, and by which share of the step: median, 99 %, worst; "
+      "left out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -220,7 +220,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.left_out_misses > 0)
     out += fmt::format(
         "in {} steps the detector does not report a contact, as its contract allows ({}): without "
-        "this contract they would be misses\n",
+        "this contract these steps would be misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))

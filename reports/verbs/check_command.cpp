@@ -350,7 +350,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "rest. Or one case file (.json). Or logs of a recorder (assay_record.h, assay.Recorder), "
       "each judged by itself; LOG#N is only step N. Or query files (.csv, .csv.gz)");
   add(verb, "--body FRAME", question.bodies,
-      "The frames of one body, if the mesh has several bodies. Each --body is one body; they are "
+      "The frames of one body, if the mesh has several bodies. Each --body is one body; bodies are "
       "numbered from 0. A body of one frame stands still");
   add(verb, "--apart A,B", request.apart,
       "A,B: bodies that do not meet; A,A: a body that does not meet itself")

@@ -176,7 +176,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
   EXPECT_EQ(first, second);
 
   // What is beside it and is of no digest is named.
-  EXPECT_FALSE(contains(verified.out, "not looked at"));
+  EXPECT_FALSE(contains(verified.out, "not examined"));
   write(out + "/page.html", "anything");
   expect_ended("verify " + certificate, 0, {"these files, so they were not examined: page.html\n"});
   std::filesystem::remove(out + "/page.html");
