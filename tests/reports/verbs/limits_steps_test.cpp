@@ -36,7 +36,7 @@ class LimitsSteps : public testing::Test {
 TEST_F(LimitsSteps, TheRightOnesHold) {
   for (const std::string said : {"", "positions", "share-alone", "separation=0.01"}) {
     SCOPED_TRACE(said);
-    expect_ended(run(said), 0, {"time until it: median 0.95", "limits: 0 of "});
+    expect_ended(run(said), 0, {"time until the contact: median 0.95", "limits: 0 of "});
   }
 }
 

@@ -227,7 +227,7 @@ TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
                  "it answers no elementary queries");
   expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "only queries");
   expect_refused("replay tiny:1:query-ulp:0", "--detector");
-  expect_refused(asked("claims=8", "check " + queries), "claims nothing of its query");
+  expect_refused(asked("claims=8", "check " + queries), "no claim about its query");
 }
 
 }  // namespace
