@@ -222,7 +222,7 @@ class CheckRun {
     const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
     if (is_new || question_.shows_all_steps)
       say(fmt::format("step {}: left out: {}{}\n", number + 1, *why,
-                      question_.shows_all_steps ? "" : "; more such steps are only counted"));
+                      question_.shows_all_steps ? "" : "; more left-out steps are only counted"));
     return nlohmann::ordered_json{{"step", number + 1}, {"left_out", *why}};
   }
 

@@ -93,7 +93,7 @@ class Plugin : public StepAnswers {
 
   std::string title() const override {
     return plugin_text(subject_) +
-           (drops_relation_ ? "; it has no function `count`, so all pairs count" : "");
+           (drops_relation_ ? "; the plug-in has no function `count`, so all pairs count" : "");
   }
 
   nlohmann::ordered_json to_json() const override {

@@ -290,7 +290,7 @@ class PairStory {
 
   std::string rule_text(const detector::StepResult& result) const {
     if (!is_asked_) return "a common vertex: a separation leaves such pairs out";
-    if (!bodies_meet_) return "bodies that do not meet: not searched (L19)";
+    if (!bodies_meet_) return "these bodies are said not to meet: not searched (L19)";
     if (component(pair_.a) != component(pair_.b)) return "two components: always a candidate (L10)";
     if (result.doubts.empty()) return "no view sets: every pair is a candidate";
     const oracle::Candidates k(
