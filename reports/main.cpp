@@ -90,7 +90,7 @@ class Formatter : public CLI::Formatter {
 int refuse_verb(const CLI::App& app, const std::string& word) {
   for (const auto& [name, input] : {std::pair("judge", "LOG"), {"check-queries", "QUERIES.csv"}}) {
     if (word == name)
-      return reports::refuse(fmt::format("{} is now check: assay check {}", name, input));
+      return reports::refuse(fmt::format("{} is now called check: assay check {}", name, input));
   }
   Words names;
   for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());

@@ -15,7 +15,7 @@
 namespace assay::reports {
 
 struct BenchSettings {
-  std::string data;  // the folder of the public data; rows name missing files
+  std::string data;  // the folder of the public data; each missing file gets a row
   double scale = 1;  // factor of mesh sizes, numbers of cases, and rounds; below 1 in tests
   // For comparisons: the folder of the peers' plug-ins, the limit of processor seconds for one run
   // of a sequence, and the number of threads of the oracle.

@@ -2,7 +2,7 @@
 // each round. A subject is the built-in detector in this process, by its options, or any detector
 // in a worker. Subjects are measured in turn.
 //
-// Below stand medians and ratios of such measurements, each with its interval.
+// The second half of this file computes medians and ratios of such measurements, with intervals.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,7 @@ constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
 // searches before the step, such as the counts of marking.
 std::uint64_t result_hash(const detector::StepResult& result);
 
-// The way in which a case is played and timed.
+// Returns the time of one run of `work`, in ns.
 using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
 // Makes the stages of a detector in this process; a test can replace some of them.
@@ -46,19 +46,20 @@ using MakeStages = std::function<detector::Stages(const detector::Options&)>;
 struct SweptSubject {
   properties::WorkerProcess* worker = nullptr;    // null: the built-in detector in this process
   properties::Configuration configuration;        // with is_timed = true
-  MakeStages stages = detector::standard_stages;  // of that detector
+  MakeStages stages = detector::standard_stages;  // of the built-in detector
 };
 
 struct SweepPlan {
   int rounds = 2;
-  Clock* clock = ns_of;  // of subjects in this process
+  Clock* clock = ns_of;  // for subjects in this process
   // Subjects in this process look at each step once before it is timed, so that the time of a short
   // case does not include the cost of new memory.
   bool is_warm = false;
   // A subject is not run again if a step of its first run took more seconds than this. That run is
   // then the sample of every round.
   double longest_repeated = HUGE_VAL;
-  // A subject that took this many times as long as the fastest one takes part in two rounds only.
+  // A subject whose time is more than this factor times the fastest subject's time takes part in
+  // only two rounds.
   double far_off = HUGE_VAL;
   std::function<void()> tick = [] {};  // called between runs
 };
@@ -82,13 +83,13 @@ struct SweptRuns {
 // alternately, so that compared times are measured side by side. The first round is judged and not
 // timed. The times of a worker are those of its own clock, with all of its threads. A subject whose
 // run did not complete is not run again. Throws UnusableData if the detector in this process
-// refuses the mesh, or a step of it is an error.
+// refuses the mesh, or answers a step with an error.
 std::vector<SweptRuns> sweep(const corpus::Case& c, std::span<const SweptSubject> subjects,
                              const SweepPlan& plan);
 
-// Computes medians of repeated measurements, with intervals that need no model of their noise,
-// ratios of interleaved measurements, and quantiles. Rank intervals stand first, then intervals by
-// the bootstrap. All results are deterministic.
+// The rest of this file computes medians of repeated measurements, ratios of interleaved
+// measurements, and quantiles. Intervals need no model of the noise: rank intervals come first,
+// then bootstrap intervals. All results are deterministic.
 
 // A median with a rank interval. The ends of the interval are order statistics of the samples: the
 // closest pair x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more.
@@ -126,8 +127,9 @@ double quantile(std::vector<double> samples, double share);
 // interval holds the middle 95 % of the medians of the draws.
 //
 // The intervals are deterministic: the draws come from the project's own integer random numbers,
-// seeded alike for every call. They are narrower than the rank interval if samples are few, and
-// lack its guarantee: with five samples the true coverage is nearer to 85 than to 95 %.
+// seeded alike for every call. A bootstrap interval is narrower than the rank interval if samples
+// are few, and lacks the rank interval's guarantee: with five samples the true coverage is nearer
+// to 85 than to 95 %.
 
 // Returns the median with a bootstrap interval. REQUIRES samples not empty. Makes 2,000 draws, so
 // the probability of the interval is right to about 1 %. O(2,000 n).

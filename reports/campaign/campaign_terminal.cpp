@@ -151,34 +151,34 @@ void add_campaign_options(CLI::App& verb, CampaignWords& words) {
       ->capture_default_str();
   add_seed(verb, words.seed, "Seed of all random cases; use a fresh seed each night");
   add(verb, "--time SECONDS", words.time_limit,
-      "Seconds by the clock, in place of the campaign's own limit; trials not run by then are "
-      "missing")
+      "Time limit in seconds by the clock, in place of the campaign's own limit; trials that have "
+      "not run by then are missing")
       ->check(positive())
       ->group(OptionGroup::limits);
   add(verb, "--case-seconds SECONDS", words.case_seconds,
-      "Limit of processor time for one case, in place of the campaign's own (10); a case that "
-      "takes longer is undecided")
+      "Limit of processor time for one case, in place of the campaign's own limit (10); a case "
+      "that takes longer is undecided")
       ->check(positive())
       ->group(OptionGroup::limits);
-  add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, alone or with K, M or G",
+  add_choice(verb, "--memory SIZE", words.memory, "a whole number above 0, perhaps with K, M or G",
              memory_size,
              "Limit of address space for the process that runs a case, such as 6GB or 512MB, in "
-             "place of the campaign's own (4GB); allocations beyond the limit fail")
+             "place of the campaign's own limit (4GB); allocations beyond the limit fail")
       ->group(OptionGroup::limits);
   add(verb, "--power DIR", words.power,
       "Folder of a run or certificate of this build, in which the planted faults were found");
   add(verb, "--corpus DIR", words.own_cases,
       "Folder of case files of your own (assay-case/1), judged besides the shipped cases");
   add(verb, "--data DIR", words.data,
-      "Folder of the public data: a plug-in that claims to be deterministic is run several times "
-      "on these sequences too");
+      "Folder of the public sequences: a plug-in that claims to be deterministic runs on them too, "
+      "several times");
   add_detector(verb, words.detector);
   add_part(verb, words.detector.part);
   add_jobs(verb, words.jobs);
 }
 
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words) {
-  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+  end_when_interrupted(fmt::format("interrupted: all judged trials are stored in {}; run the same "
                                    "command again to go on",
                                    words.out),
                        exit_undecided);
@@ -194,7 +194,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   if (!words.own_cases.empty()) {
     BOOST_OUTCOME_TRY(own, read_own_cases(words.own_cases));
     if (own.cases.empty()) {
-      fmt::print("{}: there is no case in it yet\n", words.own_cases);
+      fmt::print("{}: this folder has no case yet\n", words.own_cases);
     } else {
       request.own_cases = std::move(own);
     }
@@ -237,8 +237,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     request.plan = properties::with_queries(std::move(request.plan));
   } else if (asks_queries(request.plan)) {
     return Problem{fmt::format(
-        "campaign {}: its strata are queries, which only the query of a plug-in answers",
-        request.plan.name)};
+        "campaign {}: its strata are queries, which only a plug-in can answer", request.plan.name)};
   }
   return request;
 }

@@ -24,12 +24,12 @@ namespace assay::reports {
 struct CampaignWords {
   std::string campaign;  // a name or a file
   std::uint64_t seed = properties::default_seed;
-  std::optional<double> time_limit;     // seconds of the clock, in place of the campaign's own
-  std::optional<double> case_seconds;   // of processor time, in place of the campaign's own
-  std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's own
+  std::optional<double> time_limit;     // seconds of the clock, in place of the campaign's limit
+  std::optional<double> case_seconds;   // of processor time, in place of the campaign's limit
+  std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's limit
   std::string power;                    // a folder with the proof of planted faults; empty: none
   std::string own_cases;                // a folder of cases of the detector's owner; empty: none
-  // Folder of the public data; empty: no public data is repeated.
+  // Folder of the public data; empty: no detector is run several times on public data.
   std::string data;
   DetectorWords detector;
   std::string out;
@@ -56,7 +56,7 @@ Expected<void> may_keep_run(const std::filesystem::path& out,
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out);
 
-// Makes two checks of `certify`, as evidence of a certificate: of the corpus and of the speed.
+// Makes the two checks, of the corpus and of the speed, that `certify` adds to the evidence.
 
 // A row sums up all cases of one input, such as the curated cases, in one configuration. A failure
 // is a case in which a configuration contradicts the oracle, in the stored form of a trial's
@@ -81,8 +81,8 @@ Expected<JudgedCorpus> judge_corpus(const properties::CampaignRequest& request,
 // interleaved steps of the built-in detector. Takes 10 s in all.
 std::vector<properties::SpeedFigure> measure_speed();
 
-// Finds the cases of a corpus: those shipped with the program, and those in a folder of the
-// detector's owner, which `run` and `certify` add.
+// Finds the cases of a corpus: the cases shipped with the program, and the cases in a folder of the
+// detector's owner, which `run` and `certify` judge too.
 
 // Returns the folder of the shipped corpus: curated cases, known failures, the conformance set. The
 // folder lies beside the program, as built or as installed, so the program contains no path of the

@@ -91,7 +91,7 @@ std::string laws_text(const RunFindings& findings) {
     for (const auto& [culling, premise] : properties::premises_by_culling(tally, *law)) {
       under += fmt::format("{}{} {}", under.empty() ? "" : ", ", culling, premise);
     }
-    if (!under.empty()) out += fmt::format("    premise under {}\n", under);
+    if (!under.empty()) out += fmt::format("    premise by culling: {}\n", under);
   }
   return out;
 }
@@ -143,7 +143,7 @@ std::string worlds_text(const RunFindings& findings) {
     out += fmt::format("  {:18} {} classes proved, which are {} of {} motions{}; {} collide\n",
                        world.world, world.classes, world.motions, world.all,
                        world.counterexample ? "; COUNTEREXAMPLE: " + *world.counterexample
-                       : world.complete     ? ", all of it"
+                       : world.complete     ? ", complete"
                                             : ", the time was over",
                        world.collisions);
   }
@@ -190,7 +190,7 @@ std::string gates_text(const properties::Judgement& judgement) {
                        state == GateState::fails ? "FAILS" : name_of(state));
     for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
       out += fmt::format("  {}\n", reasons[i]);
-    if (reasons.size() > most) out += fmt::format("  and {} more\n", reasons.size() - most);
+    if (reasons.size() > most) out += fmt::format("  and {} more reasons\n", reasons.size() - most);
     if (!remedy.empty()) out += fmt::format("  {}\n", remedy);
   }
   return out;

@@ -52,8 +52,8 @@ inline constexpr std::size_t most_groups_shown = 5;
 std::string groups_text(const properties::RunFindings& findings,
                         const nlohmann::ordered_json& predicate);
 
-// Returns the groups of failures, then a paragraph for each signature, and a line for each further
-// case of it.
+// Returns the groups of failures, then a paragraph for each signature, with a line for each further
+// case of the signature.
 std::string failures_text(const properties::RunFindings& findings,
                           const nlohmann::ordered_json& predicate);
 

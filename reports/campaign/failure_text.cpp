@@ -180,11 +180,11 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
   std::uint64_t times = 0;
   for (const auto* kind : std::span(kinds).subspan(top)) times += met_text(*kind);
   if (times > 0)
-    text += fmt::format("and {} more kinds, met {}\n", kinds.size() - top,
+    text += fmt::format("and {} more kinds of failure, met {}\n", kinds.size() - top,
                         properties::times_text(times));
   if (!kinds.empty())
     text += fmt::format(
-        "all of them, each with the line that replays it: {}\n",
+        "all kinds, each with the line that replays it: {}\n",
         line_to_paste("list failures " + shell_word(out.string()), PastePlace::this_folder));
   return outcome::success();
 }
@@ -199,7 +199,8 @@ std::string groups_text(const properties::RunFindings& findings, const Json& pre
                         smallest, smallest_size(*findings.example_of(smallest)));
     rest -= groups[i]["kinds"].size();
   }
-  if (!groups.empty() && rest > 0) text += fmt::format("{} more in other groups\n", rest);
+  if (!groups.empty() && rest > 0)
+    text += fmt::format("{} more kinds of failure in other groups\n", rest);
   return text;
 }
 
@@ -223,7 +224,7 @@ std::string slow_trials_text(const properties::RunFindings& findings) {
   const auto& tally = findings.tally;
   std::string out;
   if (!tally.undecided.empty())
-    out += fmt::format("{} without a verdict, at most {} s of processor time a case:\n",
+    out += fmt::format("{} trials without a verdict, at most {} s of processor time a case:\n",
                        tally.undecided.size() == tally.most_undecided
                            ? fmt::format("the first {}", tally.undecided.size())
                            : fmt::format("{}", tally.undecided.size()),

@@ -142,7 +142,7 @@ class CorpusCheck {
     if (!contracted_case) return;  // the case is beyond the contract
     if (hung_ >= most_hung_cases) {
       for (auto& row : rows)
-        row.open.push_back({id, "", fmt::format("not run: {} cases hung before", hung_)});
+        row.open.push_back({id, "", fmt::format("not run: {} earlier cases hung", hung_)});
       return;
     }
     const auto& configurations = request_.detector.configurations;

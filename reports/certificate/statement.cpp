@@ -70,7 +70,7 @@ Expected<Copies> copies_of(const std::vector<std::string>& folders, const std::s
           copies.emplace(properties::copied_store_file(out, run.seed), file);
       if (!is_new)
         return Problem{
-            fmt::format("{} and {}: both runs have seed {}, and its trials would count twice",
+            fmt::format("{} and {}: both runs have seed {}, whose trials would count twice",
                         copy->second.string(), file.string(), run.seed)};
     }
   }
@@ -159,10 +159,10 @@ Expected<int> issue_certificate(const properties::RunFindings& findings,
   BOOST_OUTCOME_TRY(write_for_ci(predicate, findings.folder));
   const auto judgement = judge(findings);
   fmt::print(
-      "{}\n{}\nverdict: {}{}; {}\nit speaks of {}\n{}next: {}\n",
+      "{}\n{}\nverdict: {}{}; {}\nthe verdict speaks of {}\n{}next: {}\n",
       findings_text(findings, predicate), gates_text(judgement), judgement.verdict, took,
       certificate, judged_text(predicate),
-      findings.is_whole() ? "" : "verify DIR... --out DIR judges it together with other shares\n",
+      findings.is_whole() ? "" : "`assay verify DIR... --out DIR` judges it with other shares\n",
       line_to_paste("verify " + shell_word(certificate), PastePlace::this_folder));
   return judgement.exit_code;
 }

@@ -31,7 +31,7 @@ nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const properties::CampaignPlan& plan,
                                       const std::string& campaign_digest);
 
-// Makes the statement from the findings and the campaign.json in their folder alone, so that equal
+// Makes the statement only from the findings and the campaign.json in their folder, so that equal
 // files give equal bytes. Fails if campaign.json is missing, is not a plan, or states another plan
 // than the stores.
 properties::Expected<nlohmann::ordered_json> make_statement(

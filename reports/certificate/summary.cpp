@@ -35,7 +35,7 @@ std::string gates_text(const Json& p) {
   for (const auto& gate : p["gates"]) {
     const auto& reasons = gate["reasons"];
     std::string why = reasons.empty() ? "" : cell(reasons[0]);
-    if (reasons.size() > 1) why += fmt::format(" (and {} more)", reasons.size() - 1);
+    if (reasons.size() > 1) why += fmt::format(" (and {} more reasons)", reasons.size() - 1);
     if (gate.contains("remedy")) why += "; " + cell(gate["remedy"]);
     out += fmt::format("| {} | {} | {} |\n", cell(gate["gate"]),
                        gate["state"] == "fails" ? "**fails**" : cell(gate["state"]), why);
@@ -132,7 +132,7 @@ std::string claims_text(const Json& p) {
   const bool has_both = !on_queries.empty() && !p["judged_up_to"].empty();
   return fmt::format("claims {}{}{}",
                      judged_texts.empty() ? "nothing that was judged" : join(judged_texts, ", "),
-                     has_both ? "; of its elementary query " + join(on_queries, ", ") : "",
+                     has_both ? "; for its elementary query " + join(on_queries, ", ") : "",
                      others.empty() ? "" : "; not judged: " + join(others, ", "));
 }
 

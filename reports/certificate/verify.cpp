@@ -81,7 +81,7 @@ Expected<Json> read_certificate(const std::filesystem::path& certificate) {
     return Problem{fmt::format("{}: is no JSON object", certificate.string())};
   if (const auto older = other_schema(statement))
     return Problem{fmt::format(
-        "{}: of schema {}, this assay verifies {}: use the assay that issued the certificate",
+        "{}: its schema is {}, this assay verifies {}: use the assay that issued the certificate",
         certificate.string(), *older, certificate_schema)};
   return std::move(statement);
 }
@@ -175,9 +175,9 @@ std::string sent_alone(const std::filesystem::path& certificate) {
   if (!statement) return "";
   if (const auto schema = statement.value().find("schema"); schema != statement.value().end())
     return fmt::format(
-        "{}: of schema {}, neither a certificate nor a run; assay report shows folders of assay "
-        "run and assay certify; assay check --keep DIR writes DIR/page.html about a check that "
-        "fails",
+        "{}: a file of schema {} is neither a certificate nor a run; `assay report` shows the "
+        "folders that `assay run` and `assay certify` write; `assay check --keep DIR` writes "
+        "DIR/page.html if the check fails",
         certificate.string(), schema->dump());
   return properties::stored_runs(folder_of(certificate)).has_value()
              ? ""

@@ -48,7 +48,7 @@ std::vector<ClaimResult> CheckOutcome::claim_results() const {
 
 std::string CheckOutcome::summary() const {
   std::string text = undecided || !ending.empty() ? "no collision found so far" : "no collision";
-  if (!has_answers) text = "candidate pairs";
+  if (!has_answers) text = "only candidate pairs";
   if (collision_step) {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
                        *collision_step + 1);

@@ -73,7 +73,7 @@ class CheckRun {
     for (std::size_t i = 0; i < std::min(outcome_.losses.size(), most_told); ++i)
       say(fmt::format("lost: {}\n", outcome_.losses[i]));
     if (outcome_.losses.size() > most_told) {
-      const auto more = fmt::format("and {} more", outcome_.losses.size() - most_told);
+      const auto more = fmt::format("{} more parts", outcome_.losses.size() - most_told);
       outcome_.losses.resize(most_told);
       outcome_.losses.push_back(more);
       say(fmt::format("lost: {}\n", more));
@@ -222,7 +222,7 @@ class CheckRun {
     const bool is_new = reasons_.insert(why->substr(0, why->find(':'))).second;
     if (is_new || question_.shows_all_steps)
       say(fmt::format("step {}: left out: {}{}\n", number + 1, *why,
-                      question_.shows_all_steps ? "" : "; more such steps are only counted"));
+                      question_.shows_all_steps ? "" : "; more left-out steps are only counted"));
     return nlohmann::ordered_json{{"step", number + 1}, {"left_out", *why}};
   }
 
@@ -369,7 +369,7 @@ class CheckRun {
                       name((*nested_)[i].inner), name((*nested_)[i].outer),
                       is_at_rest_ ? "" : " during this step"));
     if (nested_->size() > most_told)
-      say(fmt::format("  ... {} more lie inside others\n", nested_->size() - most_told));
+      say(fmt::format("  ... {} more surfaces lie inside others\n", nested_->size() - most_told));
   }
 
   // Keeps the mesh at the first contact of all, or else at its end.

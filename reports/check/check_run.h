@@ -63,7 +63,8 @@ struct CheckOutcome {
   // that the contract leaves out.
   void judge_claims(const properties::DetectorUnderTest& plugin, std::size_t steps_left_out);
 
-  // Returns the results in the order of claims, unjudged ones last. REQUIRES judge_claims.
+  // Returns the results in the order of claims, unjudged claims last. REQUIRES that judge_claims
+  // was called.
   std::vector<ClaimResult> claim_results() const;
   // Returns the last lines of the output of `check`, each with its end of line.
   std::string summary() const;
@@ -101,8 +102,8 @@ struct CheckQuestion {
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
-  DetectorWords detector;     // its `threads` is not used; the next member is
-  std::uint64_t threads = 0;  // 0: all cores, or 1 for a plug-in
+  DetectorWords detector;     // its `threads` is not used, but the next member
+  std::uint64_t threads = 0;  // 0: 1 for a plug-in, else all cores
   std::string answers;        // table of answers (GivenAnswers) in place of a detector, or empty
   properties::Adjacency adjacency = properties::Adjacency::all;  // of the answers in the table
   bool no_oracle = false;
@@ -117,9 +118,9 @@ struct CheckQuestion {
   // The line to paste that repeats this check; empty if there is no line.
   std::string again;
   bool shows_all_steps = true;  // false: only steps that are not as claimed
-  // If set, no detector runs, and the oracle alone is asked about this distance (check_separation).
-  // Of the other members, only files, jobs, limits and the report are then used. REQUIRES as many
-  // offsets as bodies, or no offsets.
+  // If stated, no detector runs: only the oracle is asked, about this distance (check_separation).
+  // Of the other members, it uses only the files, the jobs, the limits, and what concerns the
+  // report. REQUIRES as many offsets as bodies, or no offsets.
   std::optional<AskedDistance> distance;
 };
 
@@ -170,8 +171,8 @@ struct Keeping {
 };
 
 // Calls check_mesh, and keeps failing steps. If the question names a plug-in, the plug-in is asked
-// about each failing step alone, and the steps on which it fails again are shrunk. For a log, the
-// plug-in should have the code of the recorded detector.
+// about each failing step by itself, and the steps on which it fails again are shrunk. For a log,
+// the plug-in should have the code of the recorded detector.
 Expected<CheckAnswer> check_keeping(const CheckQuestion& question, CheckInput& input,
                                     const Keeping& keeping, CheckListener listener);
 

@@ -143,7 +143,7 @@ std::string KeptFailures::keep(const StepFailure& event) {
         properties::BodyNames(event.source.counted(), event.source.triangles()).text(*failure.pair);
   const std::string again = again_(event.number + 1);
   if (counts_[failure.signature()]++ >= most_of_a_kind)
-    return fmt::format("  not kept, because {} failures of its kind are kept: {}\n  again: {}\n",
+    return fmt::format("  not kept, because {} failures of this kind are kept: {}\n  again: {}\n",
                        most_of_a_kind, failure.signature(), again);
   const auto text = write_step(event, failure, again);
   if (text) return text.value();
@@ -238,8 +238,8 @@ Expected<void> KeptFailures::write_page(const CheckOutcome& outcome) const {
   }
   for (const auto& [kind, times] : counts_) {
     if (times > most_of_a_kind)
-      steps += fmt::format("<p>{} more of this kind are not kept: {}</p>\n", times - most_of_a_kind,
-                           xml_escaped(kind));
+      steps += fmt::format("<p>{} more failures of this kind are not kept: {}</p>\n",
+                           times - most_of_a_kind, xml_escaped(kind));
   }
   if (steps.empty()) steps = "<p>No step failed.</p>\n";
   return write_text_file(
@@ -261,8 +261,8 @@ Expected<void> KeptFailures::ask_plugin(const corpus::Case& c, KeptStep& entry) 
   entry.reproduced = fails(c);
   if (!*entry.reproduced) {
     entry.reply =
-        "not reproduced: asked about this step alone, in a new process, the detector does not "
-        "fail; the failure possibly depends on earlier work of the process";
+        "not reproduced: in a new process that answers only this step, the detector does not fail; "
+        "perhaps the failure depends on earlier work of the process";
     return outcome::success();
   }
   constexpr std::uint64_t most_calls = 100'000;

@@ -71,8 +71,8 @@ class RecordedSteps : public corpus::StepSource {
     std::vector<std::string> lines;
     if (const auto damage = log_.damage(); damage && !damage->is_cut)
       lines.push_back(fmt::format(
-          "bytes {} to {}, from the first damage to the end of the log ({}); steps read before it: "
-          "{}",
+          "bytes {} to {}, from the first damage to the end of the log ({}); steps read before the "
+          "damage: {}",
           damage->from, damage->to, damage->what, log_.count()));
     lines.insert(lines.end(), unknown_.begin(), unknown_.end());
     return lines;
@@ -86,8 +86,8 @@ class RecordedSteps : public corpus::StepSource {
     const auto damage = log_.damage();
     if (damage && damage->is_cut)
       lines.push_back(
-          fmt::format("bytes {} to {}, the last of the log, are {}: it was cut, or is "
-                      "being written",
+          fmt::format("bytes {} to {}, the last of the log, are {}: the log was cut, "
+                      "or is being written",
                       damage->from, damage->to, damage->what));
     if (!damage && !log_.is_ended()) lines.emplace_back("the recorder was not told to end the log");
     return lines;
@@ -124,7 +124,7 @@ class RecordedSteps : public corpus::StepSource {
   }
 
   corpus::Expected<std::unique_ptr<StepSource>> read_whole() override {
-    return corpus::problem_in({}, "a log is judged as it is read");
+    return corpus::problem_in({}, "a log is judged while it is read, never as a whole");
   }
 
   // Returns the step that was read last.

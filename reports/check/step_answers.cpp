@@ -93,7 +93,7 @@ class Plugin : public StepAnswers {
 
   std::string title() const override {
     return plugin_text(subject_) +
-           (drops_relation_ ? "; it has no function `count`, so all pairs count" : "");
+           (drops_relation_ ? "; the plug-in has no function `count`, so all pairs count" : "");
   }
 
   nlohmann::ordered_json to_json() const override {
@@ -161,9 +161,9 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_plugin(properties::Subject plu
   const auto& detector = plugin.detector;
   const auto library = plugin.plugin->string();
   if (detector.of_queries)
-    return Problem{fmt::format(
-        "{}: it holds no steps, but a query alone: assay check QUERIES.csv --detector {}", library,
-        shell_word(library))};
+    return Problem{
+        fmt::format("{}: it answers no steps, only queries: assay check QUERIES.csv --detector {}",
+                    library, shell_word(library))};
   if (judged_claims(detector.claims, detector.contract).empty())
     return Problem{fmt::format(
         "{}: under its contract no claim can be judged; there is nothing to check", library)};

@@ -84,7 +84,7 @@ class StepAnswers {
   // Returns fields of the JSON report for a detector that is judged by its claims; `of_process` are
   // facts about the process that ran it.
   nlohmann::ordered_json detector_json(const nlohmann::ordered_json& of_process) const;
-  // Begins the run of step s alone, which is undecided until it has an answer.
+  // Begins a run that has only step s. The step is undecided until it has an answer.
   void begin_run(std::size_t s) {
     first_of_run_ = s;
     run_ = {};
@@ -168,13 +168,13 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
 
 // Which steps of a log are judged.
 struct LogSelection {
-  double share = 1;                   // in (0, 1]; the numbers of the steps alone decide which
+  double share = 1;                   // in (0, 1]; only the numbers of the steps decide which
   std::uint64_t from = 1;             // steps before this one, from 1, are not judged
   std::optional<std::uint64_t> step;  // only this step is judged; counted from 0
   bool follow = false;                // wait for steps until the recorder ends the log
 };
 
-// A log's file, and "#N" behind it for step N alone, counted from 1.
+// A log's file, followed by "#N" if only step N, counted from 1, is meant.
 struct LogName {
   std::string file;
   std::optional<std::uint64_t> step;  // counted from 0

@@ -24,9 +24,9 @@ std::string why_text(const properties::Judgement& judgement) {
   if (!judgement.failed_gate)
     return judgement.verdict == "not judged" ? "no gate was judged" : "no gate fails";
   const auto& reasons = judgement.of(*judgement.failed_gate).reasons;
-  return fmt::format("gate \"{}\" fails: {}{}", properties::rule_of(*judgement.failed_gate).name,
-                     reasons[0],
-                     reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
+  return fmt::format(
+      "gate \"{}\" fails: {}{}", properties::rule_of(*judgement.failed_gate).name, reasons[0],
+      reasons.size() > 1 ? fmt::format("; {} more reasons", reasons.size() - 1) : "");
 }
 
 Json point_json(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }

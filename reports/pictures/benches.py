@@ -3,9 +3,9 @@
 
 usage: benches.py FILE.json OUT.svg
 
-Suites speed-error and peers: speed against error, a point with intervals for each subject; unsafe
-steps at the left, false alarms at the right. Suite stability: for each hard family and arithmetic a
-cell with the share of right answers. The same figures give the same bytes.
+For the suites speed-error and peers, draws speed against error, a point with intervals for each
+subject: unsafe steps at the left, false alarms at the right. For the suite stability, draws the
+share of right answers, a cell for each hard family and arithmetic. Equal figures give equal bytes.
 """
 import json
 import math
@@ -121,7 +121,7 @@ def speed_against_error(report):
     most = max([1] + [100 * s[e]["interval"][1] for s in subjects for e in ("unsafe", "alarming")])
     rows, width = [], 1110 if of_peers else 1080
     for left, error, title in ((60, "unsafe", "Unsafe: a contact or pair missed, or a time too late"),
-                               (470, "alarming", "Alarming: a contact or pair that there is not")):
+                               (470, "alarming", "Alarming: a contact or a pair that does not exist")):
         panel = Panel(left, 360, (min(times), max(times)), most)
         rows += panel.frame(title)
         best = sorted((s for s in subjects if s[error]["on_pareto_line"]),
@@ -134,9 +134,9 @@ def speed_against_error(report):
         for subject in subjects:
             rows += panel.point(looks[subject["subject"]], subject["time_over_reference"], subject[error])
     steps = max((s["counts"]["steps"] for s in subjects), default=0)
-    rows.append(text(20, 220, f"% of {'the steps that its contract takes' if of_peers else f'{steps} steps'}",
+    rows.append(text(20, 220, f"% of {'the steps within the contract' if of_peers else f'{steps} steps'}",
                      "middle", ' transform="rotate(-90 20 220)"'))
-    rows.append(text(445, 440, "time of a step over that of exact arithmetic with a plain box tree (bvh)",
+    rows.append(text(445, 440, "time of a step over the time by exact arithmetic with a plain box tree (bvh)",
                      "middle"))
     if of_peers:
         legend = [(looks[s["subject"]], s["subject"]) for s in subjects]

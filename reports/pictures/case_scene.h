@@ -60,7 +60,7 @@ struct CaseScene {
   corpus::Case c;  // as fitted to the detector's contract
   std::vector<SceneStep> steps;
   std::optional<detector::Surface> surface;    // the mesh and its ghosts; nothing if it was refused
-  properties::Claims claims;                   // that are judged under the contract
+  properties::Claims claims;                   // the claims that are judged under the contract
   properties::Contract contract;               // by which the case is judged
   bool reports_pairs = true;                   // false: the detector reports no pairs
   std::string ending;                          // how the detector's run broke off; else empty
@@ -94,7 +94,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
 const detector::PairContact* contact_of(const std::vector<detector::PairContact>& contacts,
                                         const std::optional<detector::TrianglePair>& pair);
 
-// Gives view sets the names and colours of pages and pictures.
+// The names and colours of view sets in pages and pictures.
 
 // The view set of a triangle over a step. A triangle in doubt is `dirty` or `violated` whatever its
 // sign is, as in the search for pairs.

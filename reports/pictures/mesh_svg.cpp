@@ -318,7 +318,7 @@ std::string strip_svg(const CaseScene& scene, const std::string& title) {
   std::string out = sheet(width * static_cast<double>(times.size()), picture + 2 * row, title);
   for (std::size_t i = 0; i < times.size(); ++i) {
     Caption caption;
-    caption.add(fmt::format("t = {:.6g}{}", times[i], i == 1 ? ": they meet" : ""));
+    caption.add(fmt::format("t = {:.6g}{}", times[i], i == 1 ? ": the pair meets" : ""));
     out += fmt::format("<g transform=\"translate({:.0f},0)\">\n", width * static_cast<double>(i)) +
            drawing.body(i) + caption.rows() + "</g>\n";
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times whole sequences with culling auto and with culling bvh, for the top README.
+"""Measures the time of whole sequences with culling auto and with bvh, for the top README.
 
 usage: sequences.py ASSAY OUT.svg [--data DIR] [--scenes NAME...] [--rounds N]
 
@@ -85,7 +85,7 @@ def chart(sequences):
 
 
 def main():
-    p = argparse.ArgumentParser(description="Times whole sequences by auto and by bvh")
+    p = argparse.ArgumentParser(description="Times whole sequences with culling auto and with culling bvh")
     p.add_argument("assay")
     p.add_argument("out", type=Path)
     p.add_argument("--data", type=Path, default=Path("../shared/data"))

@@ -16,11 +16,11 @@ BUILD = SOURCES / "build" / "release"
 
 class BuildPy(build_py):
     """Builds the package with its modules, the plug-in that serves detectors in Python, the
-    programs, and the files that these read."""
+    programs, and the files that the programs read."""
 
     def run(self):
         super().run()
-        # That of a virtual environment is a link to it; then nothing is configured anew.
+        # The Python of a virtual environment is a link to this one; so nothing is configured anew.
         python = getattr(sys, "_base_executable", sys.executable)
         configure = ["cmake", "--preset", "release", f"-DASSAY_PYTHON={python}"]
         subprocess.run(configure, cwd=SOURCES, check=True)

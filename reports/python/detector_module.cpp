@@ -48,7 +48,7 @@ void threads_in_this_process(std::uint32_t threads) {
   pid_t first = 0;
   if (!process.compare_exchange_strong(first, ::getpid()) && first != ::getpid())
     throw std::runtime_error(
-        "threads: the parent of this process had several; use 1, or spawn this process");
+        "threads: the parent of this process had several threads; use 1, or spawn this process");
 }
 
 class PythonDetector {

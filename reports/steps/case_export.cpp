@@ -105,11 +105,9 @@ static const Case the_case = {{
 constexpr const char* mesh_about =
     "// The mesh: vertex indices of each triangle, counter-clockwise seen from outside.";
 constexpr const char* query_about =
-    "// The step of four points: a vertex and the three corners of a face, or the two ends of one "
-    "edge\n"
-    "// and the two of another. The question is whether these two features meet; these triangles "
-    "only\n"
-    "// hold them.";
+    "// The step of four points: a vertex and the three corners of a face, or the end points of "
+    "two\n"
+    "// edges. The question is whether the two features meet; the triangles only contain them.";
 
 constexpr const char* filled_in_program = R"(
 #ifndef CASE_ARRAYS_ONLY
@@ -177,7 +175,7 @@ std::string case_text(const corpus::Case& c, const properties::DetectorUnderTest
       fmt::format("// Case {}, with the exact answer to each step.\n// Contract: {}.\n", c.id,
                   phrases.empty() ? "leaves nothing out" : join(phrases, ", "));
   if (contract.separation > 0) out += "// `Meet` means here: come within that distance.\n";
-  if (c.counted) out += "// Only pairs that count: `counted` of case.json says which do.\n";
+  if (c.counted) out += "// Only some pairs count: `counted` of case.json says which.\n";
   const auto claims_text = asked_text(detector, query.has_value(), claim);
   const bool is_float = contract.coordinates == properties::Coordinates::float32;
   return out +

@@ -15,7 +15,7 @@ namespace assay::reports {
 // FOLDER/case.json, FOLDER/case.cpp, and a second C++ file whose program asks the detector about
 // the case.
 //
-// FOLDER/case.cpp needs C++17 and FOLDER/exported_case.h alone. It holds mesh and frames, or the
+// FOLDER/case.cpp needs only C++17 and FOLDER/exported_case.h. It holds mesh and frames, or the
 // four points of a query (properties/worker/plugin/query_case.h); for each step the oracle's
 // contacts that count under the contract, with their times as decimals and as fractions, and the
 // other pairs that may be reported; a function that the user fills in; and a main() that checks the

@@ -28,7 +28,7 @@ struct Step {
   bool commit, collision;
   double lo, hi;
   const char *lo_as_fraction, *hi_as_fraction;
-  std::vector<Pair> pairs;  // that meet
+  std::vector<Pair> pairs;  // the pairs that meet
   // Pairs that the detector may report, though not before their first time: contacts that the
   // contract leaves out, or all pairs that come within the contract's margin.
   std::vector<Pair> allowed;
@@ -80,11 +80,11 @@ struct Found {
   bool filled_in = false;
   bool collision = false;
   double lo = 0, hi = 1;         // the interval of the first contact time; [0, 1]: not stated
-  std::vector<Pair> pairs;       // that meet, each with the interval of its first time
+  std::vector<Pair> pairs;       // the pairs that meet, each with the interval of its first time
   std::vector<Pair> candidates;  // of a broad phase; their times do not matter
   double share = -1;             // the share of the step that a limiter allows; -1: not stated
   std::vector<double> stop;      // the positions at which a limiter stops the caller; else empty
-  bool is_answered = true;       // false: undecided, or a broad phase alone
+  bool is_answered = true;       // false: undecided, or only a broad phase
   std::string error;             // why there is no answer; empty if there is an answer
 };
 

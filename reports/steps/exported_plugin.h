@@ -155,7 +155,7 @@ class Plugin {
       if (succeeded("limit", api_->limit(handle, x_t0, way.data(), &raw), found)) {
         found.share = raw.share;
         if (raw.share != -1 && !(raw.share >= 0 && raw.share <= 1))
-          found.error = "its share is not from 0 to 1";
+          found.error = "limit gives a share that is not from 0 to 1";
         // If no positions are given, a share of 1 stands for the end, and any other for the start.
         const double* const stop = raw.positions    ? raw.positions
                                    : raw.share == 1 ? case_.frame(step.to)
@@ -240,7 +240,7 @@ inline int ask_library(const Case& c, const assay_counted_pairs* counted, int ar
   std::string elsewhere;
   if (argc == 2 && !ask_elsewhere(argv[1], elsewhere)) {
     const bool is_wrong = is_asked(c, Claim::total);
-    std::printf("it crashed or exited%s\n", is_wrong ? ", which breaks total" : "");
+    std::printf("the library crashed or exited%s\n", is_wrong ? ", which breaks total" : "");
     return is_wrong ? 1 : 0;
   }
   if (api->abi_version >= 2 && api->use_threads) api->use_threads(1);
@@ -249,7 +249,7 @@ inline int ask_library(const Case& c, const assay_counted_pairs* counted, int ar
   if (argc > 2) return write(std::atoi(argv[2]), text.data(), text.size()) < 0 ? 2 : 0;
   const std::vector<Found> again = plugin.run();
   bool wrong = is_asked(c, Claim::deterministic) && elsewhere != text;
-  if (wrong) std::printf("breaks deterministic: in another process it answers differently\n");
+  if (wrong) std::printf("breaks deterministic: another process gets another answer\n");
   for (std::size_t s = 0; s < c.steps.size(); ++s)
     wrong = is_wrong(c, s, found[s], again[s]) || wrong;
   return wrong ? 1 : 0;

@@ -80,7 +80,7 @@ std::string limits_text(const properties::LimitUse& use) {
       "99 of 100 at least {:.3g}, worst {:.3g}; {} stalls{}\n",
       use.contact, use.share(0.5), use.share(0.01), use.share(0), use.stalled(),
       use.excused > 0
-          ? fmt::format("; {} less than claimed, perhaps because of rounding", use.excused)
+          ? fmt::format("; {} used less than claimed, perhaps because of rounding", use.excused)
           : "");
   for (const auto& [cause, count] : use.stalls)
     text += fmt::format("  stalled {} time{}: {}\n", count, count == 1 ? "" : "s", cause);
@@ -157,8 +157,8 @@ std::string found_text(const Json& power) {
 std::string measures_head(bool of_queries) {
   const char* noun = of_queries ? "queries" : "steps";
   return fmt::format(row_format, fmt::format("free {} answered collision", noun), "answered free",
-                     "spurious", fmt::format("late: {} by median, to worst", noun),
-                     fmt::format("early: {} by median, to worst", noun), "left out",
+                     "spurious", fmt::format("late: {} by median (99 %) to worst", noun),
+                     fmt::format("early: {} by median (99 %) to worst", noun), "left out",
                      "candidates / least");
 }
 
@@ -207,8 +207,8 @@ std::string measures_text(const properties::RunFindings& findings) {
   const bool alone = properties::asks_queries_alone(findings.run.plan);
   std::string out = fmt::format(
       "whatever is claimed (rates in %, with intervals of 95 %; late, early: how many first times "
-      "are after or before the oracle's, and by which share of the step: median, 99 %, worst; left "
-      "out: cases + steps)\n{:24} {}\n",
+      "are after or before the oracle's time, and by which share of the step: median, 99 %, worst; "
+      "left out: cases + steps)\n{:24} {}\n",
       "stratum", measures_head(alone));
   for (const auto& stratum : findings.run.plan.strata)
     out += fmt::format("{:24} {}\n", stratum.family,
@@ -216,11 +216,11 @@ std::string measures_text(const properties::RunFindings& findings) {
                                     properties::is_query_family(stratum.family)));
   const auto all = findings.tally.counts.measures;
   out += fmt::format("{:24} {}\n", "all", measures_row(all, alone));
-  if (all.refused > 0) out += fmt::format("refused: capacity, in {} steps\n", all.refused);
+  if (all.refused > 0) out += fmt::format("`refused: capacity` in {} steps\n", all.refused);
   if (all.left_out_misses > 0)
     out += fmt::format(
         "in {} steps the detector does not report a contact, as its contract allows ({}): without "
-        "this contract they would be misses\n",
+        "this contract these steps would be misses\n",
         all.left_out_misses, join(pairs_left_out(findings.run.detector.contract), ", "));
   out += limits_text(all.errors.limits) + repeated_text(findings.evidence);
   for (const auto& [claim, reason] : properties::not_judged(findings))

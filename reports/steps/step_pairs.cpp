@@ -68,7 +68,7 @@ std::string StepContacts::text(std::size_t most) const {
     out += "\n";
   }
   if (order.size() > count)
-    out += fmt::format("  ... {} more in contact: --json names all\n", order.size() - count);
+    out += fmt::format("  ... {} more pairs in contact: --json names all\n", order.size() - count);
   if (is_at_rest && count > 0 && pairs.size() <= most_told_apart) {
     const auto touching = std::count(kinds.begin(), kinds.end(), touching_mark);
     out += fmt::format("  crossing: {}, touching: {}\n",
@@ -129,7 +129,7 @@ std::string rest_text(const std::vector<detector::PairContact>& pairs,
                     pairs_text(count)));
   }
   if (counts.size() > most_listed)
-    list.push_back(fmt::format("and {} more", counts.size() - most_listed));
+    list.push_back(fmt::format("and {} more pairs of bodies", counts.size() - most_listed));
   return join(list, ", ");
 }
 
@@ -290,13 +290,13 @@ class PairStory {
 
   std::string rule_text(const detector::StepResult& result) const {
     if (!is_asked_) return "a common vertex: a separation leaves such pairs out";
-    if (!bodies_meet_) return "bodies that do not meet: not searched (L19)";
+    if (!bodies_meet_) return "these bodies are said not to meet: not searched (L19)";
     if (component(pair_.a) != component(pair_.b)) return "two components: always a candidate (L10)";
     if (result.doubts.empty()) return "no view sets: every pair is a candidate";
     const oracle::Candidates k(
         {result.signs.begin(), result.signs.begin() + case_.triangles.rows()}, result.doubts);
-    return k.holds(pair_) ? "in K: a candidate (L3)"
-                          : "not in K: tested only when the closure reaches it (L7)";
+    return k.holds(pair_) ? "a candidate, because it is in K (L3)"
+                          : "no candidate (not in K): tested only if the closure reaches it (L7)";
   }
 
   const corpus::Case& case_;

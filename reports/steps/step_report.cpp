@@ -75,7 +75,7 @@ std::string diff_text(const properties::StepDiff& diff, const ShownWork& work) {
             (has_features ? fmt::format(" ({})\n", properties::name_of(one.feature.kind)) : "\n");
     }
     if (items.size() > most_listed)
-      out += fmt::format("  ... {} more\n", items.size() - most_listed);
+      out += fmt::format("  ... {} more pairs\n", items.size() - most_listed);
   };
   list("missing", diff.missing);
   list("spurious", diff.spurious, work.has_stages);
@@ -102,15 +102,16 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
                                                : "");
 }
 
-// Returns " limit: 0.71 of the step, contact ahead at t = 0.75; contact on the way at t = 0.9".
+// Returns "limit: 0.71 of the step, contact ahead at t = 0.75; contact at t = 0.9 of the way
+// there".
 std::string limit_text(const properties::LimitDiff& limit) {
   std::string out = fmt::format("  limit: {:.9g} of the {}", limit.way,
-                                limit.share < 0 ? "way, as positions" : "step");
+                                limit.share < 0 ? "way of the step, stated as positions" : "step");
   out += limit.ahead ? fmt::format(", contact ahead at t = {}", time_text(*limit.ahead))
                      : ", which has no contact";
   if (limit.hit)
-    out += fmt::format("; contact on the way at t = {} of it", time_text(limit.hit->time));
-  if (limit.is_excused) out += "; less than claimed, perhaps because of rounding";
+    out += fmt::format("; contact at t = {} of the way there", time_text(limit.hit->time));
+  if (limit.is_excused) out += "; this is less than claimed, perhaps because of rounding";
   if (!limit.stall.empty()) out += "; stalls, " + limit.stall;
   return out + "\n";
 }
@@ -311,7 +312,8 @@ std::string second_opinion_text(const oracle::SecondOpinion& opinion, double mil
   for (std::size_t i = 0; i < std::min(list.size(), most_listed); ++i) {
     out += contradiction_text(list[i]);
   }
-  if (list.size() > most_listed) out += fmt::format("  ... {} more\n", list.size() - most_listed);
+  if (list.size() > most_listed)
+    out += fmt::format("  ... {} more contradictions\n", list.size() - most_listed);
   return out;
 }
 

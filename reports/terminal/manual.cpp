@@ -16,7 +16,7 @@ constexpr const char* keeping = "Runs and certificates";
 constexpr std::array meanings = {"all claims hold",
                                  "a defect",
                                  "usage or input error",
-                                 "too much undecided",
+                                 "too much is undecided",
                                  "the harness failed its own check",
                                  "collision, with --fail-on-collision"};
 
@@ -35,7 +35,7 @@ const std::vector<VerbManual>& verb_manuals() {
        "",
        {{"assay check bend/frame_*.ply", "The built-in detector on the steps of a mesh"},
         {"assay check --detector ./detector.so frame_0.obj frame_1.obj --keep kept",
-         "Your own detector; failing steps are kept, shrunk"},
+         "Your own detector; failing steps are shrunk and kept"},
         {"assay check simulation.log --keep kept-of-log",
          "The answers that a simulator recorded; failing steps are kept"},
         {"assay check queries_vf.csv --method detector-exact",
@@ -49,7 +49,8 @@ const std::vector<VerbManual>& verb_manuals() {
          "The same for your own detector; the first run has found the planted faults"},
         {"assay run --campaign smoke --share 1/2 --seed 2 --power run --detector ./detector.so "
          "--out half",
-         "Half of the campaign under another seed, with a certificate to be judged with others"}}},
+         "Half of the campaign, under a seed of its own; `assay verify DIR... --out DIR` joins the "
+         "halves into one certificate"}}},
       {"certify",
        judging,
        "01234",
@@ -67,23 +68,23 @@ const std::vector<VerbManual>& verb_manuals() {
        "012345",
        "",
        {{"assay replay smoke:1:closed-generic:5 --why 0,1",
-         "A case of a campaign again, and why two of its triangles were tested"},
+         "Runs a case of a campaign again, and says why two of its triangles were tested"},
         {"assay replay simulation.log#2 --export step-2",
-         "A step of a log again, as OBJ and C++"}}},
+         "Runs a step of a log again, and writes it as OBJ and C++"}}},
       {"shrink",
        failing,
        "0123",
        "the case holds, so there is nothing to shrink",
        {{"assay shrink bend/frame_0000.ply bend/frame_0001.ply --detector ./detector.so --out "
          "smallest.json",
-         "The smallest mesh on which the detector fails as on these frames"}}},
+         "The smallest mesh on which the detector fails in the same way as on these frames"}}},
       {"verify",
        keeping,
        "01234",
        "",
        {{"assay verify certified", "A certificate against the stores beside it"},
         {"assay verify certified --again 0.01",
-         "The same, and one of a hundred trials is run once more"},
+         "The same, and one of a hundred trials runs once more"},
         {"assay verify certified half --out both", "Runs under different seeds, judged together"}}},
       {"report",
        keeping,
@@ -100,7 +101,7 @@ const std::vector<VerbManual>& verb_manuals() {
        beside_the_verbs,
        "01234",
        "no method contradicts another",
-       {{"assay self-test --queries 1000", "The oracle against every other method, in short"}}}};
+       {{"assay self-test --queries 1000", "The oracle against every other method, briefly"}}}};
   return rows;
 }
 

@@ -135,10 +135,10 @@ Check whole_number() {
 void add_limits(CLI::App& verb, std::optional<double>& seconds,
                 std::optional<std::uint64_t>& bytes) {
   add(verb, "--time SECONDS", seconds,
-      "Limit in seconds of processor time, all threads together; then the rest is undecided")
+      "Limit of processor time in seconds, all threads together; the rest is undecided then")
       ->check(positive())
       ->group(OptionGroup::limits);
-  add_choice(verb, "--memory SIZE", bytes, "a whole number above 0, alone or with K, M or G",
+  add_choice(verb, "--memory SIZE", bytes, "a whole number above 0, perhaps with K, M or G",
              memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)")
       ->group(OptionGroup::limits);
 }
@@ -147,7 +147,7 @@ void add_jobs(CLI::App& verb, int& jobs) {
   jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   // The number of cores is no part of the manual, for it is another on every machine.
   add(verb, "--jobs N", jobs,
-      "Threads of the oracle (default: all cores); the result does not depend on it")
+      "Number of threads of the oracle (default: all cores); the result does not depend on it")
       ->check(in_range(1, 1024))
       ->group(OptionGroup::limits);
 }
@@ -175,7 +175,7 @@ CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const s
       add(verb, "--detector LIB.so", detector.library, about)->group(OptionGroup::detector);
   add_choice(verb, "--isolation", detector.isolation, "bubblewrap, limits",
              from_name<properties::Isolation>,
-             "Isolation of the plug-in's process: bubblewrap, or limits alone (default: bubblewrap "
+             "Isolation of the plug-in's process: bubblewrap, or only limits (default: bubblewrap "
              "where it works)")
       ->group(OptionGroup::detector);
   return library;
@@ -193,7 +193,7 @@ CLI::Option* add_detector(CLI::App& verb, DetectorWords& detector, const std::st
 
 void add_threads(CLI::App& verb, std::uint64_t& threads) {
   add(verb, "--threads N", threads,
-      "How many threads the detector may use; 0: all cores, or 1 for a plug-in")
+      "How many threads the detector may use; 0: 1 for a plug-in, else all cores")
       ->check(in_range(0, most_threads))
       ->capture_default_str()
       ->group(OptionGroup::detector);

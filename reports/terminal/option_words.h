@@ -44,7 +44,7 @@ struct VerbManual {
 // a plug-in.
 const std::vector<VerbManual>& verb_manuals();
 
-constexpr const char* beside_the_verbs = "Beside it";
+constexpr const char* beside_the_verbs = "Help and version";
 
 // Returns all exit codes as lines, and which code is used if several apply.
 std::string exit_codes_text();
@@ -88,7 +88,7 @@ using properties::DetectorPart;
 struct DetectorWords {
   std::string library;  // of a plug-in; empty: the built-in detector
   std::optional<properties::Isolation> isolation = {};  // nothing: bubblewrap where it works
-  std::uint64_t threads = 1;                            // threads that it may use
+  std::uint64_t threads = 1;                            // how many the detector may use
   DetectorPart part = DetectorPart::by_library;
 };
 

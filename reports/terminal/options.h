@@ -93,8 +93,7 @@ void add_part(CLI::App& verb, DetectorPart& part);
 // Adds the options --detector, --isolation and --threads. Returns the option --detector.
 CLI::Option* add_detector(
     CLI::App& verb, DetectorWords& detector,
-    const std::string& about =
-        "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
+    const std::string& about = "A plug-in's library, or python:MODULE:CLASS (default: built-in)");
 // add_detector_alone adds --detector and --isolation. add_threads adds --threads, where 0 means all
 // cores.
 CLI::Option* add_detector_alone(CLI::App& verb, DetectorWords& detector, const std::string& about);

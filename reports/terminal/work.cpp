@@ -92,7 +92,7 @@ bool Limits::exceeded() {
 
 void Limits::memory_failed() {
   if (!limit_text_.empty()) return;
-  limit_text_ = "memory of this machine";
+  limit_text_ = "memory limit of this machine";
   is_out_of_memory_ = true;
 }
 
@@ -207,7 +207,7 @@ Expected<void> may_write(const std::vector<std::string>& outputs,
     BOOST_OUTCOME_TRY(may_write_one(output, inputs));
     std::error_code ignored;
     if (!output.empty() && !files.insert(fs::weakly_canonical(output, ignored)).second)
-      return Problem{output + ": two outputs are this one file"};
+      return Problem{output + ": two outputs have this path"};
   }
   return outcome::success();
 }

@@ -24,7 +24,7 @@ enum ExitCode : int {
   exit_usage = 2,      // usage or input error: only one line on stderr
   exit_undecided = 3,  // a step ended at a limit
   exit_unsound = 4,    // the harness failed a check of itself
-  exit_collision = 5,  // with --fail-on-collision: agreement, and a collision
+  exit_collision = 5,  // with --fail-on-collision: a collision, and no defect
 };
 
 using corpus::Expected;
@@ -145,7 +145,7 @@ class PlainProgress {
   std::chrono::steady_clock::time_point last_;
 };
 
-// Shows on stderr the phase of the work and the seconds that all of it has taken so far.
+// Shows on stderr the phase of the work, and the seconds that the whole work has taken so far.
 class Progress {
  public:
   explicit Progress(std::string title,

@@ -81,8 +81,8 @@ void add_options(CLI::App& verb, BenchRequest& request) {
   auto* suite = add(verb, "--suite NAME", request.suite, "What to measure: " + names)
                     ->check(one_of(names, suite_named));
   add_detector(verb, request.detector,
-               "In place of a suite: a plug-in's library, timed beside the built-in detector on "
-               "scenes and public sequences, its answers judged by its claims")
+               "In place of a suite: a plug-in's library. It is timed beside the built-in detector "
+               "on scenes and public sequences, and its answers are judged by its claims")
       ->excludes(suite);
   add(verb, "--case-seconds SECONDS", request.settings.case_seconds,
       "Processor seconds that a plug-in may take for a sequence")
@@ -97,8 +97,8 @@ void add_options(CLI::App& verb, BenchRequest& request) {
       "so");
   request.settings.peers = (properties::worker_program().parent_path() / "peers").string();
   add(verb, "--peers DIR", request.settings.peers,
-      "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
-      "`peers` builds them)");
+      "For --suite peers: the folder of the plug-ins (default: the folder peers beside the "
+      "program, where target `peers` builds them)");
   add(verb, "--json FILE", request.json_file, "Write all figures here (assay-bench/2)")
       ->group(OptionGroup::output);
   add(verb, "--csv FILE", request.csv_file, "Write the raw samples here")

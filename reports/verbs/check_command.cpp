@@ -111,7 +111,7 @@ Expected<void> refuse_options(Kind kind, const std::string& file,
     }
     if (!last_row)
       return Problem{
-          fmt::format("{}is for {}, but this is {} ({}): leave it out, or assay check {} {}",
+          fmt::format("{}is for {}, but the input is {} ({}): leave it out, or assay check {} {}",
                       name_in(word).substr(1), join(corpus::names_among(takers), " or "),
                       all[0].name, file, takers[0].input, word)};
     const auto is_beside = [&](const std::string& other) {
@@ -168,10 +168,10 @@ Expected<Kind> kind_of(const std::vector<std::string>& inputs, const BodyWords& 
   if (words_of_bodies.empty()) return kind == frames && files.size() == 1 ? rest : kind;
   if (kind != frames)
     return Problem{
-        fmt::format("--body takes frames, and {}: assay check {}", text(0), shell_word(files[0]))};
+        fmt::format("--body takes frames, but {}: assay check {}", text(0), shell_word(files[0]))};
   if (!inputs.empty())
     return Problem{fmt::format(
-        "{} and --body do not go together: assay check --body FRAME... for each mesh", files[0])};
+        "{} and --body do not go together: assay check --body FRAME... --body FRAME...", files[0])};
   return bodies;
 }
 
@@ -309,7 +309,7 @@ Expected<int> run_check(const CheckRequest& request) {
       kind, request.inputs.empty() ? request.question.bodies[0][0] : request.inputs[0],
       request.option_texts()));
   if (kind == a_log && !request.question.detector.library.empty() && request.keeping.folder.empty())
-    return Problem{"--detector is asked about kept steps: name a folder for them by --keep"};
+    return Problem{"for a log, --detector answers only kept steps: name their folder by --keep"};
   if (const auto& which = request.selection;
       kind == a_log && (which.share < 1 || which.from > 1) &&
       std::ranges::any_of(request.inputs,
@@ -348,10 +348,10 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add(verb, "INPUT", request.inputs,
       "Frames of a mesh (OBJ, PLY, OFF; .gz too), whose steps are judged; one frame is a mesh at "
       "rest. Or one case file (.json). Or logs of a recorder (assay_record.h, assay.Recorder), "
-      "each judged by itself; LOG#N is step N alone. Or query files (.csv, .csv.gz)");
+      "each judged by itself; LOG#N is only step N. Or query files (.csv, .csv.gz)");
   add(verb, "--body FRAME", question.bodies,
-      "The frames of one body, for a mesh of several bodies, which are numbered from 0. A body of "
-      "one frame stands still");
+      "The frames of one body, if the mesh has several bodies. Each --body is one body; bodies are "
+      "numbered from 0. A body of one frame stands still");
   add(verb, "--apart A,B", request.apart,
       "A,B: bodies that do not meet; A,A: a body that does not meet itself")
       ->check(one_of("A,B: two bodies by number", two_numbers));
@@ -363,11 +363,11 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "Pairs of triangles that are nearer than this in the first frame do not count")
       ->check(length());
   verb.add_flag("--weld", request.weld,
-                "Vertices of a body that stand at one place in every frame count as one");
+                "Vertices of a body that stand at one place in every frame count as one vertex");
   add_selection(verb, request.selection);
   add_query_options(verb, request.queries);
   add_detector_alone(verb, question.detector,
-                     "A plug-in's library, or python:MODULE:CLASS (default: the built-in). For "
+                     "A plug-in's library, or python:MODULE:CLASS (default: built-in). For "
                      "queries: its query function answers. For a log: a plug-in with the recorded "
                      "detector's code, to shrink the kept steps");
   add_threads(verb, question.threads);
@@ -375,7 +375,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "Judge the answers of this table (step,answer,time) in place of a detector");
   add_choice(verb, "--adjacency", question.adjacency, all_names<properties::Adjacency>(),
              from_name<properties::Adjacency>,
-             "Which neighbours the answers of --answers cover (default all)");
+             "Which pairs of neighbours the answers of --answers cover (default all)");
   auto& built_in = question.built_in;
   add_choice(verb, "--culling", built_in.culling, all_names<detector::Culling>(),
              from_name<detector::Culling>, "How the detector culls (default auto)");
@@ -385,7 +385,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
              from_name<detector::Pairs>, "Which pairs are asked for (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
-  verb.add_flag("--no-oracle", question.no_oracle, "Run the detector alone; prints `not judged`");
+  verb.add_flag("--no-oracle", question.no_oracle, "Run only the detector; prints `not judged`");
   add(verb, "--second-opinion SHARE", question.second_opinion,
       "Check the oracle itself by other methods, on this share of its questions")
       ->check(share());
@@ -409,7 +409,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
       "for a plug-in, shrunk")
       ->group(OptionGroup::output);
   add(verb, "--shrink-time SECONDS", request.keeping.shrink_seconds,
-      "For a log: the most seconds for shrinking a step")
+      "For a log: time limit in seconds for shrinking a step")
       ->check(positive())
       ->capture_default_str()
       ->group(OptionGroup::limits);

@@ -198,8 +198,8 @@ class QueryScore {
       of_distance =
           fmt::format(" ({}{}{})", of_distance_, within_text(range->front()),
                       range->front() < range->back() ? fmt::format(" to {}", range->back()) : "");
-    fmt::print("{}: {} queries{}, {} yes, {} without a label{}\n", r.method, r.count, of_distance,
-               r.yes, r.unlabelled,
+    fmt::print("{}: {} queries{}, {} answers yes, {} without a label{}\n", r.method, r.count,
+               of_distance, r.yes, r.unlabelled,
                method_ && method_->is_referee
                    ? fmt::format(", {} open, {} contradictions", r.open, r.contradictions)
                    : "");
@@ -219,8 +219,8 @@ class QueryScore {
                            : "; the oracle contradicts the label as well");
     }
     if (r.differences.size() > most_listed)
-      fmt::print("  ... {} more\n", r.differences.size() - most_listed);
-    fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
+      fmt::print("  ... {} more differences\n", r.differences.size() - most_listed);
+    fmt::print("microseconds: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
                r.mean_us, r.median_us, r.p99_us, r.p999_us, r.max_us);
     if (!r.rungs) return;
     const char* before = "rungs: ";
@@ -313,14 +313,14 @@ class QueryPlugin {
       fmt::print("DEFECT {}, met {}\n  {}: {}\n", way.signature, properties::times_text(way.met),
                  way.query, way.what);
     if (failures.size() > most_shown)
-      fmt::print("... {} signatures more\n", failures.size() - most_shown);
+      fmt::print("... {} more signatures\n", failures.size() - most_shown);
     for (const auto& [claim, n] : broken) fmt::print("broken: {}, by {} queries\n", claim, n);
     if (!broken.empty()) {
       fmt::print("{} of {} queries break a claim\n", defects_, judged);
     } else if (undecided + not_asked > 0) {
       fmt::print("undecided: {} of {} queries\n", undecided + not_asked, judged + not_asked);
     } else if (judged == 0) {
-      fmt::print("undecided: no query is within its contract\n");
+      fmt::print("undecided: no query is within the plug-in's contract\n");
     } else {
       fmt::print("all claims hold in {} queries\n", judged);
     }

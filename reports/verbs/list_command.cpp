@@ -115,9 +115,9 @@ Expected<int> run_list(const ListRequest& request) {
 
 void add_options(CLI::App& verb, ListRequest& request) {
   const auto names = join(corpus::names_among(lists), ", ");
-  add(verb, "LIST", request.list, "Name of the list; without it, the lists are described: " + names)
+  add(verb, "LIST", request.list, "Name of a list (if missing, all are described): " + names)
       ->check(one_of(names, list_named));
-  add(verb, "DIR", request.folder, "Folder of the run, for failures and slow");
+  add(verb, "DIR", request.folder, "Folder of the run; needed for the lists failures and slow");
 }
 
 }  // namespace

@@ -315,7 +315,7 @@ void add_options(CLI::App& verb, ReplayRequest& request) {
 }  // namespace
 
 VerbAction add_replay(CLI::App& app) {
-  return make_verb(app, "replay", "One case of a campaign again, or a case file", add_options,
+  return make_verb(app, "replay", "Run one case of a campaign again, or a case file", add_options,
                    run_replay);
 }
 

@@ -164,7 +164,7 @@ void add_certify_options(CLI::App& verb, CampaignWords& words) {
       ->group(OptionGroup::output);
 }
 
-constexpr const char* go_on = "; what is stored stays: run the same command again to go on";
+constexpr const char* go_on = "; stored results stay: run the same command again to go on";
 
 Expected<int> conclude(const properties::CampaignRequest& request,
                        const properties::RunFindings& findings, const std::string& out,

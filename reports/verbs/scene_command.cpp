@@ -61,9 +61,9 @@ void add_options(CLI::App& verb, SceneRequest& request) {
   add(verb, "SCENE", request.name,
       "One of `assay list scenes`: " + join(corpus::names_among(corpus::scenes()), ", "))
       ->required();
-  add(verb, "--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own");
+  add(verb, "--mesh FILE", request.mesh_file, "Deform this mesh instead of the scene's own mesh");
   add(verb, "--size N", request.size, "Triangles wanted")->check(in_range(1, 1'000'000'000));
-  add(verb, "--frames N", request.frames, "Frames")->check(in_range(1, 1'000'000'000));
+  add(verb, "--frames N", request.frames, "Number of frames")->check(in_range(1, 1'000'000'000));
   add(verb, "--out DIR", request.out, "Folder for frame_0000.ply, ...")
       ->required()
       ->group(OptionGroup::output);

@@ -131,7 +131,7 @@ void add_options(CLI::App& verb, SelfTestRequest& request) {
       "Number of random small-integer queries; other families in proportion")
       ->check(in_range(1, 1'000'000'000))
       ->capture_default_str();
-  add(verb, "--time SECONDS", request.time_limit, "Limit in seconds; then the rest is undecided")
+  add(verb, "--time SECONDS", request.time_limit, "Limit in seconds; the rest is undecided then")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_jobs(verb, request.jobs);

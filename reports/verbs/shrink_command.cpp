@@ -117,7 +117,7 @@ void add_options(CLI::App& verb, ShrinkRequest& request) {
   add(verb, "--out FILE", request.out, "File for the smallest case")
       ->required()
       ->group(OptionGroup::output);
-  add(verb, "--time SECONDS", request.seconds, "Seconds at most")
+  add(verb, "--time SECONDS", request.seconds, "Time limit in seconds")
       ->check(positive())
       ->capture_default_str()
       ->group(OptionGroup::limits);

@@ -1,8 +1,8 @@
 // The verbs of the command line.
 //
 // There is one file for each verb: NAME_command.cpp holds its request, its options and its action,
-// so that a new option changes one file. `certify` stands beside `run`, because it certifies the
-// shares of `run`; the part of `check` for query files is in check_queries.cpp.
+// so that a new option changes one file. `certify` is in the file of `run`, because it certifies
+// the shares of `run`; the part of `check` for query files is in check_queries.cpp.
 #pragma once
 
 #include "properties/queries/query_methods.h"

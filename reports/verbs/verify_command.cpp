@@ -33,9 +33,9 @@ std::string others_text(const std::vector<std::string>& files) {
   constexpr std::size_t most_named = 3;
   const auto count = std::min(files.size(), most_named);
   return fmt::format(
-      "not looked at, because the certificate does not rest on them: {}{}\n",
+      "the certificate does not rest on these files, so they were not examined: {}{}\n",
       fmt::join(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count), ", "),
-      files.size() > count ? fmt::format(" and {} more", files.size() - count) : "");
+      files.size() > count ? fmt::format(" and {} more files", files.size() - count) : "");
 }
 
 std::uint64_t fresh_seed() {
@@ -95,7 +95,7 @@ Expected<int> run_verify(const VerifyRequest& request) {
     fmt::print("verified: {} of {}, verdict {}\n", predicate["campaign"]["name"].get<std::string>(),
                predicate["detector"]["name"].get<std::string>(),
                predicate["verdict"].get<std::string>());
-    fmt::print("it speaks of {}\n{}", judged_text(predicate), others_text(result.others));
+    fmt::print("the verdict speaks of {}\n{}", judged_text(predicate), others_text(result.others));
     if (request.again) {
       BOOST_OUTCOME_TRY(differs, run_trials_again(file, request));
       if (differs != exit_holds) return differs;
@@ -106,19 +106,19 @@ Expected<int> run_verify(const VerifyRequest& request) {
 }
 
 void add_options(CLI::App& verb, VerifyRequest& request) {
-  add(verb, "CERTIFICATE", request.certificates, "OUT/certificate.json, or OUT")->required();
+  add(verb, "CERTIFICATE", request.certificates, "Folder, or its certificate.json")->required();
   add(verb, "--out DIR", request.out,
       "Folder for one certificate of all these runs: shares of one campaign, or whole campaigns, "
       "each under a seed of its own")
       ->group(OptionGroup::output);
   add(verb, "--again SHARE", request.again,
-      "Run this SHARE of the trials, above 0, at most 1, once more; the results must be the stored "
-      "results")
+      "Run this share of the trials again (above 0, at most 1); their results must equal the "
+      "stored results")
       ->check(share());
   add(
       verb, "--seed N",
       [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
-      "Seed for the choice of trials by --again (default: a fresh one, printed)")
+      "Seed for the choice of trials by --again (default: a fresh seed, which is printed)")
       ->check(whole_number());
   add_detector(verb, request.detector,
                "The certified plug-in's library, for --again (default: its path at the run)");

@@ -154,13 +154,14 @@ struct BenchSubject : properties::Subject {
   bool is_here = false;            // the subject runs in this process
   MakeStages stages = detector::standard_stages;  // of a subject in this process
   bool is_vouched_for = true;                     // true: starts known to be clean are not verified
-  bool must_hold = true;                          // a broken claim is a wrong answer of the suite
+  bool must_hold = true;                          // if this subject breaks a claim, the suite fails
   // The claims by which errors are counted. For every form of the built-in detector these are the
   // claims of exact arithmetic, so that all errors are counted. Arithmetic::double_precision claims
   // no pairs, so by its own claims no missing pair would be an error. For a plug-in, these are its
   // own claims.
   properties::Claims error_claims = {};
-  // If stated, the steps that the subject gets are chosen by this contract in place of its own.
+  // If stated, the steps that the subject gets are chosen by this contract, and not by the contract
+  // of the subject.
   std::optional<properties::Contract> contract_of_input = std::nullopt;
 
   const properties::Contract& contract_of_steps() const {
@@ -174,8 +175,8 @@ struct BenchSubject : properties::Subject {
 // view-auto all".
 BenchSubject variant_of(detector::Arithmetic arithmetic, detector::Culling culling,
                         detector::Pairs pairs);
-// Returns a subject for every arithmetic, every culling, and both Pairs. The first is "exact bvh
-// all".
+// Returns a subject for every arithmetic, every culling, and both values of Pairs. The first is
+// "exact bvh all".
 std::vector<BenchSubject> all_variants();
 
 // Returns the built-in detector in a worker, under a name like "built-in, exact, bvh".
@@ -191,8 +192,8 @@ struct Peers {
 };
 // Returns the built-in detector in three arithmetics, and the peers, which are the libraries
 // NAME.so in the folder: known peers first, then the others by name. A library counts as absent if
-// it cannot be loaded, has no steps, or answers about a distance in place of contact. A known peer
-// without a library is absent too; `why` then says what it lacks.
+// it cannot be loaded, answers no steps, or answers about a distance in place of contact. A known
+// peer without a library is absent too; its `why` says what is missing.
 Peers find_peers(const std::string& folder);
 
 // The counts of answers that the oracle judged.
@@ -230,7 +231,7 @@ struct FamilyRow {
   // reference (the first subject) on the same steps.
   std::vector<double> ms = {}, reference_ms = {}, create_ms = {}, reference_create_ms = {};
   std::uint64_t cases = 0, cases_timed = 0, steps_timed = 0;
-  std::string first_end = {};              // of the first run that stopped early: "CASE: cause"
+  std::string first_end = {};              // the first run that stopped early: "CASE: cause"
   std::vector<std::string> breaches = {};  // broken claims, each once
 
   std::optional<Estimate> over() const;  // ratio to the reference, round by round
@@ -331,13 +332,13 @@ class Comparison {
   std::vector<UnsafeAnswer> unsafe_;
 };
 
-// Returns whether a method other than the oracle's confirms the unsafe diff of step s: that the
-// contact exists which the detector missed or reported too late, or that a missing pair is in
-// contact. Two methods are tried, over the whole step or, for a late contact, before the detector's
-// time. The referee proves without roots that the two features meet (oracle/referee/referee.h).
-// Rational arithmetic looks for a witness: a time at which the features meet, or two times between
-// which they are proved to meet. If the contract asks for all features, it suffices that the two
-// triangles meet. REQUIRES an unsafe diff.
+// Returns whether another method than the oracle confirms the unsafe diff of step s. The diff is
+// confirmed if the contact that the detector missed or reported too late is proved, or if a missing
+// pair is proved to be in contact. Two methods look at the whole step, or, for a late contact, at
+// the part before the detector's time. The referee proves without roots that the two features meet
+// (oracle/referee/referee.h). Rational arithmetic looks for a witness: a time at which the features
+// meet, or two times between which they are proved to meet. If the contract asks for all features,
+// it suffices that the two triangles meet. REQUIRES an unsafe diff.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 
@@ -370,16 +371,16 @@ RunSuite peers_suite;
 
 // Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences.
 // Each detector has a worker of its own, and the two take turns, a whole sequence each time. The
-// built-in detector is asked only for what the plug-in claims. A claim that one of the two
-// detectors breaks is a wrong answer. With a scale below 1, public sequences of more than 10,000
+// built-in detector is asked only for what the plug-in claims. If one of the two detectors breaks a
+// claim, that is a wrong answer. With a scale below 1, public sequences of more than 10,000
 // triangles are left out. REQUIRES a plug-in that has steps; its `limits.seconds` is the processor
 // time that one run of a sequence may take.
 BenchReport detector_suite(const BenchSettings& settings, const properties::Subject& plugin,
                            const BenchProgress& progress);
 
-// Runs suite `stability` over the given families and the given subjects, which run in this process,
-// so that a test can pass subjects that are wrong. The rows are sorted by family, then by subject.
-// There is a wrong answer if a subject with exact arithmetic is wrong, if an answer with bounded
+// Runs suite `stability` over the given families and the given subjects, which run in this process.
+// A test can give it subjects that are wrong. The rows are sorted by family, then by subject. There
+// is a wrong answer if a subject with exact arithmetic is wrong, if an answer with bounded
 // arithmetic is refuted, or if the oracle contradicts the construction of a case.
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          const std::vector<BenchSubject>& subjects, const BenchSettings& settings,

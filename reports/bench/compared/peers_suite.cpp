@@ -96,7 +96,7 @@ std::string sequences_text(const std::vector<FamilyRow>& rows, const BenchSubjec
     has_left_out |= left_out > 0;
     const auto steps =
         left_out ? fmt::format("{}-{}", e.steps + left_out, left_out) : text(e.steps);
-    const auto remark = e.steps == 0           ? " beyond the contract"
+    const auto remark = e.steps == 0           ? " no step within the contract"
                         : row.counts.ended > 0 ? " " + row.first_end
                                                : "";
     table.push_back({{"sequence", -20, row.family},

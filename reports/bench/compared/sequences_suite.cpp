@@ -95,7 +95,7 @@ void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
   // All cullings over bvh, for users who want to choose by themselves.
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto threads = match.subjects[i].configuration.options.threads;
-    add(fmt::format("{}, {} thread{}: time over bvh's", culling(i), threads,
+    add(fmt::format("{}, {} thread{}: time over the time of bvh", culling(i), threads,
                     threads == 1 ? "" : "s"),
         ratio_in_common(sums[i], sums[0]), {},
         fmt::format("{:.2f} ms a step", median_of(sums[i]).value / static_cast<double>(steps)));
@@ -132,7 +132,7 @@ void add_rows(const Match& match, std::uint32_t cores, BenchReport& report) {
   const bool is_asked = cores == 2 && (match.c.id == "rod-twist" || match.c.id == "kick");
   for (const auto& [alone, all] :
        {std::pair(std::size_t{0}, bvh_of_all), std::pair(automatic, automatic_of_all)})
-    add(fmt::format("{}: one thread over {}", culling(alone), cores),
+    add(fmt::format("{}: one thread over {} threads", culling(alone), cores),
         ratio_in_common(sums[alone], sums[all]), goal_if(is_asked, goal::two_threads_gain), "");
 }
 

@@ -42,7 +42,8 @@ void add_errors(std::span<const SubjectRow> rows, BenchReport& report) {
                  exactly(static_cast<double>(count)), goal_if(is_claimed, at_most(0)),
                  std::move(note));
     };
-    const std::string of = fmt::format("of {} steps: all cullings, all and first pairs", all.steps);
+    const std::string of =
+        fmt::format("of {} steps: each --culling, --pairs all and first", all.steps);
     add("wrong answers", all.missed + all.false_alarms, exact, of);
     add("steps with a contact, answered free", all.missed, is_proved, of);
     add("missing pairs", all.missing, is_proved, "");
@@ -64,7 +65,7 @@ void add_families_without_error(std::span<const FamilyRow> rows, BenchReport& re
       const bool is_of_it = row.subject.starts_with(std::string(name_of(arithmetic)) + " ");
       if (is_of_it && errors.unsafe + errors.alarming > 0) right.erase(row.family);
     }
-    report.add(fmt::format("families never wrong, {}", name_of(arithmetic)), "",
+    report.add(fmt::format("families in which {} is never wrong", name_of(arithmetic)), "",
                exactly(static_cast<double>(right.size())), {},
                fmt::format("of {}: {}", all, fmt::join(right, ", ")));
   }

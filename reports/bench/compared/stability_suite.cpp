@@ -156,7 +156,7 @@ std::string break_text(const FamilyCells& row) {
   if (at == row.cells.end())
     return fmt::format("never wrong, {} to {}", family.knob, knob(family.last_strength()));
   const auto text = fmt::format("{} {}", family.knob, knob(at->first));
-  return at == row.cells.begin() ? "wrong at once, " + text
+  return at == row.cells.begin() ? "wrong at the first strength, " + text
                                  : fmt::format("{}, right at {}", text, knob(std::prev(at)->first));
 }
 
@@ -164,8 +164,8 @@ std::string break_text(const FamilyCells& row) {
 std::string time_text(const char* side, const properties::TimesOff& off) {
   if (off.steps == 0) return "";
   return fmt::format(
-      "; first time {} in {}: largest {:.1e} of the step ({:.1e} ulp), median {:.1e}", side,
-      off.steps, off.worst_share, off.worst_ulps, off.quantile(0.5));
+      "; first time {} in {} steps: at most by {:.1e} of the step ({:.1e} ulp), median {:.1e}",
+      side, off.steps, off.worst_share, off.worst_ulps, off.quantile(0.5));
 }
 
 nlohmann::ordered_json json_of(const FamilyCells& row, int strength, const Cell& cell) {
@@ -237,12 +237,12 @@ void add_survival_rows(const std::vector<BenchSubject>& subjects, const Survival
     for (std::size_t i = 0; i < subjects.size(); ++i) {
       const auto& [changes, same] = survivals[k][i];
       const bool must = subjects[i].options.arithmetic == Arithmetic::exact;
-      const auto label =
-          fmt::format("answers that survive {}, {}", case_changes()[k].first, subjects[i].name);
+      const auto label = fmt::format("answers that survive the change {}, {}",
+                                     case_changes()[k].first, subjects[i].name);
       report.add(
           label, "%", exactly(percent(same, changes)), goal_if(must, at_least(100)),
           fmt::format("{} of {} changed steps{}", same, changes, must ? ", times included" : ""));
-      if (must && same < changes) report.wrong_answers.push_back(label + ": not all");
+      if (must && same < changes) report.wrong_answers.push_back(label + ": some do not");
     }
   }
 }

@@ -84,10 +84,10 @@ std::string subjects_text(std::span<const SubjectRow> rows, const std::string& h
   JudgedCounts of[2];  // of peers; of the built-in detector
   for (const auto& row : rows) of[row.subject->detector.built_in ? 1 : 0] += row.counts;
   return text +
-         "answer: a (collision or not), t (first time), p (pairs); each under its own contract\n"
-         "time, create: ratio to built-in, exact, bvh on the same steps, median of families\n"
-         "(n): not claimed (free-sound); late, early: number of steps, worst as a share of a step\n"
-         "slow: cases with a step of more than 5 s, run once; bytes: peak memory for a triangle\n" +
+         "answer: a (collision or not), t (first time), p (pairs); by the detector's contract\n"
+         "time, create: ratio to `built-in, exact, bvh` on the same steps, median over families\n"
+         "(n): free-sound is not claimed; late, early: number of steps, worst share of a step\n"
+         "slow: cases with a step over 5 s, run only once; bytes: peak memory a triangle\n" +
          fmt::format(
              "unsafe answers confirmed by referee or rational witness: {} of {}, built-in "
              "{} of {}\n",
@@ -98,13 +98,13 @@ std::string remarks_text(const Comparison& comparison, std::span<const AbsentPee
   std::string text;
   for (const auto& row : comparison.rows()) {
     if (row.counts.ended > 0)
-      text += fmt::format("ended early: {}, {}: {} of {} cases, first {}\n", row.subject,
-                          row.family, row.counts.ended, row.cases, row.first_end);
+      text += fmt::format("ended early: {}, {}: {} of {} cases; the first of them is {}\n",
+                          row.subject, row.family, row.counts.ended, row.cases, row.first_end);
   }
   for (const auto& [name, why] : absent) text += fmt::format("absent: {}: {}\n", name, why);
   for (const auto& one : comparison.unsafe()) {
     if (!one.is_confirmed)
-      text += fmt::format("unsafe by the oracle alone: {}, case {}, step {}: {}\n", one.subject,
+      text += fmt::format("unsafe, by the oracle only: {}, case {}, step {}: {}\n", one.subject,
                           one.case_id, one.step + 1, one.defect);
   }
   return text;

@@ -32,12 +32,12 @@ export function laws({ findings: { laws: told }, law_statements: statements }: R
     html(
       "p",
       {},
-      html("strong", {}, `${counted(shown.length, "law")} of the theory were put to the cases: ${broken === 0 ? "none was broken" : `${broken} of them were broken`}.`),
-      ` The premise of each held in ${counted(fewest, "step")} or more${wanted > 0 ? `, where ${count(wanted)} are wanted` : ""}. ` +
+      html("strong", {}, `${counted(shown.length, "law")} of the theory were tested on the cases: ${broken === 0 ? "none was broken" : `${broken} of them were broken`}.`),
+      ` The premise of each law held in ${counted(fewest, "step")} or more${wanted > 0 ? `; ${count(wanted)} are wanted` : ""}. ` +
         "A step is close if it almost broke the law or almost left its premise.",
     ),
     bad.length === 0 ? null : rowsOf("Laws that were broken, or met too seldom", bad),
-    shown.length === bad.length ? null : folded(`What they say: ${counted(shown.length - bad.length, "law that holds", "laws that hold")}`, rowsOf("Laws, and how often each was met", shown.filter((l) => !isBad(l)))),
+    shown.length === bad.length ? null : folded(`What ${counted(shown.length - bad.length, "law that holds says", "laws that hold say")}`, rowsOf("Laws, and how often each was met", shown.filter((l) => !isBad(l)))),
   );
 }
 
@@ -55,7 +55,7 @@ export function worlds(f: Findings): HTMLElement | null {
         { head: "world", cell: (w: World) => w.world },
         { head: "classes proved", cell: (w: World) => (w.classes === null ? "\u2013" : count(w.classes)), number: true },
         { head: "motions", cell: (w: World) => (w.motions === null ? "\u2013" : count(w.motions)), number: true },
-        { head: "outcome", cell: (w: World) => w.counterexample ?? (w.complete ? "all of it holds" : "the time was over") },
+        { head: "outcome", cell: (w: World) => w.counterexample ?? (w.complete ? "no counterexample in any motion" : "the time was over") },
       ],
       f.power.worlds,
     ),
@@ -83,7 +83,7 @@ export function cases(f: Findings): HTMLElement {
     "The cases",
     html("h3", {}, "Cases by number of triangles"),
     barPlot("Cases by number of triangles", sizes),
-    html("h3", {}, "Cases by pairs in contact"),
+    html("h3", {}, "Cases by number of pairs in contact"),
     barPlot("Cases by number of pairs in contact", together(distributions.map((d) => d.pairs))),
     sets.length === 0
       ? null

@@ -1,5 +1,5 @@
-// The parts that a certificate adds to a run: the corpus, speed, the checks of the oracle, and the
-// digests of everything that was judged.
+// Shows the parts that a certificate adds to a run: the corpus, speed, the checks of the oracle,
+// and the digests of everything that was judged.
 import { facts, html, section, table } from "./dom";
 import { pasteNote, replayLine } from "./failure_facts";
 import type { Findings, Run } from "./report";
@@ -21,7 +21,7 @@ function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
 }
 
 function corpus(rows: CorpusRow[] | null): HTMLElement {
-  if (rows === null) return section("corpus", "Corpus", html("p", {}, "It was not run."));
+  if (rows === null) return section("corpus", "Corpus", html("p", {}, "The corpus was not run."));
   const open = rows.flatMap((row) => row.open.map((o) => ({ ...o, signature: "no answer", row })));
   const failed = [...rows.flatMap((row) => row.failed.map((f) => ({ ...f, row }))), ...open];
   type Failed = (typeof failed)[number];
@@ -29,11 +29,11 @@ function corpus(rows: CorpusRow[] | null): HTMLElement {
   return section(
     "corpus",
     "Corpus",
-    html("p", {}, "The shipped cases and scenes, judged like the trials; they are no trials, and no bound rests on them."),
+    html("p", {}, "The shipped cases and scenes are judged like the trials, but they are no trials: no bound rests on them."),
     failed.length === 0
       ? null
       : table(
-          "What does not hold",
+          "Cases that do not hold",
           [
             { head: "case", cell: (f: Failed) => f.id },
             { head: "configuration", cell: (f: Failed) => f.row.configuration },
@@ -64,7 +64,7 @@ function speed(f: Findings): HTMLElement | null {
   return section(
     "speed",
     "Speed",
-    html("p", {}, "Ratios of processor times of interleaved steps, with an interval that holds the median with 95 % or more."),
+    html("p", {}, "Each ratio compares processor times of interleaved steps. Its interval contains the median with a confidence of 95 % or more."),
     table(
       "Speed",
       [
@@ -103,9 +103,9 @@ function digests(run: Run): HTMLElement {
   return section(
     "digests",
     run.subject ? "Certificate" : "Digests",
-    html("p", {}, `${run.subject ? "It speaks" : "The run speaks"} of exactly these bytes (SHA-256), and of ${f.confidence.speaks_of}.`),
+    html("p", {}, `${run.subject ? "The certificate speaks" : "The run speaks"} of exactly these bytes (SHA-256), and of ${f.confidence.speaks_of}.`),
     facts(rows),
-    ...(f.replay.length === 0 ? [] : [html("h3", {}, "To make and to verify it"), ...f.replay.map(replayLine), pasteNote(run)]),
+    ...(f.replay.length === 0 ? [] : [html("h3", {}, "To repeat the run and to verify the certificate"), ...f.replay.map(replayLine), pasteNote(run)]),
   );
 }
 

@@ -42,19 +42,19 @@ const said = ({ answer, first_time }: Answer): string =>
   first_time === null ? answer : `${answer}, first contact ${time(first_time)}`;
 
 export function pasteNote({ folder, subject }: Run): HTMLElement {
-  return html("p", { class: "note" }, `To be pasted in the folder of this ${subject ? "certificate" : "run"} (${folder}), where assay is on the PATH.`);
+  return html("p", { class: "note" }, `Paste into a shell in the folder of this ${subject ? "certificate" : "run"} (${folder}). The shell has to find assay on its PATH.`);
 }
 
 export function failureFacts(run: Run, failure: Failure): HTMLElement {
   const rows: [string, string | null][] = [];
   const law = failure.configuration.split(", law ")[1];
   rows.push([law ? "Law" : "Claim", law ?? failure.signature.split(":")[0] ?? null]);
-  if (law) rows.push(["It says", run.law_statements[law] ?? null]);
+  if (law) rows.push(["The law says", run.law_statements[law] ?? null]);
   rows.push(["Configuration", failure.configuration]);
   rows.push(["Case", failure.case]);
   rows.push(["As met", failure.before ? size(failure.before) : null]);
   rows.push(["Smallest", failure.after ? size(failure.after) : "not shrunk"]);
-  rows.push(["Stage that lost it", failure.stage]);
+  rows.push(["Stage that lost the pair", failure.stage]);
   const scene = failure.scene;
   if (scene && scene.steps.length > 0) {
     const step = scene.steps[scene.shown.step]!;
@@ -72,7 +72,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
     ]);
   }
   if (failure.now && failure.now !== failure.what) rows.push(["In the mesh as met", failure.what]);
-  if (failure.flaky) rows.push(["Repeatable", "no: its case alone gives another result"]);
+  if (failure.flaky) rows.push(["Repeatable", "no: the case gives another result if it runs by itself"]);
   const others = failure.others.map((o) =>
     html("li", {}, `${o.id} (${o.configuration}): ${o.what}`, replayLine(o.replay)),
   );
@@ -83,7 +83,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
     replayLine(failure.replay),
     pasteNote(run),
     facts(rows),
-    failure.printed === null ? null : folded("What it printed", html("pre", { class: "printed" }, failure.printed)),
-    others.length === 0 ? null : folded(`${others.length} more of this kind`, html("ul", { class: "others" }, ...others)),
+    failure.printed === null ? null : folded("What the plug-in printed", html("pre", { class: "printed" }, failure.printed)),
+    others.length === 0 ? null : folded(`${others.length} more failures of this kind`, html("ul", { class: "others" }, ...others)),
   );
 }

@@ -12,7 +12,7 @@ import { picture, staticPicture, Viewer } from "./viewer/viewer";
 export interface FailuresView {
   element: HTMLElement;
   all: Failure[];
-  open: (name: string) => HTMLElement | null; // the place where it is shown; null: there is none of this name
+  open: (name: string) => HTMLElement | null; // where the failure is shown; null: no failure has this name
   viewer: () => Viewer | null;
   close: () => void;
 }
@@ -23,7 +23,7 @@ const head = (failure: Failure): HTMLElement[] => [
 ];
 
 const notShown = (failure: Failure): HTMLElement =>
-  html("p", { class: "note" }, `Not shown: ${failure.not_shown ?? "it has no step"}.`);
+  html("p", { class: "note" }, `Not shown: ${failure.not_shown ?? "the failure has no step"}.`);
 
 const printed = (run: Run, failure: Failure): HTMLElement =>
   html(
@@ -53,7 +53,7 @@ const groups = (run: Run, links: Map<string, string>): HTMLElement[] => {
         html("a", { href: links.get(group.smallest) ?? "" }, group.smallest),
       ),
     );
-  if (rest > 0) lines.push(html("li", {}, `${rest} more in other groups`));
+  if (rest > 0) lines.push(html("li", {}, `${rest} more kinds of failure in other groups`));
   return [html("ul", { class: "groups" }, ...lines)];
 };
 
@@ -103,12 +103,12 @@ export function failures(run: Run, names: string[], address: (place: string) => 
     "failures",
     "Failures",
     ...(all.length === 0
-      ? [html("p", {}, `None was met in ${counted(sum(run.findings.strata.map((s) => s.trials)), "trial")}.`)]
+      ? [html("p", {}, `No failure was met in ${counted(sum(run.findings.strata.map((s) => s.trials)), "trial")}.`)]
       : [
           html(
             "p",
             {},
-            `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. The plainest cause comes first, however often it was met, and the verdict names it. Each has the smallest mesh that was found for it.`,
+            `${counted(all.length, "kind")}, told apart by claim, difference, stage and feature. The kind with the plainest cause comes first, however often it was met; the verdict names this kind. Each kind has the smallest mesh that was found for it.`,
           ),
           ...groups(run, new Map(all.map((failure, i) => [failure.signature, address(failurePlace + names[i]!)]))),
           html(

@@ -24,7 +24,7 @@ function canaryText(canaries: Power["canaries"]): string {
     : `The canary (${worst.fault}) was found after ${counted(worst.found_after, "case")}.`;
 }
 
-// Returns how many faults took "1", "2 to 9", "10 to 99" ... random cases.
+// Returns how many faults needed "1", "2 to 9", "10 to 99" ... random cases.
 function byCases(faults: Fault[]): { label: string; value: number }[] {
   const medians = faults.flatMap((f) => (f.median_cases === null ? [] : [f.median_cases]));
   const rows: { label: string; value: number }[] = [];
@@ -40,7 +40,7 @@ function byCases(faults: Fault[]): { label: string; value: number }[] {
 
 function allOf(list: Fault[]): HTMLElement {
   return table(
-    "Faults, and the cases that each took",
+    "Faults, and the number of random cases needed to find each",
     [
       { head: "fault", cell: (f: Fault) => html("span", {}, f.fault, f.about ? html("span", { class: "about" }, f.about) : null) },
       { head: "law", cell: (f: Fault) => f.law },
@@ -68,11 +68,11 @@ export function faults({ power }: Findings): HTMLElement {
       "p",
       {},
       html("strong", {}, `${power.found} of ${power.planted} planted faults were found: ${power.found_at_random} by random cases, ${power.found_by_curated_case_alone} by their curated case alone.`),
-      " A planted fault is a detector that is wrong on purpose, in one stage. A curated case was written for its fault, and proves only that the harness sees it. ",
+      " A planted fault is a detector that is wrong on purpose, in one stage. A curated case was written for its fault, and proves only that the harness sees the fault. ",
       canary,
       from === null
         ? null
-        : ` They were planted by campaign ${from.campaign}, seed ${from.seed}, of the same build: they prove the harness, not this detector.`,
+        : ` The faults were planted by campaign ${from.campaign}, seed ${from.seed}, of the same build. That they were found proves the harness, not this detector.`,
     ),
     shares("Planted faults", [
       { kind: "at-random", words: `by random cases: ${power.found_at_random}`, value: power.found_at_random },
@@ -80,8 +80,8 @@ export function faults({ power }: Findings): HTMLElement {
       { kind: "lost", words: `not found: ${lost.length}`, value: lost.length },
     ]),
     lost.length === 0 ? null : html("p", {}, `Not found: ${lost.map((f) => f.fault).join(", ")}.`),
-    rows.length === 0 ? null : html("h3", {}, "How many random cases they took (median over seeds)"),
-    rows.length === 0 ? null : barPlot("Faults by the random cases that they took", rows),
+    rows.length === 0 ? null : html("h3", {}, "Random cases needed to find a fault (median over seeds)"),
+    rows.length === 0 ? null : barPlot("Number of faults by the random cases needed to find them", rows),
     folded(`All ${list.length} faults, with those that are equivalent or open`, allOf(list)),
   );
 }

@@ -12,9 +12,9 @@ const failing: Record<Gate["gate"], string> = {
   harness: "The harness is not sound.",
   corpus: "The corpus does not pass.",
   claims: "Not all claims hold.",
-  complete: "Not all that was planned is there.",
+  complete: "Some of the planned work is missing.",
   bounds: "Not all bounds are met.",
-  speed: "Some time is above its limit.",
+  speed: "Some measure of speed is above its limit.",
 };
 
 const sentence = ({ asks, gate, state }: Gate): string =>
@@ -22,7 +22,7 @@ const sentence = ({ asks, gate, state }: Gate): string =>
     ? `${capital(asks)}.`
     : state === "fails"
       ? (failing[gate] ?? `It does not hold that ${asks}.`)
-      : `Whether ${asks} was not judged`;
+      : `It was not judged whether ${asks}`;
 
 export function gates(f: Findings, names: string[], address: (place: string) => string): HTMLElement {
   // A reason that begins with the signature of a failure leads to it.
@@ -37,7 +37,7 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
   const reasons = (lines: string[]): HTMLElement[] => {
     const few = 3;
     const all = lines.map((line) => html("span", { class: "reason" }, ...linked(line)));
-    return all.length <= few ? all : [...all.slice(0, few), folded(`${all.length - few} more`, ...all.slice(few))];
+    return all.length <= few ? all : [...all.slice(0, few), folded(`${all.length - few} more reasons`, ...all.slice(few))];
   };
   // Says which reasons vanish if the same run goes on, and which do not.
   const remedy = (gate: Gate): HTMLElement[] =>
@@ -45,7 +45,7 @@ export function gates(f: Findings, names: string[], address: (place: string) => 
   return section(
     "gates",
     "Gates",
-    html("p", {}, "They are asked in this order, and the first that fails gives the verdict."),
+    html("p", {}, "The gates are judged in this order, and the first gate that fails gives the verdict."),
     html(
       "ol",
       { class: "gates" },

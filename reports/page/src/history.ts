@@ -11,7 +11,8 @@ const worst = ({ findings: { strata } }: Run): number => Math.max(0, ...strata.f
 
 const trials = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.trials));
 const withDefect = ({ findings: { strata } }: Run): number => sum(strata.map((s) => s.with_defect));
-// Sums over the families the undecided cases of the configuration that has most of them.
+// Sums the undecided cases over the families. In each family the configuration with most of them
+// counts.
 const undecided = ({ findings: { strata } }: Run): number => sum(strata.map((s) => Math.max(0, ...s.bounds.map(open))));
 
 const nameOf = ({ findings: { campaign } }: Run): string => `${campaign.name}, ${seedsText(campaign)}`;
@@ -42,7 +43,7 @@ export function history(runs: Run[]): HTMLElement {
   return section(
     "history",
     "History",
-    html("p", {}, "Runs in the order in which they were given, the oldest first. Choose one to see it in full."),
+    html("p", {}, "Runs in the order in which they were given, the oldest first. Choose a run to see it in full."),
     table(
       "Runs",
       [

@@ -25,15 +25,15 @@ function repeated(list: NonNullable<Findings["repeated"]>): string[] {
   const steps = list.flatMap((one) => one.judged);
   const wrong = steps.filter((one) => !one.holds).length;
   return [
-    `${count(list.length)} sequences of up to ${count(most)} triangles, with up to ${threads} threads: ${differing === 0 ? "no two runs differ" : `runs differ on ${differing}`}`,
-    `${count(steps.length)} of their steps were judged by the oracle, ${count(steps.filter((one) => one.contacts > 0).length)} of them with a contact: ${wrong === 0 ? "all hold" : `${wrong} break a claim`}`,
+    `${count(list.length)} sequences of up to ${count(most)} triangles, with up to ${threads} threads: ${differing === 0 ? "no two runs differ" : `runs differ on ${differing} of them`}`,
+    `${count(steps.length)} of their steps were judged by the oracle, ${count(steps.filter((one) => one.contacts > 0).length)} of them with a contact: ${wrong === 0 ? "no step breaks a claim" : `${counted(wrong, "step breaks", "steps break")} a claim`}`,
     ...list.filter((one) => one.what !== "").map((one) => `${one.input}: ${one.what}`),
   ];
 }
 
 // Says how many cases the search made, and what it found. Its cases are no trials.
 const searched = (s: NonNullable<Findings["search"]>): string =>
-  `${count(s.cases)} aimed cases, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; its archives hold ${count(s.causes.length)} causes of contact`;
+  `${count(s.cases)} aimed cases, ${s.defects === 0 ? "none" : count(s.defects)} with a defect; the archives hold ${count(s.causes.length)} causes of contact`;
 
 // Returns each size with the claims that were tried on meshes up to this size, the largest size
 // first.
@@ -55,8 +55,8 @@ const notJudged = (f: Findings): string[] => [
 ];
 
 const isolations: Record<string, string> = {
-  bubblewrap: "bubblewrap: its process had limits, wrote to no file but temporary ones of its own, saw no other process, and had no network",
-  "limits alone": "limits alone: of processor time, memory, files and processes; it was kept apart from nothing",
+  bubblewrap: "bubblewrap: the plug-in's process had limits, wrote only temporary files of its own, saw no other process, and had no network",
+  "limits alone": "limits alone: the plug-in's process had limits of processor time, memory, files and processes, and no other isolation",
 };
 
 export function judged(f: Findings): HTMLElement {
@@ -71,7 +71,7 @@ export function judged(f: Findings): HTMLElement {
     ["Isolation", f.isolation === null ? null : [isolations[f.isolation] ?? f.isolation]],
     ["Larger meshes", f.repeated === null ? null : repeated(f.repeated)],
     ["Search", f.search === null ? null : [searched(f.search)]],
-    ["Campaign", [`${f.campaign.name}, ${seedsText(f.campaign)}${f.campaign.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
+    ["Campaign", [`${f.campaign.name}, ${seedsText(f.campaign)}${f.campaign.is_default_seed ? ", the default seed, whose cases everybody knows" : ""}`]],
   ];
   return section(
     "judged",
@@ -99,8 +99,8 @@ const off = ({ steps, median, p99, worst }: TimesOff): HTMLElement | string =>
 const candidatesText = ({ steps, given, least, over_least }: NonNullable<Stratum["measures"]>["candidates"]): string =>
   steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
 
-// Says how much of the time until a contact a limiter uses, and how often it stays although the
-// step has room.
+// Says how much of the time until a contact a limiter uses, and how often it allows no motion
+// although the step has room.
 const limitsText = ({ free, cut, contact, used, stalls }: NonNullable<Stratum["measures"]>["limits"]): string =>
   free + contact === 0
     ? "\u2013"
@@ -119,7 +119,7 @@ function measures(f: Findings): HTMLElement[] {
   const limits = rows.some(({ measures }) => measures.limits.free + measures.limits.contact > 0);
   const refuses = rows.some(({ measures }) => measures.left_out.refused > 0);
   return [
-    html("p", {}, "These counts do not depend on the claims. Intervals have a confidence of 95 %. Late and early are shares of the step: among the steps that are late or early, the median, the share that 99 of 100 stay below, and the worst."),
+    html("p", {}, "These counts do not depend on the claims. Intervals have a confidence of 95 %. The columns late and early say by which share of the step the first time is wrong. They count only steps whose time is late (or early), and give the median of these shares, the share that 99 of 100 such steps stay below, and the largest share."),
     table(
       "What the detector does, whatever it claims",
       [

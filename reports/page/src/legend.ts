@@ -50,7 +50,7 @@ export function legend(scene: Scene): Legend {
       ...(ghosts ? [swatch("ghost", `ghosts that close the mesh: ${ghosts}`)] : []),
       swatch("pair", "the pair"),
       swatch("exact", scene.asked ? `nearest points when first near; ${scene.asked}` : "exact contact"),
-      ...(scene.steps.some((s) => s.detector?.pairs.some((c) => c.places)) ? [swatch("detector", "the detector's")] : []),
+      ...(scene.steps.some((s) => s.detector?.pairs.some((c) => c.places)) ? [swatch("detector", "the detector's contact")] : []),
     );
   };
   return { element: list, show };

@@ -37,8 +37,8 @@ export function named({ detector, versions }: Findings): { name: string; version
     : { name: detector.name, version: null };
 }
 
-// Returns a title that begins with what differs most between pages, because a row of tabs shows
-// only that.
+// Returns a title that begins with the words that differ most between pages, because a row of tabs
+// shows only the beginning.
 export function titleOf({ verdict, findings }: Run): string {
   const { name, version } = named(findings);
   const { campaign } = findings;
@@ -93,7 +93,7 @@ function notes({ findings: { times, versions }, subject, verdict, begun }: Run):
       : `${counted(times.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`,
     subject !== null || verdict === "unverified"
       ? ""
-      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}. To issue one, run assay certify.`,
+      : `No certificate stands beside this run${absent.length > 0 ? `, so ${absent.join(" and ")} is stored` : ""}. To issue a certificate, run assay certify.`,
   ].filter((note) => note !== "");
 }
 

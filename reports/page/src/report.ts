@@ -1,6 +1,6 @@
 // The data of the page: schema assay-report/3, reports/schemas/report.schema.json. The findings of
-// a run are the predicate of a certificate. Its types are made from the schema of certificates
-// (types.mjs).
+// a run are the predicate of a certificate. The types of the predicate are made from the schema of
+// certificates (types.mjs).
 import type { Statement } from "../made/certificate";
 
 export type Point = [number, number, number];

@@ -35,9 +35,9 @@ function scope({ confidence }: Findings): HTMLElement {
     { class: "scope" },
     html("p", {}, html("strong", {}, "What the bounds speak of: "),
       "the share of cases of this campaign\u2019s random generator on which a claim does not hold. " +
-      "They say nothing of other meshes, yours included, beyond what those have in common with the generator\u2019s."),
-    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} %. The bounds of the strata of sizes (size-\u2026) are not among them: each stands alone ` +
-      "(exact one-sided Clopper and Pearson, Bonferroni). A trial is a whole case; undecided ones count against the detector."),
+      "The bounds say nothing of other meshes, yours included, unless those meshes are like the generator\u2019s meshes."),
+    html("p", {}, `All ${count(confidence.bounds)} bounds hold together with a confidence of ${percent} % (exact one-sided bounds of Clopper and Pearson, Bonferroni). ` +
+      "The bounds of the strata of sizes (size-\u2026) are not among them: each of those holds by itself. A trial is a whole case; undecided trials count against the detector."),
   );
 }
 

@@ -139,7 +139,7 @@ describe("the page", () => {
     assert.match(told, /Detector\s+brute force, fast math\s+Version\s+1\s+Judged by\s+assay \d+\.\d+\.\d+[\s,]/);
     assert.match(told, /Its library, SHA-256\s+[0-9a-f]{64}/);
     assert.match(told, /Begun\s+20\d\d-\d\d-\d\d, \d\d:\d\d UTC/);
-    assert.match(told, /No certificate stands beside this run\. To issue one, run assay certify\./);
+    assert.match(told, /No certificate stands beside this run\. To issue a certificate, run assay certify\./);
   });
 
   test("the contents lead to each section", async () => {

@@ -7,7 +7,7 @@ VERSION: str
 OPTIONS: Dict[str, Tuple[str, ...]]
 
 class State:
-    """What a detector carries from step to step."""
+    """The state that a detector carries from step to step."""
 
     def __eq__(self, other: object) -> bool: ...
 

@@ -29,17 +29,17 @@ class Detector:
     """The built-in detector of one deforming mesh.
 
     triangles: integers (m, 3), three vertices each, counter-clockwise as seen from outside.
-    positions: real numbers (n, 3), in your units; best those of the first frame.
+    positions: real numbers (n, 3), in your units, preferably those of the first frame.
     culling, start, pairs, arithmetic: words of assay.OPTIONS, explained in detector/README.md.
     separation: 0 looks for contacts. A distance looks for pairs of triangles that share no vertex
     and come within this distance; culling is then "bvh" or "none".
-    threads: how many threads a step may use; 0: all cores. It does not change results.
+    threads: how many threads a step may use; 0: all cores. Results do not depend on it.
 
     int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats
     are converted once; each number must have an exact int32 or float64.
 
-    InputError (a ValueError): a mesh that is refused; its name says why. ValueError: another shape,
-    an unknown word, a number without exact float64. TypeError: no numbers.
+    InputError (a ValueError): the mesh is refused; the error's `name` says why. ValueError: another
+    shape, an unknown word, a number without exact float64. TypeError: no numbers.
 
     Calls release the interpreter. Ctrl-C ends a call and leaves the state as it was. Only one
     thread at a time may use a detector (else RuntimeError); two detectors do not affect each other.
@@ -78,7 +78,7 @@ class Detector:
         return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def commit(self) -> None:
-        """Advances the state to the end of the last step or limit. InputError: there is none."""
+        """Advances the state to the end of the last step or limit. InputError: there is no step."""
         self._detector.commit()
 
     def step(self, x_t0: ArrayLike, x_t1: ArrayLike) -> StepResult:
@@ -89,9 +89,9 @@ class Detector:
         """Finds the first contact in [0, until], and keeps the state.
 
         The result has pairs as with pairs="first", whatever `pairs` is. "free" means that there is
-        no contact in [0, until]. Nothing later is looked at, so a caller that knows a contact can
-        give its time. commit() is possible only if `until` is 1. InputError: `until` is not in [0,
-        1].
+        no contact in [0, until]. Later contacts are not looked for, so a caller that knows a
+        contact can pass its time as `until`. commit() is possible only if `until` is 1. InputError:
+        `until` is not in [0, 1].
         """
         return step_result(self._detector.first_contact(x_t0, x_t1, until), self._triangles, x_t0, x_t1)
 
@@ -136,7 +136,7 @@ def vertex_face(
 def edge_edge(
     x_t0: ArrayLike, x_t1: ArrayLike, *, arithmetic: str = "exact", separation: float = 0
 ) -> Contacts:
-    """Does the same for two edges: (k, 4, 3) are the two ends of one edge, then of the other."""
+    """Does the same for two edges. (k, 4, 3): the end points of one edge, then of the other."""
     return Contacts(*_detector.edge_edge(x_t0, x_t1, *_question(arithmetic, separation)))
 
 
@@ -144,7 +144,7 @@ def _question(arithmetic: str, separation: float) -> Tuple[str, float]:
     if not (math.isfinite(separation) and separation >= 0):
         raise ValueError("separation: a length is wanted, finite and not below 0")
     if separation > 0 and arithmetic != "exact":
-        raise ValueError("separation: only exact arithmetic has one")
+        raise ValueError("separation: a distance needs exact arithmetic")
     return arithmetic, separation
 
 

@@ -15,7 +15,7 @@ from .results import Float64Array, Int32Array
 
 Path = Union[str, "os.PathLike[str]"]
 
-# What the project's own readers take, to the last bit; all else is meshio's.
+# Files that the project's own readers read, to the last bit. meshio reads all other files.
 _OWN = re.compile(r"\.(obj|ply|off)(\.gz)?$", re.IGNORECASE)
 _NO_SURFACE = {"vertex", "line", "line3"}
 
@@ -42,12 +42,12 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
     """Reads frames, one from each file.
 
     paths: names of files, or patterns such as "sim_*.vtu". The matches of a pattern are sorted by
-    their numbers: sim_2 before sim_10. So are files in the order of a shell (sim_1, sim_10, sim_2);
-    any other order is kept. Assay's own readers read OBJ, PLY and OFF (.gz too), and keep every
-    bit; meshio reads other formats. A warning tells what was sorted, changed or skipped.
+    their numbers: sim_2 before sim_10. Files in the order of a shell (sim_1, sim_10, sim_2) are
+    sorted too; any other order is kept. Assay's own readers read OBJ, PLY and OFF (.gz too), and
+    keep every bit; meshio reads other formats. A warning tells what was sorted, changed or skipped.
 
     FileNotFoundError: no such file. ValueError: a file that is not in its format, that has no
-    triangles, or whose triangles differ from those of the first file.
+    triangles, or whose triangles differ from the triangles of the first file.
     """
     from . import _judge
 
@@ -66,7 +66,7 @@ def read_frames(paths: Union[Path, Iterable[Path]]) -> Frames:
         return first
     for file, (part, _) in zip(files, parts):
         if not np.array_equal(part.triangles, first.triangles):
-            raise ValueError(f"{file}: its triangles differ from those of {files[0]}")
+            raise ValueError(f"{file}: its triangles differ from the triangles of {files[0]}")
         if len(part.positions[0]) != len(first.positions[0]):
             raise ValueError(f"{file}: it has more or fewer vertices than {files[0]}")
     return Frames(first.triangles, [part.positions[0] for part, _ in parts], files)
@@ -98,7 +98,7 @@ def _expanded(paths: Iterable[Path]) -> List[str]:
     return files
 
 
-_Read = Tuple[Frames, List[str]]  # and what is said of them
+_Read = Tuple[Frames, List[str]]  # the frames, and remarks on them
 
 
 def _own(files: List[str]) -> _Read:
@@ -113,13 +113,13 @@ def _by_meshio(file: str) -> _Read:
 
     try:
         mesh = meshio.read(file)
-    except (Exception, SystemExit) as error:  # of a torn file it raises whatever comes
+    except (Exception, SystemExit) as error:  # on a torn file meshio raises any exception
         raise ValueError(f"{file}: meshio cannot read it: {error or type(error).__name__}") from None
     triangles = [block.data for block in mesh.cells if block.type == "triangle"]
     others = {block.type for block in mesh.cells} - {"triangle"} - _NO_SURFACE
     if others or not triangles:
         what = ", ".join(sorted(others)) or "no triangles"
-        raise ValueError(f"{file}: it holds {what}: a mesh of triangles alone is wanted")
+        raise ValueError(f"{file}: it holds {what}: a mesh of only triangles is wanted")
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3:
         raise ValueError(f"{file}: points of three coordinates are wanted")
     corners = np.ascontiguousarray(np.concatenate(triangles), np.int32)

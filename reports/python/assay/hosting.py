@@ -25,7 +25,7 @@ A result of assay.Detector has these members. A class may also have name, versio
 
 limit() returns a share (a number), positions (n, 3), a tuple of both, or an object like
 assay.Limit. An exception is an error of the step. create() may raise Refused for a mesh; all
-functions but query() may raise BeyondCapacity for a mesh or a step that is too large.
+functions except query() may raise BeyondCapacity for a mesh or a step that is too large.
 """
 
 import importlib
@@ -48,7 +48,7 @@ class BeyondCapacity(Exception):
 
 class AskedAgain(BaseException):
     """Raised if the imported module itself asks for a judgement: a script without a guard. Its
-    class can use only what is defined by then, because the rest of the script is not run."""
+    class can use only what is defined before that, because the rest of the script does not run."""
 
     def __init__(self, module):
         super().__init__()
@@ -65,7 +65,7 @@ def stop_if_imported():
 
 
 def class_of(module, name):
-    """Returns the class. ValueError: there is none, or the module judges a detector before it."""
+    """Returns the class. ValueError: the module lacks it, or judges a detector before it."""
     global _imported
     _imported = module
     try:
@@ -75,7 +75,7 @@ def class_of(module, name):
     finally:
         _imported = None
     if not hasattr(found, name):
-        late = ": the module judges a detector before it defines this one; put that under if __name__ == '__main__'" if judges else ""
+        late = ": the module judges a detector before it defines this one; judge under if __name__ == '__main__'" if judges else ""
         raise ValueError(f"{module} has no class {name}{late}")
     sys.modules[module] = found
     return getattr(found, name)
@@ -116,7 +116,7 @@ def described(claims, contract, claim_words, members):
     numbers = dict.fromkeys(members, 0)
     for member, value in contract.items():
         if member not in members:
-            raise ValueError(f"contract: {member!r} is not a member of it")
+            raise ValueError(f"contract: {member!r} is not a member of a contract")
         words = members[member]
         numbers[member] = _place(value, words, f"contract: {member}") if words else value
     return sum(1 << _place(claim, claim_words, "claims") for claim in set(claims)), numbers
@@ -191,7 +191,7 @@ def tell(error):
     line = f"{type(error).__name__}: {error}"
     frames = traceback.extract_tb(error.__traceback__)
     if frames and frames[-1].filename == __file__ and isinstance(error, ValueError):
-        line = str(error)  # what is asked of a class here, and is not so
+        line = str(error)  # this file demands something of the class that does not hold
     elif frames:
         line += f" ({frames[-1].filename}:{frames[-1].lineno}, in {frames[-1].name})"
     return "error", line

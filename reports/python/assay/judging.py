@@ -25,9 +25,9 @@ class Contact:
     """A pair of triangles, the first time of their contact, and the features that meet then.
 
     time: (lo, hi). feature: "vertex-face", ..., with its vertices (FEATURE_KINDS). bodies: for each
-    triangle its body and its number in it; None without bodies. Only contacts of a CheckedStep have
-    the rest. meeting: "touching" or "crossing". crosses_at_end: whether the two cross when the step
-    ends (None at rest). point (3,), barycentric (2, 3), error, normal (3,): as in ContactPlaces.
+    triangle its body and its number there; None without bodies. The rest is only for contacts of a
+    CheckedStep. meeting: "touching" or "crossing". crosses_at_end: whether the triangles cross at
+    t = 1 (None at rest). point (3,), barycentric (2, 3), error, normal (3,): as in ContactPlaces.
     """
 
     triangles: Tuple[int, int]
@@ -103,7 +103,7 @@ class _Report:
         return self.text
 
     def __bool__(self) -> bool:
-        raise TypeError("a report is no verdict: compare its outcome with a word")
+        raise TypeError("a report has no truth value: compare its member .outcome with a word")
 
 
 @dataclass(frozen=True, repr=False)
@@ -125,7 +125,7 @@ class CheckReport(_Report):
 class LeastDistance:
     """How near two triangles that share no vertex come during a step.
 
-    distance: the least double within which two of them come; 0 if two touch. contact: the first
+    distance: the least double within which two triangles come; 0 if two touch. contact: the first
     pair, by its triangles, that comes within this distance, with its first time and features.
     """
 
@@ -135,7 +135,7 @@ class LeastDistance:
 
 @dataclass(frozen=True)
 class SeparationStep:
-    """A step: which pairs come within the separation, when first, and how near any two come.
+    """A step: which pairs come within the separation, when first, and the least distance of all.
 
     answer: "near", "apart" or "undecided"; first: None unless near; near_at_start: the number of
     pairs that are near at t = 0; pairs: each with its first time within the separation; least: None
@@ -180,7 +180,7 @@ def judge(
     separation: if above 0, finds all pairs of triangles that share no vertex and come within this
     distance, each with the first time at which they do; "collision" means that there is a pair. A
     tuple of two doubles means their exact sum. jobs: threads; None: all cores. Arrays and errors:
-    as in Detector. Ctrl-C ends the call. Only check() has options for which pairs count.
+    as in Detector. Ctrl-C ends the call. Only check() has options that say which pairs count.
     """
     from . import _judge
 
@@ -264,15 +264,15 @@ def check(
     file; a single frame is a mesh at rest. detector: None for the built-in detector, the name of a
     plug-in's library, "python:MODULE:CLASS", or a class, which another process imports by its
     module. culling, start, pairs, arithmetic: for the built-in detector. jobs: threads of the
-    oracle. threads: those of the detector; 0: all cores, or 1 for a plug-in. time: seconds. memory
+    oracle. threads: of the detector; 0: 1 for a plug-in, else all cores. time: seconds. memory
     ("6GB"), isolation: as on the command line. progress: a function for printed text; True: stderr.
     bodies: integers (n,), the body of each vertex, from 0 on. apart: pairs of bodies that do not
     meet, or a body paired with itself. rings: pairs of triangles that a path of fewer edges joins
     do not count (1: those that share a vertex). rest_distance: pairs nearer than this length in the
     first frame do not count. weld: vertices of a body that are at one place in every frame count as
-    one. A case file takes none of these options, because it states what counts.
-    separation: no detector runs. The oracle says which triangles that share no vertex come within
-    this distance, when first, and how near any two come, in a SeparationReport.
+    one vertex. A case file takes none of these options, because it states what counts.
+    separation: if given, no detector runs; the oracle says which triangles that share no vertex
+    come within this distance, when first, and how near any two come, in a SeparationReport.
 
     ValueError: input that is refused; the message says why. Ctrl-C ends the call; a plug-in's
     process ends with its step, or at `time`. For a slow class, `time` is a limit in seconds, and
@@ -284,7 +284,7 @@ def check(
         raise ValueError("culling, start, pairs and arithmetic are options of the built-in detector")
     of_a_detector = detector is not None or culling or start or pairs or arithmetic
     if separation is not None and of_a_detector:
-        raise ValueError("separation is asked of the oracle alone: leave out detector, culling, start, pairs and arithmetic")
+        raise ValueError("only the oracle answers a separation: leave out detector, culling, start, pairs and arithmetic")
     asked = {
         "separation": None if separation is None else _length(separation),
         "culling": culling,

@@ -7,7 +7,7 @@ from .errors import AssayError
 
 _HERE = Path(__file__).absolute().parent
 
-# In a package of pip's; as it was built; as cmake --install puts it.
+# The folder in a package of pip; the folder of the build; the folders of cmake --install.
 _FOLDERS = (_HERE / "bin", _HERE.parent.parent, *(up / "bin" for up in _HERE.parents))
 
 

@@ -92,7 +92,7 @@ def _place(kind: type) -> Tuple[str, str]:
         file = Path(inspect.getfile(kind)).absolute()
     except (OSError, TypeError):
         why = "a class of a notebook or a prompt stands in no file that another process can import"
-        how = "write it to one (%%writefile mine.py), and import it from there"
+        how = "write the class to a file (%%writefile mine.py), and import it from that file"
         raise ValueError(f"{kind.__qualname__}: {why}; {how}") from None
     if "." in kind.__qualname__:
         raise ValueError(f"{kind.__qualname__}: a class at the top of its module is wanted")

@@ -81,7 +81,7 @@ class Outcome:
         return self.text
 
     def __bool__(self) -> bool:
-        raise TypeError("an outcome is no truth value: compare its outcome with 'holds'")
+        raise TypeError("this object has no truth value: compare its member .outcome with 'holds'")
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,7 +102,7 @@ def run(
     progress: a function for printed lines; True: stderr. options: as on the command line, without
     the dashes: seed=1, time=60, jobs=2, power="proof", ...
 
-    AssayError: the run could not begin, and why. After Ctrl-C the same call continues the run.
+    AssayError says why the run could not begin. After Ctrl-C the same call continues the run.
     """
     return _of_campaign("run", campaign, detector, out, progress, options)
 
@@ -168,7 +168,7 @@ def _called(
 def _printed(command: List[str], variables: Dict[str, str], progress: Progress) -> Outcome:
     lines: List[str] = []
     told = listener(progress, "\n")
-    # In a session of its own, so that ctrl-C comes to it once, from here.
+    # The child has a session of its own, so that ctrl-C reaches it only once, from this process.
     with subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,

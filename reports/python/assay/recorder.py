@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _recorder, arrays, hosting
 
-UNTOLD = object()  # in place of an answer: there is none
+UNTOLD = object()  # stands for: there is no answer
 
 
 class Recorder:
@@ -89,17 +89,17 @@ class Recorder:
         x0: where the step starts; None: where the last step ended, at its `committed` or else `x1`.
         x1 or dx: where the step would go, or by how much. committed: where the simulator went.
         answer: "free", "collision", "undecided" or "error", with first: (lo, hi) or a number,
-        pairs: (k, 2) triangles, pair_times: (k, 2) or (k,), message: a line. Or answer is that of a
-        detector in Python, such as the result of assay.Detector, which has all of these; None is
-        "free". Without `answer` none is recorded. share, positions: how far a limiter let the step
-        go.
+        pairs: (k, 2) triangles, pair_times: (k, 2) or (k,), message: a line. Or answer is the
+        answer of a detector in Python, such as the result of assay.Detector, which has all of
+        these; None is "free". Without `answer` no answer is recorded. share, positions: how far a
+        limiter let the step go.
         """
         told = None
         if answer is not UNTOLD:
             if isinstance(answer, str):
                 answer = {"answer": answer, "first": first, "pairs": pairs, "times": pair_times}
             elif first is not None or pairs is not None or pair_times is not None:
-                raise ValueError("first, pairs and pair_times: this answer states them itself")
+                raise ValueError("first, pairs and pair_times: this answer already states them")
             told = hosting.parts_of(answer, hosting.ANSWERS + ("error",))
         elif any(part is not None for part in (first, pairs, pair_times, message)):
             raise ValueError("first, pairs, pair_times and message need an answer")
@@ -139,7 +139,7 @@ class Recorder:
 
 
 def _frame(given: ArrayLike, name: str, may_be_float32: bool) -> npt.NDArray[Any]:
-    """Returns adjacent rows of three numbers: float32 if they are float32 already and may be."""
+    """Returns adjacent rows of three numbers: float32 if they already are and may be float32."""
     if may_be_float32 and type(given) is np.ndarray and given.dtype == np.float32:
         if given.ndim == 2 and given.shape[1] == 3:
             return np.ascontiguousarray(given)

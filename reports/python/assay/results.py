@@ -154,7 +154,7 @@ class StepResult(_Step):
     x_t1: Any
 
     def __bool__(self) -> bool:
-        raise TypeError("a result is no answer: compare result.answer with 'free' or 'collision'")
+        raise TypeError("a result has no truth value: compare its member .answer with 'free' or 'collision'")
 
 
 def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) -> StepResult:
@@ -239,4 +239,4 @@ class Judgement(_Step):
     x_t1: Any
 
     def __bool__(self) -> bool:
-        raise TypeError("a judgement is no answer: compare its answer with 'free' or 'collision'")
+        raise TypeError("a judgement has no truth value: compare its member .answer with 'free' or 'collision'")

@@ -18,7 +18,7 @@ def write_vtk(result: Union[StepResult, Judgement], path: Union[str, "os.PathLik
     the place where each pair meets. A pair without a place is left out. Cells are the triangles,
     then a vertex for each place.
     Fields of points: displacement (x_t1 - x_t0; 0 at places of contact).
-    Fields of cells: is_contact, in_contact, first_time (NaN without), pair_a and pair_b (-1 for
+    Fields of cells: is_contact, in_contact, first_time (NaN: no contact), pair_a and pair_b (-1 for
     triangles); for a result of the detector also view_sign (2: none), violated, dirty.
     """
     import meshio

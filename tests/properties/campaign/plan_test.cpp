@@ -79,7 +79,7 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/strata", 7, "strata: an array expected");
   expect_wrong("/strata/0", 7, "strata[0]");
   expect_wrong("/strata/0/family", "closed", "strata[0].family: no family of this name");
-  expect_wrong("/strata/1/family", "closed-generic", "strata[1].family: this family is there");
+  expect_wrong("/strata/1/family", "closed-generic", "strata[1].family: this family occurs twice");
   expect_wrong("/strata/0/cases", -1, "strata[0].cases");
   expect_wrong("/strata/0/cases", 1.5, "strata[0].cases: a whole number expected");
   expect_wrong("/strata/0/cases", 1'000'000'001, "strata[0].cases");

@@ -179,7 +179,7 @@ TEST(SelfTest, NamedQueriesAreHeldToWhatIsKnown) {
     asked.truth->rung = (asked.truth->rung + 1) % 3;
     EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "must"));
     asked.truth->decision = detector::Decision::open;
-    EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "answer or time is wrong"));
+    EXPECT_TRUE(says(check_query(asked, 0, tally).value_or(""), "the answer or the time is wrong"));
     EXPECT_EQ(tally.contradictions, 2u);
   }
 }

@@ -111,7 +111,7 @@ TEST(Suites, Sequences) {
     EXPECT_TRUE(!row.estimate || std::isfinite(row.estimate->value)) << row.label;
     labels += "\n" + row.label;
   }
-  for (const char* row : {"\nbend, view-line, 1 thread: time over bvh's",
+  for (const char* row : {"\nbend, view-line, 1 thread: time over the time of bvh",
                           "\ntwist, auto over the best single culling, sum",
                           "\nopen-tube, auto over the best single culling, median step",
                           "\narm-in-box, auto over bvh, first step"})

@@ -61,7 +61,7 @@ struct SmallRun {
 TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   const SmallRun run({"always_free", "always_collision"});
   EXPECT_TRUE(run.report.wrong_answers.empty());
-  EXPECT_FALSE(says(run.remarks, "by the oracle alone"));
+  EXPECT_FALSE(says(run.remarks, "by the oracle only"));
   ASSERT_EQ(run.rows.size(), 6u + 2u);
   for (const auto& row : run.rows) {
     EXPECT_EQ(row.counts.errors.steps, 2u) << row.subject->name;

@@ -166,7 +166,7 @@ TEST(Stability, ChangesShowWhatDependsOnThem) {
       report_of("near-parallel", with_elementary<DependsOnNumbering>(detector::Arithmetic::exact))
           .report;
   const auto survived = [&](const std::string& change) {
-    return row_that_starts(report, "answers that survive " + change).estimate->value;
+    return row_that_starts(report, "answers that survive the change " + change).estimate->value;
   };
   EXPECT_LT(survived("mirror"), 100);
   EXPECT_EQ(survived("power of two"), 100);

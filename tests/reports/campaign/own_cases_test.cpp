@@ -105,7 +105,7 @@ TEST_F(OwnCases, ThatCannotBeReadAreRefused) {
 TEST_F(OwnCases, MayNotBeThereYet) {
   for (const bool is_there : {true, false}) {
     if (!is_there) std::filesystem::remove_all(folder);
-    expect_ended(judge("wrapped_builtin"), 0, {"there is no case in it yet"});
+    expect_ended(judge("wrapped_builtin"), 0, {"this folder has no case yet"});
   }
 }
 

@@ -105,7 +105,7 @@ TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
     const int status = started.end();
     ASSERT_TRUE(WIFEXITED(status)) << read_text(text);
     EXPECT_EQ(WEXITSTATUS(status), 3) << read_text(text);
-    EXPECT_TRUE(says(read_text(text), "interrupted: what was judged is stored in " + out +
+    EXPECT_TRUE(says(read_text(text), "interrupted: all judged trials are stored in " + out +
                                           "; run the same command again to go on\n"));
   }
   const auto trials = trials_of(out);

@@ -78,7 +78,7 @@ TEST_F(Sizes, RefusalsBeyondTheCapacityAreCounted) {
     return outcome;
   };
   expect_ended(with("refuse-from=20 capacity-triangles=19"), 0,
-               {"refused: capacity, in ", "capacity 19 triangles"});
+               {"`refused: capacity` in ", "capacity 19 triangles"});
   const auto f = findings();
   EXPECT_GT(f.tally.counts.measures.refused, 0u);
   for (const auto& [claim, triangles] : judged_sizes(f)) EXPECT_LT(triangles, 20u) << claim;

@@ -77,7 +77,7 @@ TEST_F(CiJob, TakesOwnSourcesAndFlagsAndNeedsNoCases) {
   // The proof is there already, and an empty folder is no case either.
   fs::create_directories(scratch / "mine/cases");
   EXPECT_EQ(run("2"), 0) << printed;
-  EXPECT_TRUE(contains(printed, "there is no case in it yet")) << printed;
+  EXPECT_TRUE(contains(printed, "this folder has no case yet")) << printed;
 }
 
 TEST_F(CiJob, CompilesNothingWhereTheDetectorIsThere) {

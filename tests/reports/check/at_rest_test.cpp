@@ -176,7 +176,7 @@ TEST_F(AtRest, TenContactsAreNamed) {
       check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {0, 0, 2}, 2));
   EXPECT_EQ(count_of(all.out, "  contact: "), 10u) << all.out;
   const auto count = report()["steps"][0]["contacts"].size();
-  expect_says(all.out, {"  ... " + std::to_string(count - 10) + " more in contact"});
+  expect_says(all.out, {"  ... " + std::to_string(count - 10) + " more pairs in contact"});
 }
 
 TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {

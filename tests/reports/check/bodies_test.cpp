@@ -41,7 +41,7 @@ TEST_F(CheckedBodies, ApartDoNot) {
   expect_ended(bodies + " --apart 1,0 --second-opinion 1", 0);
   // A plug-in that cannot be told is asked about all pairs, and says so.
   expect_ended(bodies + " --apart 1,0 --detector " + plugin("wrapped_builtin"), 0,
-               {"it has no function `count`, so all pairs count", "collision at t ="});
+               {"has no function `count`, so all pairs count", "collision at t ="});
   expect_ended(bodies + " --apart 1,0 --detector " + plugin("takes_relations"), 0,
                {"no collision"});
 }

@@ -127,7 +127,7 @@ TEST_F(Runs, SharesAreSummed) {
 TEST_F(Runs, VerdictAndReasonsAreThoseOfTheGates) {
   const auto part = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'H'), "part");
   EXPECT_EQ(part["verdict"], "incomplete");
-  EXPECT_EQ(part["why"], "gate \"complete\" fails: closed-generic: 3 of 10 trials; and 2 more");
+  EXPECT_EQ(part["why"], "gate \"complete\" fails: closed-generic: 3 of 10 trials; 2 more reasons");
   const auto wrong = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'D'), "wrong");
   EXPECT_EQ(wrong["verdict"], "defect") << "a defect stands, however little was judged";
   const auto whole = page_of(

@@ -268,7 +268,7 @@ TEST(Strip, ShowsTheStartTheContactAndTheEnd) {
       spike({{0, 1}, {0.5, 0.5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}});
   const auto svg = reports::strip_svg(scene, "<missed>");
   EXPECT_EQ(count_of(svg, ">t = 0<"), 1u) << svg;
-  EXPECT_EQ(count_of(svg, ">t = 0.5: they meet<"), 1u);
+  EXPECT_EQ(count_of(svg, ">t = 0.5: the pair meets<"), 1u);
   EXPECT_EQ(count_of(svg, ">t = 1<"), 1u);
   EXPECT_EQ(count_of(svg, "<polygon"), 3 * (2u + 2u)) << "the two triangles and their outlines";
   EXPECT_EQ(count_of(svg, "<circle"), 1u) << "where they meet";

@@ -114,7 +114,7 @@ def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
     for wrong in (-1, np.nan, np.inf):
         with pytest.raises(ValueError, match="separation"):
             assay.check(frames, separation=wrong)
-    with pytest.raises(TypeError, match="no verdict"):
+    with pytest.raises(TypeError, match="no truth value"):
         bool(report)
 
 

@@ -125,7 +125,7 @@ def test_an_answer_may_be_that_of_a_detector(path, pair):
     with assay.Recorder(path, pair.triangles, pair.x_t0, **MINE) as recorder:
         recorder.step(pair.x_t0, pair.x_t1, answer=result)
         recorder.step(x1=pair.x_t0)
-        with pytest.raises(ValueError, match="states them itself"):
+        with pytest.raises(ValueError, match="already states them"):
             recorder.step(x1=pair.x_t0, answer=result, first=0.5)
     first, second = records(path)[1:3]
     assert (first["first_lo"], first["first_hi"]) == result.first

@@ -37,8 +37,8 @@ TEST(Help, IsOneTextHoweverItIsAsked) {
   EXPECT_EQ(run_assay("run --campaign smoke -h").out, run.out);
   EXPECT_EQ(run_assay("version").out, run_assay("--version").out);
   expect_refused("help chekc", "unknown verb 'chekc'; did you mean check?");
-  expect_refused("judge steps.log", "judge is now check: assay check LOG");
-  expect_refused("help check-queries", "check-queries is now check: assay check QUERIES.csv");
+  expect_refused("judge steps.log", "judge is now called check: assay check LOG");
+  expect_refused("help check-queries", "is now called check: assay check QUERIES.csv");
   expect_refused("versoin", "unknown verb 'versoin'; did you mean version?");
 }
 
@@ -71,7 +71,7 @@ TEST(Help, SaysTheExitCodesOfTheDesign) {
   for (const std::string help : {"help", "help check"})
     expect_ended(help, 0,
                  {"  0  all claims hold\n", "  1  a defect\n", "  2  usage or input error\n",
-                  "  3  too much undecided\n", "  4  the harness failed its own check\n",
+                  "  3  too much is undecided\n", "  4  the harness failed its own check\n",
                   "  5  collision, with --fail-on-collision\n"});
   EXPECT_FALSE(contains(run_assay("help scene").out, "  1  "));
 }

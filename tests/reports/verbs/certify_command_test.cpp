@@ -176,10 +176,9 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
   EXPECT_EQ(first, second);
 
   // What is beside it and is of no digest is named.
-  EXPECT_FALSE(contains(verified.out, "not looked at"));
+  EXPECT_FALSE(contains(verified.out, "not examined"));
   write(out + "/page.html", "anything");
-  expect_ended("verify " + certificate, 0,
-               {"not looked at, because the certificate does not rest on them: page.html\n"});
+  expect_ended("verify " + certificate, 0, {"these files, so they were not examined: page.html\n"});
   std::filesystem::remove(out + "/page.html");
 
   // In another folder: digests are of rows and bytes, not of places.
@@ -197,7 +196,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldCanBeChanged) {
     expect_refused(command, "are not beside it: ask its issuer for the whole folder");
   const auto of_check = scratch.write("o.json", R"({"schema": "assay-check/1"})");
   expect_refused("report " + of_check + " --out " + (scratch / "p.html"),
-                 "of schema \"assay-check/1\", no certificate and no run");
+                 "schema \"assay-check/1\" is neither a certificate nor a run");
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
@@ -257,7 +256,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   std::filesystem::create_directories(out);
   write(certificate, old.dump(1) + "\n");
   expect_ended("verify " + certificate, 1,
-               {"of schema assay-certificate/1, this assay verifies "
+               {"its schema is assay-certificate/1, this assay verifies "
                 "assay-certificate/8: use the assay that issued the certificate"});
 }
 

@@ -206,7 +206,7 @@ TEST_F(CheckLog, TenOfAKindAreKept) {
     log.step(&sequence_.frames[collision_], sequence_.frames[collision_ + 1],
              with_a_miss()[collision_]);
   log.end();
-  expect_ended("check " + path + " --keep " + out, 1, {"not kept, because 10 of its kind are"});
+  expect_ended("check " + path + " --keep " + out, 1, {"not kept, because 10 failures of this"});
   EXPECT_TRUE(std::filesystem::exists(out + "/step-10"));
   EXPECT_FALSE(std::filesystem::exists(out + "/step-11"));
 }
@@ -218,7 +218,7 @@ TEST_F(CheckLog, APluginOfTheSameCodeIsAskedAgain) {
   EXPECT_TRUE(says(same.out, "reproduced; smallest: ")) << same.err;
   const auto smallest = fmt::format("{}/step-{}/smallest.json", out, collision_ + 1);
   EXPECT_LE(read_json(smallest)["triangles"].size(), 3u);
-  expect_refused("check " + log + " --detector " + plugin("always_free"), "for them by --keep");
+  expect_refused("check " + log + " --detector " + plugin("always_free"), "folder by --keep");
   std::filesystem::remove_all(out);
   const auto other =
       run_assay("check " + log + " --keep " + out + " --detector " + plugin("wrapped_builtin"));
@@ -232,11 +232,11 @@ TEST_F(CheckLog, WhatIsLostIsSaid) {
   bad[bad.size() / 2] ^= 1;
   expect_ended("check " + scratch_.write("bad.log", bad), 3,
                {fmt::format("to {}, from the first damage to the end of the log "
-                            "(no record); steps read before it: 4\n",
+                            "(no record); steps read before the damage: 4\n",
                             good.size()),
                 "undecided: a part of the input is lost"});
   expect_ended("check " + scratch_.write("cut.log", good.substr(0, good.size() - 99)), 0,
-               {"it was cut, or is being written"});
+               {"the log was cut, or is being written"});
 }
 
 // The miss is in the part that is gone.
@@ -287,7 +287,7 @@ TEST_F(CheckLog, AnAbsentAnswerHidesNoOtherRemark) {
   log.end();
   const auto text = read_text(path);
   expect_ended("check " + scratch_.write("cut.log", text.substr(0, text.size() - 9)), 0,
-               {"1 step without an answer", "it was cut, or is being written"});
+               {"1 step without an answer", "the log was cut, or is being written"});
 }
 
 TEST_F(CheckLog, ALogIsNotOverwritten) {
@@ -324,7 +324,7 @@ TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   EXPECT_EQ(read_text(log), bytes);
   expect_refused(
       "check " + log + " " + log + " --detector " + plugin("always_free") + " --junit " + xml,
-      "for them by --keep");
+      "name their folder by --keep");
 }
 
 // A share is the same in every run; what was killed goes on with a later step.

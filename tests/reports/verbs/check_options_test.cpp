@@ -95,7 +95,7 @@ TEST_F(CheckOptions, EachIsTakenByItsKindsAloneAndTheRefusalNamesBoth) {
       const bool is_one = words.find(" --") == std::string::npos && words.find("--det") != 0;
       if (is_taken || !is_one) continue;
       expect_refused(outcome, name_in(words) + " is for ");
-      expect_refused(outcome, std::string("but this is ") + said[k]);
+      expect_refused(outcome, std::string("but the input is ") + said[k]);
       expect_refused(outcome, "leave it out, or assay check ");
     }
   }
@@ -172,9 +172,9 @@ TEST_F(CheckOptions, InputsThatAreNotOfOneKindAreRefused) {
   expect_one_by_one("--body " + a + " --body " + recorded, recorded);
   for (const auto& [file, name] : {std::pair(queries, "a query file"), {bare, "a case file"}})
     expect_refused("check --body " + file,
-                   "--body takes frames, and " + file + " is " + name + ": assay check " + file);
+                   "--body takes frames, but " + file + " is " + name + ": assay check " + file);
   expect_refused("check " + a + " --body " + b,
-                 a + " and --body do not go together: assay check --body FRAME... for each mesh");
+                 a + " and --body do not go together: assay check --body FRAME... --body FRAME...");
   expect_ended("check " + queries + " " + queries, 0, {"oracle: 10 queries"});
 }
 

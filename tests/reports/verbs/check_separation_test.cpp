@@ -133,7 +133,7 @@ TEST_F(QueriesWithin, EveryMethodThatKnowsDistanceTellsItFromTheDoubleBelow) {
   for (const std::string method : {"oracle", "referee", "detector-exact"}) {
     SCOPED_TRACE(method);
     expect_ended(check(rows(",1"), "--separation 1 --method " + method), 0,
-                 {method + ": 1 queries (1 within 1), 1 yes, 0 without a label"});
+                 {method + ": 1 queries (1 within 1), 1 answers yes, 0 without a label"});
     EXPECT_EQ(report()["separation"], json::array({1.0, 1.0}));
     EXPECT_EQ(report()["yes"], 1);
     expect_ended(check(rows(",0"), "--separation 0.9999999999999999 --method " + method), 0);

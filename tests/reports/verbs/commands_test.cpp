@@ -128,7 +128,7 @@ TEST_F(Commands, ALimitOfMemoryIsReadInEveryUnit) {
   const std::string check = "check --no-oracle " + make_scene("bend", 100, 2) + " --memory ";
   for (const auto& size : words("8G 8GB 900M 900MB 900000K 900000KB 999999999B 999999999"))
     EXPECT_EQ(run_assay(check + size).exit_code, 0) << size;
-  expect_problem(run_assay(check + "8X"), "a whole number above 0, alone or with K, M or G");
+  expect_problem(run_assay(check + "8X"), "a whole number above 0, perhaps with K, M or G");
 }
 
 // What lies upon each other makes M^2 / 2 pairs: far more than the limit holds. The caller's thread

@@ -36,7 +36,7 @@ class LimitsSteps : public testing::Test {
 TEST_F(LimitsSteps, TheRightOnesHold) {
   for (const std::string said : {"", "positions", "share-alone", "separation=0.01"}) {
     SCOPED_TRACE(said);
-    expect_ended(run(said), 0, {"time until it: median 0.95", "limits: 0 of "});
+    expect_ended(run(said), 0, {"time until the contact: median 0.95", "limits: 0 of "});
   }
 }
 
@@ -76,7 +76,7 @@ TEST_F(LimitsSteps, AFailureIsShownWithTheWayThatWasAllowed) {
   expect_ended(run_assay(asked, words("")), 0,
                {"limit: 0.7125 of the step, contact ahead at t = 0.75"});
   expect_ended(run_assay(asked, words("at-contact")), 1,
-               {"contact on the way at t = 1 of it", "broken: commit-free path-free"});
+               {"contact at t = 1 of the way there", "broken: commit-free path-free"});
   const auto limit = read_json(scratch / "report.json")["steps"][0]["diff"]["limit"];
   EXPECT_EQ(limit["share"], 0.75);
   EXPECT_EQ(limit["contact_on_the_way"].dump(), "[1.0,1.0]") << limit;

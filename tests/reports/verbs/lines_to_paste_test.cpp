@@ -149,7 +149,7 @@ TEST_F(LinesToPaste, WhatItsOwnCaseDoesNotShowSaysSo) {
       "check 'f 0.obj' 'f 1.obj' 'f 2.obj' 'f 1.obj' --keep state --json state/r.json";
   EXPECT_EQ(run(check + " --part steps" + detector, state).exit_code, 2) << "check has no parts";
   const auto made = expect_ended(run(check + detector, state), 1,
-                                 {"not reproduced: asked about this step alone"});
+                                 {"not reproduced: in a new process that answers only this step"});
   EXPECT_FALSE(contains(made.out, "replay: ")) << made.out;
   EXPECT_EQ(read_json(folder / "state/r.json").at("kept").at(0).at("reproduced"), false);
   EXPECT_TRUE(contains(read_text(folder / "state/page.html"), "not reproduced"));

@@ -90,7 +90,7 @@ TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
   const std::string both = " --detector " + plugin("steps_and_query");
   expect_ended(with("ASSAY_QUERY", "", campaign("certify", "both") + both), 0,
                {"\nclosed-generic ", "\nquery-ulp ", "\ncurated cases ", "\nnamed queries ",
-                "; of its elementary query free-sound, "});
+                "; for its elementary query free-sound, "});
   expect_valid_certificate(out("both") + "/certificate.json");
   const auto stated = predicate_in(out("both"));
   EXPECT_EQ(stated["detector"]["configurations"][0]["claims"].size(), 8u);
@@ -149,9 +149,9 @@ TEST_F(Parts, TheSeparationOfAContractIsThatOfItsQueries) {
   // Labels of contact are no truth of it, unless the user says what they are.
   expect_ended(
       asked(within, check), 0,
-      {"5 queries (5 within 3), 5 yes, 5 without a label", "all claims hold in 5 queries"});
+      {"5 queries (5 within 3), 5 answers yes, 5 without a label", "all claims hold in 5 queries"});
   expect_ended(asked(within, check + " --separation 3"), 0,
-               {"5 yes, 0 without a label", "2 disputed labels"});
+               {"5 answers yes, 0 without a label", "2 disputed labels"});
   EXPECT_EQ(read_json(scratch / "report.json")["separation"], Json::array({3.0, 3.0}));
   expect_ended(asked(within + " miss-inside miss-at-start", check), 1,
                {"broken: free-sound, by 5 queries"});
@@ -225,9 +225,9 @@ TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
   expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
                  "it answers no elementary queries");
-  expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "but a query alone");
+  expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "only queries");
   expect_refused("replay tiny:1:query-ulp:0", "--detector");
-  expect_refused(asked("claims=8", "check " + queries), "claims nothing of its query");
+  expect_refused(asked("claims=8", "check " + queries), "no claim about its query");
 }
 
 }  // namespace

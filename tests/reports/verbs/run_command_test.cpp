@@ -167,7 +167,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   // Ten kinds are told; the rest is one count.
   ASSERT_GT(lines.size(), 10u) << listed.out;
   EXPECT_EQ(count_of(outcome.out, "\nDEFECT "), 10u) << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, fmt::format("\nand {} more kinds, met ", lines.size() - 10)));
+  EXPECT_TRUE(contains(outcome.out, fmt::format("\nand {} more kinds of ", lines.size() - 10)));
   for (const auto& line : lines) {
     expect_says(line, {"/failures/tiny-1-", "-smallest.json"});
     expect_ended(line, 1, {"DEFECT free-sound: answered free"});

@@ -57,7 +57,7 @@ export class Solids {
     this.group.add(this.faces, this.edges, this.ghostFaces, this.ghostEdges);
     this.group.add(this.pairLines, this.primitiveLines);
     for (const child of this.group.children) child.frustumCulled = false;
-    // Drawn over see-through faces.
+    // These lines are drawn over see-through faces.
     this.pairLines.renderOrder = this.primitiveLines.renderOrder = 1;
     this.recolour(palette);
   }

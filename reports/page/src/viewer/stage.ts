@@ -1,4 +1,4 @@
-// Has camera, light and canvas. Draws only when it is asked to.
+// Has the camera, the light and the canvas. Draws only when asked to draw.
 import {
   AmbientLight,
   DirectionalLight,
