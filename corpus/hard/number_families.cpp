@@ -130,7 +130,7 @@ std::vector<HardFamily> time_families() {
            "distance at t=0", "ulp", 40, -1, 40, 2, 1, at_the_start},
           {"contact-at-end", "a spike almost reaches a face, or reaches it just before the end",
            "distance at t=1", "ulp", 40, -1, 40, 2, 1, at_the_end},
-          {"double-root", "height over a turning face is a square in time, -+ a little",
+          {"double-root", "a tip's height over a turning face is a square in time, -+ a little",
            "least height", "ulp", 40, -2, 20, 2, 1, double_root},
           {"triple-root", "three roots close together, or one root beside a complex pair, or none",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},

@@ -135,7 +135,7 @@ constexpr SceneInfo infos[] = {
      false, play<pile_of_bodies>},
     {"tightening-knot", "a closed tube in a trefoil knot is drawn tight until it meets itself",
      1536, 11, true, false, play<tightening_knot>},
-    {"combed-hair", "hanging strips are combed to one side and the other, through each other", 1584,
+    {"combed-hair", "hanging strips are combed to one side, some farther, through the others", 1584,
      11, false, false, play<combed_hair>},
 };
 
@@ -152,23 +152,22 @@ Problem unknown_scene(std::string_view name) {
   const auto names = names_among(infos);
   const auto meant = did_you_mean(names, name);
   return problem_in(
-      {},
-      fmt::format("no scene is named {}{}", name,
-                  meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant));
+      {}, fmt::format("no scene is named {}{}", name,
+                      meant.empty() ? fmt::format("; scenes: {}", fmt::join(names, ", ")) : meant));
 }
 
 Expected<Sequence> make(const SceneInfo& info, SceneOptions options) {
   if (options.size == 0) options.size = info.default_size;
   if (options.frames == 0) options.frames = info.default_frames;
   if (options.size < 0 || options.size > most_triangles) {
-    return wrong_option(info.name,
-                        fmt::format("1 to {} triangles, not {}", most_triangles, options.size));
+    return wrong_option(
+        info.name, fmt::format("it has 1 to {} triangles, not {}", most_triangles, options.size));
   }
   if (options.frames < 0 || options.frames > most_frames) {
     return wrong_option(info.name,
-                        fmt::format("1 to {} frames, not {}", most_frames, options.frames));
+                        fmt::format("it has 1 to {} frames, not {}", most_frames, options.frames));
   }
-  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it deforms no other mesh");
+  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it takes no other mesh");
   if (options.mesh && !is_valid(*options.mesh)) {
     return wrong_option(info.name,
                         "the mesh has no triangle, an index out of range or a "

@@ -193,7 +193,7 @@ TEST_F(CaseFile, ARefusedMeshMayBeACase) {
   Case c;
   c.triangles = tests::triangles_of("0 1 1");
   c.frames = {detector::Positions::Zero(3, 3)};
-  EXPECT_TRUE(says(parse_case(case_text(c), "x"), "a vertex named twice"));
+  EXPECT_TRUE(says(parse_case(case_text(c), "x"), "the triangle names a vertex twice"));
   c.expected.answer = detector::Answer::error;
   EXPECT_TRUE(parse_case(case_text(c), "x"));
 }
