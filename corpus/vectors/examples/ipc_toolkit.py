@@ -17,7 +17,7 @@ except ImportError as missing:
 
 
 class IpcToolkit:
-    """Tight-Inclusion answers for two features, is_step_collision_free for whole steps."""
+    """Asks Tight-Inclusion about two features, and is_step_collision_free about whole steps."""
     name = "ipctk"
     version = getattr(ipctk, "__version__", "unknown")
     settings = "Tight-Inclusion, defaults"
