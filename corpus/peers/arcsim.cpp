@@ -6,9 +6,9 @@
 // and whose boxes meet. Settings: the values that are fixed in the function (a distance below 1e-6,
 // weights above -1e-6, Newton's method to 1e-6 of the step). Contract: no contact at the start, and
 // coordinates of usual sizes. Claims: free-sound, because collision_response moves vertices until
-// find_impacts finds nothing, and its header mesh calls the result the "collision-free position" of
-// the next step. Not-late is not claimed, because Newton's method can end up to 1e-6 too early or
-// too late.
+// find_impacts finds nothing, and ArcSim's header mesh calls the result the "collision-free
+// position" of the next step. Not-late is not claimed, because Newton's method can end up to 1e-6
+// too early or too late.
 //
 // Expected before the first run: four points that start within a millionth of one plane are skipped
 // ("initially coplanar"), so edges of one plane that fold through each other are missed. The end of

@@ -1,6 +1,6 @@
 // CTCD, Etienne Vouga's root finder in floating point (Harmon et al. 2011; FPRF of Wang et al.
 // 2021). It is built twice, with ASSAY_PEER_SEPARATION 0 and 1e-3. The separation is its distance
-// eta; for separation 0 eta is 1e-8, because with eta 0 no features are "closer than a distance
+// eta; for separation 0, eta is 1e-8, because with eta 0 no features are "closer than a distance
 // eta".
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,

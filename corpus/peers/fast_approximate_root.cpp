@@ -9,11 +9,11 @@
 // contacts that it misses are shown in brackets, and do not count as defects.
 //
 // Expected before the first run: the two false negatives of its README. For a cubic without extrema
-// (4 b b - 12 a c below 0) the answer is "no", although the cubic has a root. It looks at one root
-// only, so contacts at a later root are missed. Newton's method stops before the root; at that time
-// a contact at the end of a feature or of the step does not show yet. For motion within a plane the
-// answer is always "yes", which gives false alarms. For lengths below 1e-5, coefficients are
-// treated as zero.
+// (4 b b - 12 a c below 0) the answer is "no", although the cubic has a root. The function looks at
+// one root only, so contacts at a later root are missed. Newton's method stops before the root; at
+// that time a contact at the end of a feature or of the step does not show yet. For motion within a
+// plane the answer is always "yes", which gives false alarms. For lengths below 1e-5, coefficients
+// are treated as zero.
 #include <ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"

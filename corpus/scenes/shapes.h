@@ -123,7 +123,7 @@ class MeshMaker {
 // Functions that give the mesh of a scene for every time s in [0,1] of the scene, or (BoxWithArm)
 // for every height of a tip.
 //
-// The scenes of times s give a collision detector much work: many layers, many bodies, a body wound
+// The functions of s give a collision detector much work: many layers, many bodies, a body wound
 // about itself, many thin strips. At s = 0 nothing touches. `size` is the wanted number of
 // triangles. Distances, thicknesses and lengths of motion do not depend on `size`; if a shape has
 // several parts, a larger size means more parts. Fields, which move the vertices of a given mesh,
@@ -142,8 +142,8 @@ Mesh pile_of_bodies(int size, double s);
 // stays the same. The tube has twelve times as many pieces along its length as around it.
 Mesh tightening_knot(int size, double s);
 
-// Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed:
-// neighbouring columns lean to opposite sides. 240,000 triangles make 5,000 strips.
+// Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed to one
+// side: every second column farther than its neighbours. 240,000 triangles make 5,000 strips.
 Mesh combed_hair(int size, double s);
 
 // A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
@@ -188,8 +188,8 @@ Extent extent_of(const detector::PositionsView& positions);
 using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
 
 // Moves each vertex along its ray from the centre, by about 25 % and unevenly: out, back, and
-// inward. A mesh whose triangles are all positive for a view-point at the centre stays so, between
-// the frames too.
+// inward. If all triangles are positive for a view-point at the centre at s = 0, they stay positive
+// at all times, between the frames too.
 detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
 
 // Bends the long axis into an arc. At s = 1 the arc is 1.02 turns of a circle, so the two ends of a
@@ -214,7 +214,7 @@ detector::Point fold(const detector::Point& x, double s, const Extent& extent);
 // Narrows the tube to a waist around z = 0; at s = 1 the waist is 40 % as wide as the tube.
 detector::Point narrow(const detector::Point& x, double s, const Extent& extent);
 
-// Fields that move unclosed surfaces through their own holes, or around them, and back again.
+// Fields that move unclosed surfaces through their own holes or around themselves, and back again.
 //
 // They are periodic: the places at s = 1 equal the places at s = 0, bit by bit, so a sequence can
 // be repeated without end. They are for shapes of this file, in the shapes' own coordinates: tubes

@@ -18,7 +18,7 @@ def demand_module():
 class BuiltIn:
     """The built-in detector with all pairs, in one arithmetic.
 
-    Only `exact` and `bounded`, which prove their answers, answer limits; only `exact` distances.
+    Limits are answered only by `exact` and `bounded`, which prove answers; distances by `exact`.
     """
 
     def __init__(self, arithmetic):

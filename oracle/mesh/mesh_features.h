@@ -67,8 +67,8 @@ std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangl
 // start. Returns no walk for a cycle. Takes n log n.
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
 
-// Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop).
-// Together with the triangles whose loops these are, the ghosts make a cycle.
+// Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). The
+// ghosts, together with the triangles that have these loops, are a cycle.
 detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex);
 
 // Returns whether `ghosts` closes the mesh with one ghost for each unmatched edge: triangles and
