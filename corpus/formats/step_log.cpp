@@ -422,7 +422,7 @@ std::string StepLog::take(const Json& body) {
   const auto place = static_cast<std::uint64_t>(step.value_or(0));
   if (type == "note") notes_.emplace(place, text(value_of(body, "text")));
   if (type == "step") {
-    if (!steps_.empty() && place <= steps_.back().number) return "a step number not above the last";
+    if (!steps_.empty() && place <= steps_.back().number) return "a step number out of order";
     steps_.push_back({scanned_, place});
   }  // records of later versions are passed over
   is_ended_ |= is_end;

@@ -101,9 +101,9 @@ Sequence play(const SceneOptions& options) {
 }
 
 constexpr SceneInfo infos[] = {
-    {"breathing-sphere", "a sphere swells and shrinks unevenly, always positive from its centre",
+    {"breathing-sphere", "a sphere breathes unevenly; all triangles stay positive from its centre",
      1280, 11, true, true, breathing_sphere},
-    {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
+    {"two-spheres", "one of two separate spheres swells while the other shrinks; no contact", 1280,
      11, true, false, two_spheres},
     {"dented-sphere", "a dent is pushed through a sphere until it meets the other side", 1280, 11,
      true, false, deformed<sphere_shape, dent>},
@@ -119,7 +119,7 @@ constexpr SceneInfo infos[] = {
      false, deformed<sheet_shape, fold>},
     {"crumpling-sphere", "a sphere is folded over itself at many places", 1280, 11, true, true,
      deformed_any<sphere_shape, crumple>},
-    {"arm-in-box", "an arm of an open box enters through its hole and leaves again; no contact",
+    {"arm-in-box", "an open box's arm enters the box through a hole and leaves it; no contact",
      1204, 11, false, false, arm_in_box},
     {"ball-in-tube", "a ball goes through a tube open at both ends, and back; no contact", 1280, 41,
      false, false, ball_in_tube},
