@@ -43,8 +43,8 @@ int nearest_resolution(int size, int least, Count count) {
 // A grid of `columns` by `rows` cells; each cell has two triangles.
 struct Sheet {
   int columns, rows;
-  bool is_round = false;   // the last column meets the first
-  bool is_ring = false;    // the last row meets the first
+  bool is_round = false;   // the last column joins the first column
+  bool is_ring = false;    // the last row joins the first row
   bool is_turned = false;  // the orientation of all triangles is reversed
 };
 
@@ -129,7 +129,7 @@ class MeshMaker {
 // several parts, a larger size means more parts. Fields, which move the vertices of a given mesh,
 // follow further below.
 
-// Returns square sheets, one over the other, in the same folds. They move farther than the distance
+// Returns square sheets, one over the other, all folded alike. They move farther than the distance
 // between them, and each slides and bulges in its own way. There are 50 sheets from 1,600 triangles
 // on, and fewer below that.
 Mesh layered_cloth(int size, double s);
@@ -196,11 +196,11 @@ detector::Point breathe(const detector::Point& x, double s, const Extent& extent
 // tube meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
-// Turns each place about the long axis in proportion to its height: at s = 1 the two ends of the
-// axis differ by one turn.
+// Turns each place about the long axis in proportion to its place along that axis: at s = 1 the two
+// ends of the axis differ by one turn.
 detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 
-// Shrinks and adds waves that fold the surface over itself.
+// Shrinks the surface, and adds waves that fold it over itself.
 detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
 
 // Pushes the cap around +z down through the sphere and out at the other side. This field and the
@@ -230,7 +230,7 @@ detector::Point turn_inside_out(const detector::Point& x, double s, const Extent
 // narrow end goes in, the fans that close the two ends cross.
 detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
 
-// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 turns at s = 1/2. The fan
+// Winds ribbon_shape into a spiral, of 1.25 turns at s = 0 and of 2.75 turns at s = 1/2. The fan
 // that closes the ribbon lies right across the spiral.
 detector::Point wind(const detector::Point& x, double s, const Extent& extent);
 

@@ -674,10 +674,10 @@ class Judged:
     def __init__(self, product):
         self.product = product
         self.outcome = {}  # by id
-        self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
+        self.missed = {}  # by id of a missed case: its first missed step, and the answer to it
         self.closed = self.open = self.missing = self.spurious = 0
         self.met = self.named = 0  # right pairs and answered pairs, of steps whose pairs are judged
-        self.times, self.late_by, self.early_by = 0, [], []  # judged first times; parts of a step
+        self.times, self.late_by, self.early_by = 0, [], []  # count of first times; parts of a step
         self.gave_pairs = False
         self.uses = []  # the shares of the possible way that a limiter allows
         self.limits = 0  # the limits that have one right answer

@@ -38,8 +38,8 @@ Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
 }
 
 // Finds which of many closed boxes meet another box: a packed R-tree (Boost.Geometry). Its answers
-// rest on comparisons of doubles alone; rounded sums decide its layout, never an answer. Many
-// threads may ask at once.
+// rest on comparisons of doubles alone; rounded sums decide its layout, never an answer. Several
+// threads may search at the same time.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);
@@ -138,7 +138,7 @@ void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const 
 // Says of two triangles, the lower first, whether they count.
 using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
-// Triangle pairs whose features meet, by a test that the caller chooses (at rest or over a step).
+// The rest finds pairs of triangles whose features meet. The caller chooses the test of features.
 
 // An exact test of two features: whether they meet.
 using FeaturesMeet = std::function<bool(const detector::Feature& feature)>;

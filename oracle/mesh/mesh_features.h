@@ -16,7 +16,7 @@ using Edge = std::array<std::int32_t, 2>;  // vertices, lower first
 using Face = std::array<std::int32_t, 3>;  // vertices, in the order of the mesh
 
 // Lists for each item (a vertex or an edge) the triangles that hold it, ascending. All lists lie in
-// one array: the list of item i begins at first[i].
+// one array: the list of item i begins at triangle[first[i]].
 struct Incidence {
   std::vector<std::size_t> first;  // by item; the last element is the end of the last list
   std::vector<std::int32_t> triangle;

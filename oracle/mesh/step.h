@@ -73,7 +73,7 @@ class StepFeatures {
   StepFeatures(const StepFeatures&) = delete;
   StepFeatures& operator=(const StepFeatures&) = delete;
 
-  // Visits the pairs of features whose boxes meet, with the number of the calling thread.
+  // Visits each pair of features whose boxes meet; `visit` gets the number of its thread.
   void for_each(const BoxOfVertices& boxes, const Workers& workers, const VisitPair& visit) const;
 
   // Visits the counted pairs of triangles that are in contact at t=0 because an edge of one pierces

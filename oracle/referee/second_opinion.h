@@ -1,4 +1,4 @@
-// Checks a step's judgement by two other methods, on a share of its questions.
+// Checks a share of the questions of a step's judgement by two other methods.
 //
 // Feature queries whose swept boxes meet go to the referee (referee.h). Its decision is compared
 // with the answer of contact.h and with the pair set. Triangle pairs whose swept boxes meet are
