@@ -86,7 +86,7 @@ std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is
                                           InputText text = {});
 
 // Makes a source of the steps between files. Each file is a frame and is read once: this function
-// reads the first two files, and step() reads the other files. One file alone is a mesh at rest.
+// reads the first two files, and step() reads the other files. A single file is a mesh at rest.
 // This function refuses files that are missing or have no known format. REQUIRES at least one file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 

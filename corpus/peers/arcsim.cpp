@@ -14,7 +14,7 @@
 // ("initially coplanar"), so edges of one plane that fold through each other are missed. The end of
 // the step is appended to the roots ("also check at end of timestep"), but the loop stops before
 // this last entry. Newton's method returns its second-to-last iterate, and 1e-6 is a length, so
-// contacts are missed if coordinates or motions are large. Motion within a plane is missed.
+// contacts are missed if coordinates or motions are large. Contacts of planar motion are missed.
 #include <fstream>
 #include <iostream>
 

@@ -252,7 +252,7 @@ def is_right(finding, stated):
         told_right = all(lo <= hi for lo, hi in zip((first[0], exact[0]), (exact[1], first[1])))
         return before > Fraction(0.001)**2 > after and told_right
     if exact is None and not mesh and first[0] != first[1]:
-        return False  # its digits alone
+        return False  # only its digits tell the time
     times = contacts(is_face, x0, x1)
     return begin(times, *first) and (not exact or begin(times, *exact))
 

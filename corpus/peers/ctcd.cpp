@@ -5,7 +5,7 @@
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,
 // edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as in its
-// CTCDNarrowPhase. Settings: eta alone. Contract: no contact at the start; coordinates of usual
+// CTCDNarrowPhase. Settings: only eta. Contract: no contact at the start; coordinates of usual
 // sizes, because eta is a length. Claims: free-sound and not-late, from the header CTCD ("Returns
 // true if the vertex and face ever come closer than a distance eta to each other, and stores the
 // earliest time"; of edges "Does not work correctly if two edges are parallel at the time of

@@ -4,7 +4,7 @@
 // Version: commit 138321e2 (2024-04-01) of zfergus/fast-approximate-root-ccd. Functions:
 // ccd::point_triangle_ccd and ccd::edge_edge_ccd. Settings: none (Newton's method ends when a step
 // is below 1e-6), without assertions, as in its own Release build. Contract: no contact at the
-// start, coordinates of usual sizes. Claims: deterministic and total alone, because its README says
+// start, coordinates of usual sizes. Claims: only deterministic and total, because its README says
 // "this method can produce false negatives (i.e., miss collisions)" and prints two of them. So
 // contacts that it misses are shown in brackets, and do not count as defects.
 //

@@ -38,7 +38,7 @@ Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
 }
 
 // Finds which of many closed boxes meet another box: a packed R-tree (Boost.Geometry). Its answers
-// rest on comparisons of doubles alone; rounded sums decide its layout, never an answer. Several
+// rest only on comparisons of doubles; rounded sums decide its layout, never an answer. Several
 // threads may search at the same time.
 class BoxTree {
  public:

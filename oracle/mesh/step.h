@@ -1,9 +1,9 @@
 // The exact pair set of one step, with the first contact time of each pair.
 //
-// The pair set is found from the mesh alone; view sets, state and culling play no part. An exact
-// box cull finds candidate pairs of features, and the exact query of contact.h judges them. If two
-// features meet, all pairs of triangles that hold them are in contact. Candidates are judged when
-// they are found and never stored: only the mesh, one box tree and the contacts take memory.
+// The pair set is found only from the mesh; view sets, detector state and culling play no part. An
+// exact box cull finds candidate pairs of features, and the exact query of contact.h judges them.
+// If two features meet, all pairs of triangles that hold them are in contact. Candidates are judged
+// when they are found and never stored: only the mesh, one box tree and the contacts take memory.
 #pragma once
 
 #include <cstdint>
