@@ -1041,7 +1041,7 @@ def parser_of_all():
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = parser.add_subparsers(dest="verb", required=True, parser_class=Parser)
     one = verbs.add_parser("run", help="ask a program or a detector all questions of a set")
-    one.add_argument("--set", metavar="DIR", help="the folder of the set (default: of this file)")
+    one.add_argument("--set", metavar="DIR", help="the set (default: this program's folder)")
     one.add_argument("--out", metavar="FILE", default="results.json", help="default: results.json")
     one.add_argument("--group", nargs="+", metavar="G", help="ask only cases of these groups or flags")
     one.add_argument("--timeout", type=float, default=10, metavar="S",
@@ -1050,7 +1050,7 @@ def parser_of_all():
     one.add_argument("--detector", metavar="NAME",
                      help="ask a plug-in of Assay, or a Python class: python:MODULE:CLASS")
     one.add_argument("--arithmetic", metavar="WORD",
-                     help="ask the built-in detector in exact, bounded, double or float")
+                     help="arithmetic of the built-in detector: exact, bounded, double or float")
     one = verbs.add_parser("score", help="compare results with the exact answers")
     one.add_argument("results", nargs="+")
     one.add_argument("--set", metavar="DIR")
