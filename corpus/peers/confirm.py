@@ -206,7 +206,7 @@ def points_key(x0, x1):
 
 
 def is_mesh_right(name, first=None):
-    """Returns whether each step has the first time of the file, and the first step `first`."""
+    """Returns whether each step has its stated first time, and the first step the time `first`."""
     case = json.loads((MESHES / f"{name}.json").read_text())
     for i, step in enumerate(case["expected"]["steps"]):
         times = mesh_contacts(case["triangles"], *case["frames"][i:i + 2])
@@ -217,8 +217,8 @@ def is_mesh_right(name, first=None):
 
 
 def points_of(text):
-    """Returns a bool (whether the text names a vertex and a face) and its points at t = 0 and at
-    t = 1. A query has four points; a vertex comes first."""
+    """Returns a bool (whether the text names a vertex and a face), and the points at t = 0 and
+    at t = 1. A query has four points; a vertex comes first."""
     given = re.search(r"(?:Input:|\*\*,) ((?:edges|a [fv]).*?)(?:Answers|:| of a triangle)", text)
     point = r"\(([^(),]*),([^(),]*),([^(),]*)\)"
     points = re.findall(f"{point}(?: to {point})?", given[1]) if given else []

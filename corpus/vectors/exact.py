@@ -123,7 +123,7 @@ class Features:
         return [[0, 1]]
 
     def meets(self, time):
-        """Returns whether the features meet. REQUIRES that all points are coplanar then."""
+        """Returns whether the features meet at `time`. REQUIRES coplanar points then."""
         for sides in self.sides:
             signs = {time.sign(p) for p in sides} - {0}
             if signs:

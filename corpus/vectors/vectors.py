@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs, scores, checks and converts sets of Assay vectors: small hard cases for continuous
-collision detection whose answers are known exactly. README.md says what everything means.
+"""Runs, scores, checks and converts sets of Assay vectors: small hard cases of continuous
+collision detection with exactly known answers. README.md says what everything means.
 
   vectors.py run [--set DIR] [--out FILE] [--group G...] [--timeout S] [--restart] -- COMMAND ARGS...
   vectors.py run [...] --detector LIB.so|python:MODULE:CLASS
@@ -86,7 +86,7 @@ class VectorSet:
         check_set(self.info, self.folder / "set.json")
         names = [*(Path(g["file"]).stem for g in self.info["groups"]), *self.info["flags"]]
         for name in sorted({*(only or [])} - {*names}):
-            raise Wrong(f"no group or flag {name}; there are: {' '.join(names)}")
+            raise Wrong(f"no group or flag is named {name}; the names are: {' '.join(names)}")
         self.groups, self.cases = [], []
         lines, ids = "", set()
         for entry in self.info["groups"]:
@@ -253,7 +253,7 @@ def check_mesh(case, group, place):
         "a triangle is not three different indices of points")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
-         and steps, place, 'steps is not a list of steps (for question "limit": of exactly one)')
+         and steps, place, 'steps is not a list of steps (for question "limit": of exactly one step)')
     number = (lambda x: is_count(x, len(frames))), "the number of a frame"
     for i, step in enumerate(steps):
         here = f"{place}: step {i + 1}"
@@ -280,7 +280,7 @@ def check_truth(truth, place):
         want(isinstance(truth.get(name, []), list), place, f"{name} is not a list")
     time_, polynomial = truth.get("first_time"), truth.get("polynomial")
     if truth["result"] == "free":
-        want(time_ is None and polynomial is None, place, "free, but with first_time or polynomial")
+        want(time_ is None and polynomial is None, place, "result is free, but first_time or polynomial is set")
     if time_ is not None:
         want(is_list(time_, 2, is_number) and 0 <= time_[0] <= time_[1] <= 1, place,
              "first_time is not [lo, hi] with 0 <= lo <= hi <= 1")
@@ -382,7 +382,7 @@ def check_halves(cases):
         if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
             continue
         want("SplitInvariant" in case.flags, f"case {name}", "it has halves, but not the flag SplitInvariant")
-        want(len(both) == 2, f"case {name}", "it does not have two halves (by split_of)")
+        want(len(both) == 2, f"case {name}", "it does not have two halves (by their split_of)")
         ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
                  for p, q in zip(h["t0"], h["t1"])] for h in both]
         want(ways[0] == ways[1] and both[0]["t0"] == whole["t0"] and
@@ -625,7 +625,7 @@ def true_or_false(said, case):
     """Returns a bool of Python or NumPy as bool. Refuses a number, because 0.0 would mean free."""
     is_bool = getattr(getattr(said, "dtype", None), "kind", "") == "b" and not said.shape
     want(isinstance(said, bool) or is_bool, case.id,
-         f"{said!r} is no answer; answers are True, False, None, lines such as \"collision 0.25\"")
+         f"{said!r} is no answer; answers are True, False, None and lines such as \"collision 0.25\"")
     return bool(said)
 
 
@@ -760,7 +760,7 @@ def read_results(file, vectors):
     given, own = results["set"], vectors.label()
     want(given["digest"] == own["digest"], file,
          f"results of another set ({given['version']} {given['profile']}, digest "
-         f"{given['digest'][:12]}); --set has {own['version']} {own['profile']}, digest "
+         f"{given['digest'][:12]}); the set to score is {own['version']} {own['profile']}, digest "
          f"{own['digest'][:12]}")
     cases = {case.id: case for case in vectors.cases}
     for name, answer in results["answers"].items():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Asks the IPC Toolkit's Python module (pip install ipctk, 1.x) and writes results_ipctk.json.
-Run: python3 ipc_toolkit.py [DIR of the set]"""
+"""Asks the IPC Toolkit's Python module (pip install ipctk, 1.x) the questions of a set, and writes
+results_ipctk.json. Run: python3 ipc_toolkit.py [DIR of the set]"""
 import sys
 from pathlib import Path
 

@@ -276,7 +276,7 @@ class AsAModule(InScratch):
 
     def test_a_time_in_place_of_true_or_false_is_refused(self):
         for said in (0.0, 0.5, (0.25, 0.5), {"first": 0.5}):
-            with self.assertRaisesRegex(vectors.Wrong, "is no answer; answers are True, False, None"):
+            with self.assertRaisesRegex(vectors.Wrong, "is no answer; answers are True, False, None and lines"):
                 vectors.run(lambda *_: said, set=MINI)
 
     def test_a_function_is_asked_contacts(self):
@@ -502,7 +502,7 @@ class Checking(InScratch):
                 (change("first_time", [0.75, 0.75]), "its polynomial has no zero in first_time"),
                 (change("first_time", [2.0, 2.0]), "first_time is not [lo, hi] with 0 <= lo <="),
                 (change("result", "maybe"), "result is not one of"),
-                (change("result", "free"), "free, but with first_time or polynomial"),
+                (change("result", "free"), "result is free, but first_time or polynomial is"),
                 (change("flags", ["Unheard"]), "set.json knows no flag Unheard"),
                 (change("id", "vf-d-0002"), "case vf-d-0002 occurs twice"),
                 (change("id", "a b"), "id is not a name"),
