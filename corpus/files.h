@@ -31,8 +31,8 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 
 // Reads the first `count` bytes of the content, or all bytes if there are fewer. The cost does not
 // depend on the size of the file. Refuses what read_bytes refuses, if the start of the file shows
-// the reason. Of a gzip stream, reads the first `count` bytes and 256 KiB more. If the stream goes
-// on after this part, and the part is damaged or decompresses to fewer than `count` bytes, the
+// the reason. From a gzip stream it reads the first `count` bytes and 256 KiB more. If the stream
+// goes on after this part, and the part is damaged or decompresses to fewer than `count` bytes, the
 // function returns an empty text.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 

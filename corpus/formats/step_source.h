@@ -27,7 +27,7 @@ struct SourceStep {
 // A description of an input in words.
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
-  std::vector<std::string> files = {};    // in the order of reading; empty: the order is the user's
+  std::vector<std::string> files = {};    // in the order of reading; empty: the user's own list
   std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
@@ -95,7 +95,8 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
   // Which pairs count (detector/mesh/counted_pairs.h): `apart` lists bodies that do not meet. Pairs
-  // within `rings` edges, and pairs nearer than `rest_distance` in the first frame, do not count.
+  // joined by fewer than `rings` edges, or nearer than `rest_distance` in the first frame, do not
+  // count.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;

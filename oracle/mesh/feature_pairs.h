@@ -138,7 +138,7 @@ void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const 
 // Says of two triangles, the lower first, whether they count.
 using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
-// The rest finds pairs of triangles whose features meet. The caller chooses the test of features.
+// The rest of this file finds pairs of triangles whose features meet, by a test of the caller.
 
 // An exact test of two features: whether they meet.
 using FeaturesMeet = std::function<bool(const detector::Feature& feature)>;

@@ -1,4 +1,4 @@
-// Signs that all numbers of an interval surely have (any type with inf() and sup()); polynomials on
+// Signs that all numbers of an interval (a type with inf() and sup()) surely have; polynomials on
 // pieces of the step; and intervals that need no change of the rounding mode.
 #pragma once
 
