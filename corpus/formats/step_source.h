@@ -95,8 +95,7 @@ Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
   // Which pairs count (detector/mesh/counted_pairs.h): `apart` lists bodies that do not meet. Pairs
-  // joined by fewer than `rings` edges, or nearer than `rest_distance` in the first frame, do not
-  // count.
+  // joined by fewer than `rings` edges, or nearer than `rest_distance` in frame 0, do not count.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;
