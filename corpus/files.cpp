@@ -66,7 +66,7 @@ bool is_gzip(const std::string& bytes) {
 }
 
 Problem corrupt(const std::filesystem::path& path, const char* how, std::size_t offset) {
-  return problem_in(path, fmt::format("the gzip stream {} (compressed byte {})", how, offset));
+  return problem_in(path, fmt::format("the gzip stream {} (at its byte {})", how, offset));
 }
 
 Problem empty(const std::filesystem::path& path) { return problem_in(path, "the file is empty"); }

@@ -31,9 +31,9 @@ Expected<std::string> read_bytes(const std::filesystem::path& path,
 
 // Reads the first `count` bytes of the content, or all bytes if there are fewer. The cost does not
 // depend on the size of the file. Refuses what read_bytes refuses, if the start of the file shows
-// it. It reads the first `count` + 256 KiB bytes of a gzip stream. If the stream goes on after this
-// part, and the part is damaged or decompresses to fewer than `count` bytes, the function returns
-// an empty text.
+// the reason. From a gzip stream it reads the first `count` bytes and 256 KiB more. If the stream
+// goes on after this part, and the part is damaged or decompresses to fewer than `count` bytes, the
+// function returns an empty text.
 Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
 
 // Writes PATH.part beside `path` and then renames it, so a reader sees the old file or the whole

@@ -36,7 +36,7 @@ Expected<std::string> JsonField::text() const {
 Expected<double> JsonField::number() const {
   if (!value_->is_number()) return problem("a number expected");
   const auto value = value_->get<double>();
-  if (!std::isfinite(value)) return problem("not finite");
+  if (!std::isfinite(value)) return problem("a finite number expected");
   return value;
 }
 
@@ -119,7 +119,7 @@ Expected<Value> parse_as(std::string_view text, const std::filesystem::path& fil
 } catch (const typename Value::parse_error& error) {
   return problem_in(file, fmt::format("byte {}: not JSON", error.byte));
 } catch (const typename Value::out_of_range&) {
-  return problem_in(file, "a number that is too large for a double");
+  return problem_in(file, "a number is too large for a double");
 } catch (const typename Value::exception&) {
   return problem_in(file, "not JSON");
 }

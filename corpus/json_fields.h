@@ -28,8 +28,7 @@ using Json = nlohmann::ordered_json;
 // Parses JSON text. Refuses text that is not JSON (the message names the byte), a number that is
 // too large for a double, and an object that has a key twice, because the parser would silently use
 // the last value. Also refuses a value nested more than 64 levels deep, because code that prints or
-// copies a value calls itself for each level, and the stack is finite. Messages name the text by
-// `file`.
+// copies a value calls itself for each level, and the stack is finite. Messages begin with `file`.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
 // Does the same, and returns a value that sorts its keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,

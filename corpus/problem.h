@@ -46,8 +46,8 @@ using Expected = boost::outcome_v2::basic_result<T, Problem, boost::outcome_v2::
 // `written` is one of the words.
 std::string meant_word(const std::vector<std::string>& words, std::string_view written);
 
-// Returns "; did you mean WORD?" if meant_word finds a WORD, else an empty text. It ends a line
-// that refuses `written`.
+// Returns "; did you mean WORD?" if meant_word finds a WORD, else an empty text. The text belongs
+// at the end of a line that refuses `written`.
 std::string did_you_mean(const std::vector<std::string>& words, std::string_view written);
 
 // Returns the member `name` of each of `things`, such as scenes.

@@ -10,8 +10,8 @@ namespace assay::oracle {
 // from its headers, the other versions from the loaded libraries.
 std::string library_versions();
 
-// Registers the function that ends the program: from now on, when GMP finds no memory, it calls
-// `end` in place of abort. `end` must not return, and it must not throw because an exception cannot
+// Registers the function that ends the program: from now on, when GMP finds no memory, GMP calls
+// `end` instead of abort. `end` must not return, and it must not throw because an exception cannot
 // leave GMP's code. REQUIRES that no exact number has been made yet.
 void end_without_memory(void (*end)());
 

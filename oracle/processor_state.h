@@ -11,7 +11,7 @@ namespace assay::oracle {
 // takes about 10 ns.
 bool processor_state_is_exact();
 
-// Ends the process with a message, in every build type, if the state is not exact.
+// Ends the process with a message, in every build type, if processor_state_is_exact() is false.
 void require_exact_processor_state();
 
 }  // namespace assay::oracle

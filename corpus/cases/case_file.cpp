@@ -192,7 +192,7 @@ class CaseReader : public JsonReader<CaseReader> {
       std::array<std::int32_t, 3> t{};
       read_row(field.item(i), Below{corners.vertices}, t[0], t[1], t[2]);
       if (!corners.may_repeat && (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]))
-        throw Refused{field.item(i).problem("a vertex named twice")};
+        throw Refused{field.item(i).problem("the triangle names a vertex twice")};
       triangles.row(static_cast<Eigen::Index>(i)) << t[0], t[1], t[2];
     }
   }

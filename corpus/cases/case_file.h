@@ -125,7 +125,7 @@ std::vector<detector::Point> points_of(const detector::Positions& x);
 std::string case_text(const Case& c);
 
 // Reads a case from its text, and checks shape, lengths and index ranges. A mesh triangle may
-// repeat an index only if the expected answer is `error`. Messages name the file by `name`.
+// repeat an index only if the expected answer is `error`. Messages begin with `name`.
 Expected<Case> parse_case(std::string_view text, std::string_view name);
 
 Expected<Case> read_case(const std::filesystem::path& path);

@@ -141,7 +141,7 @@ void put_in_order(const std::vector<std::string>& paths, FrameOrder& result) {
     const auto i = place_of_difference(order);
     const auto [a, b] = short_names(paths[i], order[i].path);
     remarks.push_back(fmt::format(
-        "frames stay in your order, {} before {}: are their numbers whole or decimal?", a, b));
+        "frames stay in your order, {} before {}: their numbers may be whole or decimal", a, b));
     names = decimals;
   } else if (paths_of(names) != paths) {
     const bool is_of_a_shell = is_order_of_a_shell(paths);

@@ -61,7 +61,7 @@ constexpr OtherFormat other_formats[] = {{".stl", "an STL", ".ply"},
 
 Problem unknown_format(const std::filesystem::path& path, std::string_view bytes) {
   const auto end = mesh_extension(path);
-  const std::string read = "OBJ, PLY and OFF are read: ";
+  const std::string read = "only OBJ, PLY and OFF are read: ";
   if (end == ".npz" || end == ".npy")
     return problem_in(path, "a NumPy file; " + read + "use assay.check in Python");
   for (const auto& [ends, name, by_meshio] : other_formats) {
@@ -76,8 +76,8 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
     const auto file = is_plain ? path : std::filesystem::path("FILE" + end);
     const auto converted = std::filesystem::path(file).replace_extension(by_meshio);
     return problem_in(
-        path, fmt::format("{} file; {}python3 -c \"import meshio; meshio.read('{}').write('{}')\" "
-                          "(python3-meshio of Debian, or pip install meshio)",
+        path, fmt::format("{} file; {}use python3 -c \"import meshio; meshio.read('{}')"
+                          ".write('{}')\" (python3-meshio of Debian, or pip install meshio)",
                           name, read, file.string(), converted.string()));
   }
   const auto line = bytes.substr(0, bytes.find_first_of("\r\n"));
@@ -86,7 +86,7 @@ Problem unknown_format(const std::filesystem::path& path, std::string_view bytes
       path,
       fmt::format("{}: this is neither PLY nor OFF, its name does not end with .obj, and it is no "
                   "case file, log or query file (assay check --help)",
-                  is_text ? "it begins with " + excerpt(line) : "no text"));
+                  is_text ? "it begins with " + excerpt(line) : "it is no text"));
 }
 
 Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& path) {
@@ -112,7 +112,7 @@ Expected<void> refuse_folder(const std::filesystem::path& path) {
   const auto where = path.has_filename() ? path : path.parent_path();
   return problem_in(path, "cannot be read: Is a directory" +
                               (most->second == 0 ? ", and it holds no OBJ, PLY or OFF file"
-                                                 : fmt::format(": name its files, {}/*{}",
+                                                 : fmt::format(": give its files, {}/*{}",
                                                                where.string(), most->first)));
 }
 
@@ -190,7 +190,7 @@ Expected<void> MeshBuilder::add_vertex(double x, double y, double z, const Place
 Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
                                         const Place& place) {
   if (vertices.size() < 3) {
-    return problem(place, fmt::format("a face of {} vertices", vertices.size()));
+    return problem(place, fmt::format("a face has only {} vertices", vertices.size()));
   }
   for (const std::int64_t vertex : vertices) {
     if (vertex < 0 || vertex >= most_vertices) {
@@ -241,7 +241,7 @@ Expected<Mesh> MeshBuilder::finish() {
   }
   if (highest_ >= static_cast<std::int64_t>(vertex_count())) {
     return problem(highest_place_,
-                   fmt::format("vertex index {} (counted from {}), but there are {} vertices",
+                   fmt::format("vertex index {} (counted from {}) is too large for {} vertices",
                                highest_ + first_number_, first_number_, vertex_count()));
   }
   Mesh mesh;

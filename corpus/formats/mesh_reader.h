@@ -51,10 +51,10 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path);
 Expected<void> look_at_mesh(const std::filesystem::path& path);
 
 // Returns where in the file two faces have the same three vertices: "lines 12 and 16"; empty if no
-// two faces have, or if the file cannot be read.
+// two faces have the same vertices, or if the file cannot be read.
 std::string places_of_same_faces(const std::filesystem::path& file);
 
-// The readers of the formats. Each takes the bytes of a file; messages name the file by `file`.
+// The readers of the formats. Each takes the bytes of a file; messages begin with `file`.
 
 // Reads OBJ. `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh;
 // texture coordinates, normals, groups and materials are ignored; lines, points, curves and
@@ -76,11 +76,11 @@ bool looks_like_ply(std::string_view bytes);
 // properties are ignored; all other elements are ignored with a remark.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
-// Collects the vertices and polygons of one mesh file and refuses content that no mesh can hold.
-
+// Returns the place as messages show it: "line 12".
 std::string shown(const Place& place);
 
-// Each call takes the place in the file of the vertex or polygon; messages name it.
+// Collects the vertices and polygons of one mesh file, and refuses content that no mesh can hold.
+// Messages name the `place` in the file that a call gives for its vertex or polygon.
 class MeshBuilder {
  public:
   // first_number: the number that the file's format gives to its first vertex; messages number
@@ -98,7 +98,7 @@ class MeshBuilder {
 
   // Counts ignored content of the file. `what` names the content in the singular: "line (l)".
   void skip(const std::string& what, std::size_t count = 1);
-  // Adds a remark on something in the file that its author should know of.
+  // Adds a remark on content of the file that the user should know of.
   void remark(std::string line) { remarks_.push_back(std::move(line)); }
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
@@ -106,7 +106,7 @@ class MeshBuilder {
   Problem problem(const Place& place, std::string_view detail) const;
 
   // Returns the mesh, with remarks on content that was split or skipped. Refuses a mesh without a
-  // triangle, and an index beyond its vertices.
+  // triangle, and an index that names no vertex.
   Expected<Mesh> finish();
 
  private:

@@ -36,7 +36,7 @@ Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& 
                            std::size_t& weighted) {
   std::array<double, 3> x{};
   if (words.size() < 4) {
-    return builder.problem(place, "a vertex of fewer than 3 coordinates");
+    return builder.problem(place, "a vertex has fewer than 3 coordinates");
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto value = parse_double(words[k + 1]);
@@ -115,7 +115,7 @@ Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file
   }
   if (weighted > 0) {
     builder.remark(fmt::format(
-        "{} of {} vertices have a weight (a fourth number) other than 1, which is not looked at",
+        "{} of {} vertices have a weight (a fourth number) other than 1; weights are not looked at",
         weighted, builder.vertex_count()));
   }
   return builder.finish();

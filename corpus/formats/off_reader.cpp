@@ -97,7 +97,7 @@ class OffReader {
       const auto value = k < words_.size() ? parse_double(words_[k]) : std::nullopt;
       if (!value) {
         return wrong(k < words_.size() ? excerpt(words_[k]) + " is no number"
-                                       : "a vertex of fewer than 3 coordinates");
+                                       : "a vertex has fewer than 3 coordinates");
       }
       x[k] = *value;
     }

@@ -130,7 +130,7 @@ class HeaderReader {
   }
 
   Expected<void> property() {
-    if (header_.elements.empty()) return wrong("a property before any element");
+    if (header_.elements.empty()) return wrong("a property stands before the first element");
     PlyProperty property;
     const bool list = words_.size() == 5 && words_[1] == "list";
     if (!list && words_.size() != 3) return wrong("\"property TYPE NAME\" expected");
@@ -263,8 +263,8 @@ class PlyBody {
     return value;
   }
   Problem truncated() const {
-    return problem_in(file_,
-                      fmt::format("{}: the file has less than its header states", shown(place())));
+    return problem_in(
+        file_, fmt::format("{}: the file ends, but its header states more values", shown(place())));
   }
   Problem malformed(std::string_view word) const {
     return problem_in(file_, fmt::format("{}: {} is not of the type in the header", shown(place()),
@@ -323,15 +323,15 @@ class PlyReader {
     if (!vertices && element.name != "face" && element.count > 0)
       builder_.skip("row of element " + element.name, element.count);
     if (vertices && (found[0] != 1 || found[1] != 1 || found[2] != 1)) {
-      return problem_in(file_, "element vertex has no x, y, z");
+      return problem_in(file_, "element vertex lacks a property x, y or z");
     }
     if (element.name == "face" && found[static_cast<std::size_t>(Role::corners)] != 1) {
-      return problem_in(file_,
-                        "element face has no list vertex_indices or vertex_index of integers");
+      return problem_in(
+          file_, "element face has no list of integers named vertex_indices or vertex_index");
     }
     if (!body_.has_room(element.count, least_size)) {
       return builder_.problem(body_.place(),
-                              fmt::format("{} elements \"{}\" do not fit into the rest of the "
+                              fmt::format("{} rows of element {} do not fit into the rest of the "
                                           "file",
                                           element.count, element.name));
     }

@@ -23,7 +23,7 @@ std::string shown(const detector::Triangles& triangles, Eigen::Index t) {
 
 Problem SequenceReader::other_mesh(std::string_view how) const {
   return problem_in(files_[next_],
-                    fmt::format("{}: not the same mesh; for two meshes: --body {} --body {}", how,
+                    fmt::format("{}: not the same mesh; two meshes need --body {} --body {}", how,
                                 files_[0].string(), files_[next_].string()));
 }
 
@@ -202,8 +202,8 @@ std::string DoubledCorners::remark(bool is_welded) const {
                          "their vertices are welded, too",
                          counts, places)
                    : counts +
-                         ": neighbours do not share their corners, so they touch; --weld "
-                         "counts all vertices of a place as one vertex";
+                         ": neighbouring triangles share none, so they touch; --weld "
+                         "makes one vertex of all vertices at a place";
 }
 
 detector::Triangles DoubledCorners::welded(detector::Triangles triangles) const {

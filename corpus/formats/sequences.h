@@ -20,8 +20,8 @@ namespace assay::corpus {
 //
 //   sim_1.obj sim_10.obj sim_2.obj  ->  sim_1.obj sim_2.obj sim_10.obj
 //
-// A shell sorts names letter by letter; in some languages it ignores marks such as _. If the files
-// are in an order of this kind, they are put in the order of their numbers. Any other order is the
+// A shell sorts names letter by letter; in some languages it ignores marks such as _. If a shell
+// may have sorted the files, they are put in the order of their numbers. Any other order is the
 // user's own and stays unchanged. Files whose names differ in more than numbers are not compared.
 // In names, 0.25 and 0.5 may be decimals, or two numbers each: if the two readings give different
 // orders, the order stays unchanged, too.
@@ -35,7 +35,7 @@ struct FrameOrder {
 
 FrameOrder in_order_of_numbers(const std::vector<std::filesystem::path>& files);
 
-// Returns the names of two files for a message: without the folders if the names alone differ.
+// Returns the names of two files for a message: without folders, unless both have the same name.
 std::pair<std::string, std::string> short_names(const std::filesystem::path& a,
                                                 const std::filesystem::path& b);
 
@@ -155,8 +155,8 @@ class DoubledCorners {
 // Every file is written under another name and then renamed, so a reader sees the old file or the
 // whole new one.
 
-// Writes one mesh. Fails if the file system refuses, with its reason, and if there is too little
-// memory. `marked`: null, or for each triangle 0 for grey, 1 for red, 2 for amber.
+// Writes one mesh. Fails if the file system refuses (the problem states its reason), or if there is
+// too little memory. `marked`: null, or for each triangle 0 for grey, 1 for red, 2 for amber.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
                           const detector::TrianglesView& triangles,

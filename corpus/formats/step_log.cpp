@@ -339,7 +339,7 @@ Expected<void> StepLog::begin() {
     std::string start;
     const bool is_log = read(0, mark_of_log.size(), start) && start == mark_of_log;
     if (start.starts_with("\x1f\x8b"))
-      return problem_in(path_, "it is compressed, and logs are read uncompressed: gunzip it first");
+      return problem_in(path_, "it is compressed, but only uncompressed logs are read: gunzip it");
     return problem_in(path_,
                       is_log ? "its first record is damaged, so its mesh and detector are unknown"
                              : "it is no log of steps");
@@ -372,7 +372,7 @@ Expected<void> StepLog::begin() {
   if (const auto bad = detector::check_triangles(head_.triangles, *vertices))
     return wrong(bad->message);
   if (const Json& counted = value_of(body, "counted"); body.contains("counted")) {
-    if (!counted.is_object()) return wrong("counted is no object");
+    if (!counted.is_object()) return wrong("its field `counted` is no object");
     if (const auto field = read_counted(counted, head_.counted.emplace()); !field.empty())
       return wrong(fmt::format("counted.{} is invalid", field));
     if (const auto bad = detector::check_counted_pairs(*head_.counted, head_.triangles, *vertices))
@@ -415,14 +415,14 @@ std::string StepLog::take(const Json& body) {
   if (type.empty() || !number) return "a record of an unknown kind";
   if (type == "begin") return "another log begins; check it by itself";
   if (*number != next_record_)
-    return fmt::format("record {} in place of record {}", *number, next_record_);
+    return fmt::format("record {} instead of record {}", *number, next_record_);
   const auto step = integer(value_of(body, "step"));
   const bool is_end = type == "end";
   if (!is_end && (!step || *step < 0)) return "a record without the number of its step";
   const auto place = static_cast<std::uint64_t>(step.value_or(0));
   if (type == "note") notes_.emplace(place, text(value_of(body, "text")));
   if (type == "step") {
-    if (!steps_.empty() && place <= steps_.back().number) return "a step number that does not rise";
+    if (!steps_.empty() && place <= steps_.back().number) return "a step number out of order";
     steps_.push_back({scanned_, place});
   }  // records of later versions are passed over
   is_ended_ |= is_end;

@@ -30,7 +30,7 @@ struct LogHead {
   std::string name, version;      // of the detector
   assay_description description;  // `description.name` and `.version` are NULL
   detector::Triangles triangles;
-  detector::Positions positions;  // the detector was created from these
+  detector::Positions positions;  // with which the detector was created
   std::optional<detector::CountedPairs> counted;
 };
 
@@ -80,7 +80,7 @@ class StepLog {
   // step.
   Expected<LogStep> step(std::size_t i);
 
-  // Returns nothing if the file was read to its end.
+  // Returns the damage at which reading stopped; nothing if the file was read to its end.
   std::optional<LogDamage> damage() const;
   // Returns whether the log has the record that the recorder writes at its end.
   bool is_ended() const { return is_ended_; }

@@ -1,5 +1,5 @@
 // Gives the steps of one mesh, one after another, from any input: from a case, which is in memory
-// as a whole, or from files, of which two frames are in memory at a time. Every input of steps is a
+// as a whole, or from files, where two frames are in memory at a time. Every input of steps is a
 // StepSource.
 #pragma once
 
@@ -27,7 +27,7 @@ struct SourceStep {
 // A description of an input in words.
 struct InputText {
   std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
-  std::vector<std::string> files = {};    // in the order of reading; empty: in the user's order
+  std::vector<std::string> files = {};    // in the order of reading; empty: the user's own list
   std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 
@@ -42,8 +42,8 @@ class StepSource {
   // Returns the number of step s in the whole run, from 0; the input can be a part of the run.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // Return lines of text: notes() the notes before the last step that was read; and, after all
-  // steps, lost() the lost parts of the input and last_remarks() other remarks.
+  // Return lines of text. notes(): the notes before the step that was read last. After all steps,
+  // lost(): the lost parts of the input, and last_remarks(): other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }
@@ -86,16 +86,16 @@ std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is
                                           InputText text = {});
 
 // Makes a source of the steps between files. Each file is a frame and is read once: this function
-// reads the first two, and step() reads the others. One file alone is a mesh at rest. This function
-// refuses files that are missing or have no known format. REQUIRES at least one file.
+// reads the first two files, and step() reads the other files. A single file is a mesh at rest.
+// This function refuses files that are missing or have no known format. REQUIRES at least one file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 
 // The files of several bodies that are joined into one mesh: vertices and triangles of the bodies
 // follow each other. A body has one file for each frame; a body with a single file stands still.
 struct BodyFiles {
   std::vector<std::vector<std::filesystem::path>> frames;  // by body
-  // Which pairs count (detector/mesh/counted_pairs.h): `apart` lists bodies that do not meet;
-  // `rings` of edges, and `rest_distance` in the first frame, leave out pairs.
+  // Which pairs count (detector/mesh/counted_pairs.h): `apart` lists bodies that do not meet. Pairs
+  // joined by fewer than `rings` edges, or nearer than `rest_distance` in frame 0, do not count.
   std::vector<std::array<std::int32_t, 2>> apart = {};
   std::int32_t rings = 0;
   double rest_distance = 0;

@@ -38,7 +38,7 @@ class Lines {
   std::optional<std::string_view> next();
 
   // Returns the number, counted from 1, of the line that next() gave; for joined lines, the number
-  // of the first.
+  // of the first line.
   std::size_t number() const { return number_; }
 
  private:

@@ -108,13 +108,13 @@ Case grazing(Variation& vary, int exponent, int kind) {
 
 std::vector<HardFamily> feature_families() {
   return {{"near-coplanar", "a flat tetrahedron goes through another, turns back or glides over it",
-           "height of each over the plane", "ulp", 44, -1, 44, 3, 1, near_coplanar},
+           "height of each tetrahedron", "ulp", 44, -1, 44, 3, 1, near_coplanar},
           {"near-parallel", "one of two nearly parallel edges crosses the other or misses it",
-           "angle of the edges times 2^45 ulp", "ulp", 44, -1, 44, 3, 1, near_parallel},
+           "angle between the edges times 2^45 ulp", "ulp", 44, -1, 44, 3, 1, near_parallel},
           {"slivers", "a vertex goes through a sliver, or passes one width beside it",
-           "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 2, 2, slivers},
-          {"grazing", "a vertex just misses or meets an edge, or an edge an end point", "gap",
-           "ulp", 40, -1, 40, 4, 2, grazing}};
+           "width of a sliver of length 2^45 ulp", "ulp", 44, -1, 44, 2, 2, slivers},
+          {"grazing", "a spike's tip or an edge's end just misses or meets an edge", "gap", "ulp",
+           40, -1, 40, 4, 2, grazing}};
 }
 
 // Many things at once: contacts at one time, copies of vertices and triangles, sheets in one
@@ -217,11 +217,11 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
 
 std::vector<HardFamily> crowd_families() {
   return {{"simultaneous", "spikes move to one face together; all go through it, or none",
-           "contacts at one time", "", 0, 1, 6, 2, 1, simultaneous},
+           "number of contacts at one time", "", 0, 1, 6, 2, 1, simultaneous},
           {"duplicates", "a triangle and its copy stay apart or go through each other",
            "distance of the copies", "ulp", 40, -1, 40, 2, 3, duplicates},
-          {"coplanar", "a sheet that stays in its plane, or one vertex of it that folds over",
-           "triangles", "", 5, 1, 7, 2, 0, coplanar_sheet}};
+          {"coplanar", "a sheet stays in its plane, or one of its vertices folds over", "triangles",
+           "", 5, 1, 7, 2, 0, coplanar_sheet}};
 }
 
 }  // namespace assay::corpus

@@ -146,12 +146,12 @@ Case line_ends(Variation& vary, int exponent, int kind) {
 
 std::vector<HardFamily> view_families() {
   return {{"view-touches-zero",
-           "a tent passes over its view-point, or collapses onto it: almost, or a little too far",
+           "a tent rises until its floor is near its view-point, or its top falls near its floor",
            "height of the view-point over the floor", "ulp", 40, -1, 40, 4, 2, touches_zero},
-          {"view-on-surface", "the view-point above or below a face that it moves with",
+          {"view-on-surface", "the view-point moves along with a face, above or below it",
            "distance from the face", "ulp", 40, -1, 40, 2, 2, on_the_surface},
           {"view-line-ends",
-           "a vertex beside the plane through a view-line's end, the view value one ulp from 0",
+           "a vertex near the plane through a view-line's end; the view value is -1, 0 or 1 ulp",
            "distance from that plane", "ulp", 40, -1, 40, 6, 0, line_ends}};
 }
 

@@ -28,10 +28,10 @@ namespace assay::corpus {
 // their times nor the view signs of a view-point. The coordinates stay integers below 2^53, so they
 // are exact doubles that fill the mantissa. Finally each axis is scaled by a power of two.
 
-// The free choices of a hard case: integers that depend on its family, strength and variant alone.
-// They are the same on every platform if no two draws are arguments or operands of one expression,
-// because C++ evaluates these in any order. (It evaluates the items of a braced list from left to
-// right.)
+// The free choices of a hard case: integers that depend only on the family, the strength and the
+// variant. They are the same on every platform if no two draws are arguments or operands of one
+// expression, because C++ evaluates these in any order. (It evaluates the items of a braced list
+// from left to right.)
 //
 // SplitMix64, seeded by FNV-1a of the family's name.
 class Variation {
@@ -130,8 +130,8 @@ Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts facts);
 //
 // Their answers are easy to see: the block lies in z <= 0, and all of the spike lies above its tip
 // (or above its lower edge), so the two do not meet before the tip or edge reaches z = 0. In cases
-// where the spike passes beside the block, a plane of constant x or y separates the two all the
-// time.
+// where the spike passes beside the block, a plane of constant x or y separates the two throughout
+// the step.
 
 // Returns 2^exponent units.
 inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
@@ -192,8 +192,8 @@ struct HardFamily {
 std::span<const HardFamily> hard_families();
 
 // Makes a case of one step with its id (such as "grazing-s12-v3"), its line `about` and its
-// expected answer. It states the first time and the view signs if the construction tells them.
-// REQUIRES 0 <= strength <= last_strength(), variant >= 0. Cases are small: at most 4,100
+// expected answer. The case states the first time and the view signs if the construction tells
+// them. REQUIRES 0 <= strength <= last_strength(), variant >= 0. Cases are small: at most 4,100
 // triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 

@@ -126,13 +126,13 @@ Case short_step(Variation& vary, int exponent, int kind) {
 }  // namespace
 
 std::vector<HardFamily> time_families() {
-  return {{"contact-at-start", "a spike leaves a face, and starts just above it or just inside",
+  return {{"contact-at-start", "a spike leaves a face, and starts just above or just below it",
            "distance at t=0", "ulp", 40, -1, 40, 2, 1, at_the_start},
-          {"contact-at-end", "a spike almost reaches a face, or reaches it just before the end",
+          {"contact-at-end", "a spike almost reaches a face, or reaches it just before t=1",
            "distance at t=1", "ulp", 40, -1, 40, 2, 1, at_the_end},
-          {"double-root", "height over a turning face is a square in time, -+ a little",
+          {"double-root", "a tip's height over a turning face is a square in time, -+ a little",
            "least height", "ulp", 40, -2, 20, 2, 1, double_root},
-          {"triple-root", "three roots close together, or one root beside a complex pair, or none",
+          {"triple-root", "three roots close together, one root beside a complex pair, or no root",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
           {"long-steps", "a spike goes through a face, or past it",
            "length of the motion, divided by the usual size", "", 0, 1, 40, 2, 1, long_step},

@@ -13,9 +13,9 @@
 // dist smaller than dHat are positive", and a distance that rounds to 0 gives NaN), and coordinates
 // are of usual sizes; the time is a lower bound. Claims: free-sound and not-late, because the
 // authors of both simulators promise it: C-IPC "interpenetration-free" (its paper's abstract),
-// libuipc "penetration-free frictional contact" (README, line 18). Neither promises to report
-// contacts only, so features that only come near can be reported. As a limiter (limiter.h), each
-// gives the time as its share, and claims path-free.
+// libuipc "penetration-free frictional contact" (README, line 18). Neither simulator promises that
+// it reports only contacts, so features that only come near can be reported. As a limiter
+// (limiter.h), each gives the time as its share, and claims path-free.
 //
 // Expected before the first run: both stop before contacts, and report features that only come
 // near. If the distance of the lines of parallel edges is rounded to 0, both use the distance of

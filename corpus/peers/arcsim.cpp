@@ -6,15 +6,15 @@
 // and whose boxes meet. Settings: the values that are fixed in the function (a distance below 1e-6,
 // weights above -1e-6, Newton's method to 1e-6 of the step). Contract: no contact at the start, and
 // coordinates of usual sizes. Claims: free-sound, because collision_response moves vertices until
-// find_impacts finds nothing, and its header mesh calls the result the "collision-free position" of
-// the next step. Not-late is not claimed, because Newton's method can end up to 1e-6 too early or
-// too late.
+// find_impacts finds nothing, and ArcSim's header mesh calls the result the "collision-free
+// position" of the next step. Not-late is not claimed, because Newton's method can end up to 1e-6
+// too early or too late.
 //
 // Expected before the first run: four points that start within a millionth of one plane are skipped
 // ("initially coplanar"), so edges of one plane that fold through each other are missed. The end of
 // the step is appended to the roots ("also check at end of timestep"), but the loop stops before
 // this last entry. Newton's method returns its second-to-last iterate, and 1e-6 is a length, so
-// contacts are missed if coordinates or motions are large. Motion within a plane is missed.
+// contacts are missed if coordinates or motions are large. Contacts of planar motion are missed.
 #include <fstream>
 #include <iostream>
 

@@ -4,10 +4,10 @@
 // the internal header of its soft bodies, which the package installs. The peer calls the function
 // as btSoftColliders::CollideCCD does: dt 1, margin SAFE_EPSILON, with velocities that are the
 // differences of the positions, and normals and end positions as
-// btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32,
-// vertex-face alone, no contact at the start (roots at 0 are skipped), coordinates of usual sizes,
-// and no time, because the function tells no time. Claims: free-sound from the title of the change
-// that added the function ("Add continuous collision detection for triangle vertex vs. face", pull
+// btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32, only
+// vertex-face, no contact at the start (roots at 0 are skipped), coordinates of usual sizes, and no
+// time, because the function tells no time. Claims: free-sound from the title of the change that
+// added the function ("Add continuous collision detection for triangle vertex vs. face", pull
 // request 2612 of bulletphysics/bullet3); total and deterministic, because it is a function of its
 // arguments that returns a bool. The change states no tolerance for rounding, so contacts that the
 // function misses by rounding are misses, too.

@@ -103,8 +103,8 @@ def points_at(t, x0, x1):
 
 
 def facts(is_face, a, b, c, d):
-    """Returns for four points: the volume, the normal (3), values that are >= 0 inside; for each
-    end point and segment: values that are 0 on its line (3), and one that is >= 0 within it."""
+    """Returns for four points: volume, normal (3), values that are >= 0 where the features overlap;
+    for each end point and segment: three values, 0 on its line, and a value >= 0 between ends."""
     if is_face:
         normal = cross(minus(c, b), minus(d, b))
         inside = [dot(cross(minus(q, p), minus(a, p)), normal) for p, q in ((b, c), (c, d), (d, b))]
@@ -181,8 +181,8 @@ def square(a, b, c, d):
 
 
 def told(text):
-    """Returns the least and the greatest time that the text allows: equal for a fraction, 10^-30
-    apart for sqrt(3), by the digits for a decimal; None, None if the text says free."""
+    """Returns the least and the greatest time that the text allows: equal times for a fraction,
+    10^-30 apart for sqrt(3), a unit of the last digit apart for a decimal. None, None for free."""
     if "Exact: free" in text:
         return None, None
     word = re.search(r"Exact: .*?t = (sqrt\(3\)|[\d./]+(?<=\d)(?:e-\d+)?)", text)[1]
@@ -195,7 +195,7 @@ def told(text):
 
 
 def stated_of_set():
-    """Returns the first times (two neighbouring doubles) of the set's queries, by their points."""
+    """Returns a map from the points of each query of the set to its first time (two doubles)."""
     cases = [case for file in sorted(VECTORS.glob("*-findings.json"))
              for case in json.loads(file.read_text())["cases"] if "t0" in case]
     return {points_key(c["t0"], c["t1"]): tuple(map(Fraction, c.get("first_time", ()))) for c in cases}
@@ -206,7 +206,7 @@ def points_key(x0, x1):
 
 
 def is_mesh_right(name, first=None):
-    """Returns whether the mesh has the first times of its file and, in its first step, `first`."""
+    """Returns whether each step has its stated first time, and the first step the time `first`."""
     case = json.loads((MESHES / f"{name}.json").read_text())
     for i, step in enumerate(case["expected"]["steps"]):
         times = mesh_contacts(case["triangles"], *case["frames"][i:i + 2])
@@ -217,8 +217,8 @@ def is_mesh_right(name, first=None):
 
 
 def points_of(text):
-    """Returns whether the text names a vertex and a face, and the points at t = 0 and at t = 1. A
-    query has four points; a vertex comes first."""
+    """Returns a bool (whether the text names a vertex and a face), and the points at t = 0 and
+    at t = 1. A query has four points; a vertex comes first."""
     given = re.search(r"(?:Input:|\*\*,) ((?:edges|a [fv]).*?)(?:Answers|:| of a triangle)", text)
     point = r"\(([^(),]*),([^(),]*),([^(),]*)\)"
     points = re.findall(f"{point}(?: to {point})?", given[1]) if given else []
@@ -252,7 +252,7 @@ def is_right(finding, stated):
         told_right = all(lo <= hi for lo, hi in zip((first[0], exact[0]), (exact[1], first[1])))
         return before > Fraction(0.001)**2 > after and told_right
     if exact is None and not mesh and first[0] != first[1]:
-        return False  # its digits alone
+        return False  # only its digits tell the time
     times = contacts(is_face, x0, x1)
     return begin(times, *first) and (not exact or begin(times, *exact))
 
@@ -266,7 +266,7 @@ def main():
     for name, result in results:
         print("confirmed" if result else "REFUTED", name)
     is_long = [f for f in findings if len(f.split()) > MOST_WORDS]
-    print(*("too long: " + f for f in is_long), sep="\n")
+    print(*("too many words: " + f for f in is_long), sep="\n")
     pages = [page, *((HERE / up / "README.md").read_text() for up in ("", "../.."))]
     is_counted = all(f"{len(findings)} wrong answers" in " ".join(p.split()) for p in pages)
     return is_long or not is_counted or not all(right for _, right in results)

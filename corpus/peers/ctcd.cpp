@@ -1,11 +1,11 @@
 // CTCD, Etienne Vouga's root finder in floating point (Harmon et al. 2011; FPRF of Wang et al.
 // 2021). It is built twice, with ASSAY_PEER_SEPARATION 0 and 1e-3. The separation is its distance
-// eta; for separation 0 eta is 1e-8, because with eta 0 no features are "closer than a distance
+// eta; for separation 0, eta is 1e-8, because with eta 0 no features are "closer than a distance
 // eta".
 //
 // Version: commit e5fe5c97 (2019-06-11) of evouga/collisiondetection. Functions: vertexFaceCTCD,
 // edgeEdgeCTCD, vertexEdgeCTCD and vertexVertexCTCD of its header CTCD, combined as in its
-// CTCDNarrowPhase. Settings: eta alone. Contract: no contact at the start; coordinates of usual
+// CTCDNarrowPhase. Settings: only eta. Contract: no contact at the start; coordinates of usual
 // sizes, because eta is a length. Claims: free-sound and not-late, from the header CTCD ("Returns
 // true if the vertex and face ever come closer than a distance eta to each other, and stores the
 // earliest time"; of edges "Does not work correctly if two edges are parallel at the time of

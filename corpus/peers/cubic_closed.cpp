@@ -1,5 +1,5 @@
-// The textbook method (cubic.h) with the roots in closed form. ASSAY_PEER_NUMBERS chooses Doubles,
-// or Floats, as the method runs on graphics cards.
+// The textbook method (cubic.h) with the roots in closed form. ASSAY_PEER_NUMBERS chooses Doubles
+// or Floats; on graphics cards the method runs in floats.
 //
 // Version: 1, of this file. Settings: one tolerance, of barycentric coordinates and of times. It is
 // 1e-6 in doubles and 1e-5 in floats (some 80 steps of a float below 1). In floats, coefficients

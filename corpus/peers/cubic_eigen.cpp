@@ -7,7 +7,7 @@
 // the peer leaves out leading coefficients that are 0, as users of the solver do. Contract and
 // claims: as in cubic_closed.cpp and from the same paper, because they belong to the method. Eigen
 // promises less: its solver is "guaranteed to provide a correct result only when the complex roots
-// have distinct moduli". So it is no fault of Eigen's if a contact is missed because two roots have
+// have distinct moduli". So it is no fault of Eigen if a contact is missed because two roots have
 // the same modulus.
 #include <Eigen/Core>
 #include <unsupported/Eigen/Polynomials>

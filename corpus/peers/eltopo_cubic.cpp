@@ -11,9 +11,9 @@
 //
 // Expected before the first run: contacts of motion within a plane are missed, because the cubic is
 // 0 throughout, and then only t = 0 and t = 1 are looked at. Contacts at large coordinates and on
-// long paths are missed, because a root is only accurate to 1e-10 of the coefficients, and at that
-// time the features can be farther apart than 1e-6. Answers at ends of features and for small
-// lengths are right.
+// long paths are missed, because a root is only accurate to 1e-10 of the coefficients, and at the
+// computed root the features can be farther apart than 1e-6. Answers at ends of features and for
+// small lengths are right.
 #include <ccd_wrapper.h>
 
 #include "corpus/peers/feature_pairs.h"

@@ -6,7 +6,7 @@
 // sizes. Claim: no-spurious, because its header says "Returns true if there is an odd number of ray
 // intersections (corresponding to an odd number of roots of F in the domain)", and an odd number is
 // at least one. The header also says that the answer for an even number is "no", so free-sound is
-// not claimed. Contacts that it misses are shown in brackets, and are looked into if the number of
+// not claimed. Contacts that it misses are shown in brackets; a miss needs a look if the number of
 // roots is odd. Deterministic is not claimed either, because the function draws the rays for
 // culling by rand().
 //

@@ -8,8 +8,8 @@
 // from its README ("continuous collision detection: detecting whether the two moving models
 // overlap during the movement, and optionally, the time of contact"); total and deterministic,
 // because they are functions of their arguments that return a bool. FCL's public function for
-// meshes takes rigid motions alone, so the peer calls the two tests directly; feature_pairs.h
-// leaves out features that share a vertex.
+// meshes takes only rigid motions, so the peer calls the two tests directly; feature_pairs.h leaves
+// out features that share a vertex.
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
 #include "corpus/peers/feature_pairs.h"

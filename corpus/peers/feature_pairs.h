@@ -1,8 +1,8 @@
 // The common part of the peers that test features. Two triangles have six pairs of a vertex and a
-// face and nine of two edges. The peer's elementary tests judge all of these pairs that share no
-// vertex, as in FCL's own traversal of meshes. The first time of the two triangles is the least
-// time of the tests. Two features that belong to several pairs of triangles are tested again for
-// each pair of triangles.
+// face, and nine pairs of two edges. The peer's elementary tests judge all of these pairs that
+// share no vertex, as in FCL's own traversal of meshes. The first time of the two triangles is the
+// least time of the tests. Two features that belong to several pairs of triangles are tested again
+// for each pair of triangles.
 #pragma once
 
 #include <type_traits>

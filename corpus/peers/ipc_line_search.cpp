@@ -107,7 +107,7 @@ class Search {
     }
     std::printf("     all");
     for (const double time : total) std::printf("  %18.2f", time);
-    std::printf("\n%zu candidates of LBVH, %zu of Assay\n", of_toolkit.size(), of_assay.size());
+    std::printf("\ncandidates: %zu of LBVH, %zu of Assay\n", of_toolkit.size(), of_assay.size());
   }
 
  private:

@@ -1,5 +1,5 @@
 // The common part of the peers of the IPC Toolkit: the toolkit's collision mesh, the number of its
-// threads, and the contract. The contract demands no contact at the start, and coordinates of usual
+// threads, and the contract. The contract demands a start without contact, and coordinates of usual
 // sizes, because the toolkit's tolerances are lengths. The toolkit reports no pairs.
 //
 // Version: 1.6.0, commit b40e9c07 of its public sources. Version 1.5.0 has no planar filter

@@ -7,7 +7,7 @@
 // the start, the distance at which it stops features that come nearer; and coordinates up to 10
 // (its source says "compare ghat against FLT_EPSILON times the scene radius", and gives 10 as an
 // example). The time is a lower bound. Claims: free-sound and not-late ("Contact resolutions are
-// penetration-free", its README, line 33). It does not promise to report contacts only. As a
+// penetration-free", its README, line 33). It does not promise that it reports only contacts. As a
 // limiter (limiter.h) it gives the time as its share, and claims path-free.
 //
 // Expected before the first run: few defects, because its distance is the least distance of all

@@ -1,6 +1,6 @@
 // No continuous detection: exact static tests of triangles at ASSAY_PEER_SAMPLES times of the step,
-// evenly spaced, the last at the end of the step. Programs that only have a static test work like
-// this.
+// evenly spaced; the last time is the end of the step. Programs that only have a static test work
+// like this.
 //
 // Version: the version of the CGAL library that it is compiled with. Function: CGAL::do_intersect
 // of two Triangle_3 of a kernel with exact predicates (oracle/referee/static_check.cpp). It tests
@@ -8,7 +8,7 @@
 // time are rounded to doubles. Settings: the number of samples. Contract: no contact at the start;
 // no neighbours, because the function says nothing about triangles that share a vertex; coordinates
 // of usual sizes. A triangle without area is not tested, because the function demands an area.
-// Claims: deterministic and total alone, because nobody promises that samples find every contact.
+// Claims: only deterministic and total, because nobody promises that samples find every contact.
 // The reported time is the interval from the sample before a contact to the sample with the
 // contact.
 #include "corpus/peers/triangle_pairs.h"

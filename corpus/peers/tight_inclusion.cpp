@@ -1,6 +1,6 @@
 // Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021). It tests all
 // pairs of features of triangles whose swept boxes meet. It is built with ASSAY_PEER_SEPARATION 0
-// and with 1e-3, which is its minimum separation ms, and each of the two also as a limiter
+// and with 1e-3, which is its minimum separation ms, and with each separation also as a limiter
 // (limiter.h).
 //
 // Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:

@@ -66,7 +66,7 @@ class CsvReader {
       rows[filled] = row;
       const bool is_labelled_alike = row.label == rows[0].label;
       if (!is_labelled_alike || row.separation != rows[0].separation) {
-        return wrong(fmt::format("its {} differs from that of the first row, {} rows before",
+        return wrong(fmt::format("its {} differs from the first row of its query, {} rows above",
                                  is_labelled_alike ? "separation" : "label", filled));
       }
       ++filled;
@@ -106,7 +106,7 @@ class CsvReader {
     const std::size_t count = columns.size();
     if (count < 3 || count > 8) {
       return wrong(
-          fmt::format("{} columns; a row has 3 (x,y,z) or 6 (numerator and denominator of each), "
+          fmt::format("{} columns; a row has 3 (x,y,z) or 6 (a numerator and denominator each), "
                       "then perhaps a label, then perhaps a separation",
                       count));
     }
@@ -148,7 +148,7 @@ class CsvReader {
       case RationalState::not_a_number:
         return wrong(fmt::format("{}: numerator or denominator is not a whole number", axis));
       case RationalState::zero_denominator:
-        return wrong(fmt::format("{}: denominator 0", axis));
+        return wrong(fmt::format("{}: the denominator is 0", axis));
       case RationalState::not_a_double:
         break;
     }

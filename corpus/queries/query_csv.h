@@ -23,7 +23,7 @@ namespace assay::corpus {
 struct LabelledQuery {
   detector::FourPoints query;
   // Whether there is a contact in [0,1] or, if there is a separation, whether the features come
-  // within the separation; absent if the file does not say it.
+  // within the separation; absent if the file does not say so.
   std::optional<bool> truth;
   // A length in the units of the points, finite and >= 0; absent if the query asks for contact.
   std::optional<double> separation;

@@ -101,9 +101,9 @@ Sequence play(const SceneOptions& options) {
 }
 
 constexpr SceneInfo infos[] = {
-    {"breathing-sphere", "a sphere swells and shrinks unevenly, always positive from its centre",
+    {"breathing-sphere", "a sphere breathes unevenly; all triangles stay positive from its centre",
      1280, 11, true, true, breathing_sphere},
-    {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
+    {"two-spheres", "one of two separate spheres swells while the other shrinks; no contact", 1280,
      11, true, false, two_spheres},
     {"dented-sphere", "a dent is pushed through a sphere until it meets the other side", 1280, 11,
      true, false, deformed<sphere_shape, dent>},
@@ -119,7 +119,7 @@ constexpr SceneInfo infos[] = {
      false, deformed<sheet_shape, fold>},
     {"crumpling-sphere", "a sphere is folded over itself at many places", 1280, 11, true, true,
      deformed_any<sphere_shape, crumple>},
-    {"arm-in-box", "an arm of an open box enters through its hole and leaves again; no contact",
+    {"arm-in-box", "an open box's arm enters the box through a hole and leaves it; no contact",
      1204, 11, false, false, arm_in_box},
     {"ball-in-tube", "a ball goes through a tube open at both ends, and back; no contact", 1280, 41,
      false, false, ball_in_tube},
@@ -135,7 +135,7 @@ constexpr SceneInfo infos[] = {
      false, play<pile_of_bodies>},
     {"tightening-knot", "a closed tube in a trefoil knot is drawn tight until it meets itself",
      1536, 11, true, false, play<tightening_knot>},
-    {"combed-hair", "hanging strips are combed to one side and the other, through each other", 1584,
+    {"combed-hair", "hanging strips are combed to one side, some farther, through the others", 1584,
      11, false, false, play<combed_hair>},
 };
 
@@ -152,23 +152,22 @@ Problem unknown_scene(std::string_view name) {
   const auto names = names_among(infos);
   const auto meant = did_you_mean(names, name);
   return problem_in(
-      {},
-      fmt::format("no scene is named {}{}", name,
-                  meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant));
+      {}, fmt::format("no scene is named {}{}", name,
+                      meant.empty() ? fmt::format("; scenes: {}", fmt::join(names, ", ")) : meant));
 }
 
 Expected<Sequence> make(const SceneInfo& info, SceneOptions options) {
   if (options.size == 0) options.size = info.default_size;
   if (options.frames == 0) options.frames = info.default_frames;
   if (options.size < 0 || options.size > most_triangles) {
-    return wrong_option(info.name,
-                        fmt::format("1 to {} triangles, not {}", most_triangles, options.size));
+    return wrong_option(
+        info.name, fmt::format("it has 1 to {} triangles, not {}", most_triangles, options.size));
   }
   if (options.frames < 0 || options.frames > most_frames) {
     return wrong_option(info.name,
-                        fmt::format("1 to {} frames, not {}", most_frames, options.frames));
+                        fmt::format("it has 1 to {} frames, not {}", most_frames, options.frames));
   }
-  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it deforms no other mesh");
+  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it takes no other mesh");
   if (options.mesh && !is_valid(*options.mesh)) {
     return wrong_option(info.name,
                         "the mesh has no triangle, an index out of range or a "

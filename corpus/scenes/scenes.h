@@ -21,11 +21,11 @@ struct SceneInfo {
   std::string_view about;  // one line
   int default_size;        // triangles
   int default_frames;
-  bool closed;                                      // every edge of its own shape is matched
+  bool closed;                                      // the scene's own shape has no unmatched edge
   bool takes_mesh;                                  // the scene can deform a user's mesh
   Sequence (*frames)(const SceneOptions& options);  // REQUIRES options that the scene takes
-  // With at least this many frames, what is said about the scene's contacts holds; with fewer
-  // frames, the straight paths of the steps differ too much from the scene's motion.
+  // With at least this many frames, `about` is right about contacts. With fewer frames, the
+  // straight paths of the steps differ too much from the scene's motion.
   int least_frames = 5;
 };
 

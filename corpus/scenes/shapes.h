@@ -43,8 +43,8 @@ int nearest_resolution(int size, int least, Count count) {
 // A grid of `columns` by `rows` cells; each cell has two triangles.
 struct Sheet {
   int columns, rows;
-  bool is_round = false;   // the last column meets the first
-  bool is_ring = false;    // the last row meets the first
+  bool is_round = false;   // the last column joins the first column
+  bool is_ring = false;    // the last row joins the first row
   bool is_turned = false;  // the orientation of all triangles is reversed
 };
 
@@ -123,13 +123,13 @@ class MeshMaker {
 // Functions that give the mesh of a scene for every time s in [0,1] of the scene, or (BoxWithArm)
 // for every height of a tip.
 //
-// The scenes of times s give a collision detector much work: many layers, many bodies, a body wound
+// The functions of s give a collision detector much work: many layers, many bodies, a body wound
 // about itself, many thin strips. At s = 0 nothing touches. `size` is the wanted number of
 // triangles. Distances, thicknesses and lengths of motion do not depend on `size`; if a shape has
 // several parts, a larger size means more parts. Fields, which move the vertices of a given mesh,
 // follow further below.
 
-// Returns square sheets, one over the other, in the same folds. They move farther than the distance
+// Returns square sheets, one over the other, all folded alike. They move farther than the distance
 // between them, and each slides and bulges in its own way. There are 50 sheets from 1,600 triangles
 // on, and fewer below that.
 Mesh layered_cloth(int size, double s);
@@ -142,8 +142,8 @@ Mesh pile_of_bodies(int size, double s);
 // stays the same. The tube has twelve times as many pieces along its length as around it.
 Mesh tightening_knot(int size, double s);
 
-// Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed:
-// neighbouring columns lean to opposite sides. 240,000 triangles make 5,000 strips.
+// Returns strips of 48 triangles that hang down side by side, all bent alike, and are combed to one
+// side: every second column farther than its neighbours. 240,000 triangles make 5,000 strips.
 Mesh combed_hair(int size, double s);
 
 // A box with a square hole in its lid and an arm that grows out of a side wall, over the lid, and
@@ -188,19 +188,19 @@ Extent extent_of(const detector::PositionsView& positions);
 using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
 
 // Moves each vertex along its ray from the centre, by about 25 % and unevenly: out, back, and
-// inward. A mesh whose triangles are all positive for a view-point at the centre stays so, between
-// the frames too.
+// inward. If all triangles are positive for a view-point at the centre at s = 0, they stay positive
+// at all times, between the frames too.
 detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
 
 // Bends the long axis into an arc. At s = 1 the arc is 1.02 turns of a circle, so the two ends of a
 // tube meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
-// Turns each place about the long axis in proportion to its height: at s = 1 the two ends of the
-// axis differ by one turn.
+// Turns each place about the long axis in proportion to its place along that axis: at s = 1 the two
+// ends of the axis differ by one turn.
 detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 
-// Shrinks and adds waves that fold the surface over itself.
+// Shrinks the surface, and adds waves that fold it over itself.
 detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
 
 // Pushes the cap around +z down through the sphere and out at the other side. This field and the
@@ -214,7 +214,7 @@ detector::Point fold(const detector::Point& x, double s, const Extent& extent);
 // Narrows the tube to a waist around z = 0; at s = 1 the waist is 40 % as wide as the tube.
 detector::Point narrow(const detector::Point& x, double s, const Extent& extent);
 
-// Fields that move unclosed surfaces through their own holes, or around them, and back again.
+// Fields that move unclosed surfaces through their own holes or around themselves, and back again.
 //
 // They are periodic: the places at s = 1 equal the places at s = 0, bit by bit, so a sequence can
 // be repeated without end. They are for shapes of this file, in the shapes' own coordinates: tubes
@@ -230,7 +230,7 @@ detector::Point turn_inside_out(const detector::Point& x, double s, const Extent
 // narrow end goes in, the fans that close the two ends cross.
 detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
 
-// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 turns at s = 1/2. The fan
+// Winds ribbon_shape into a spiral, of 1.25 turns at s = 0 and of 2.75 turns at s = 1/2. The fan
 // that closes the ribbon lies right across the spiral.
 detector::Point wind(const detector::Point& x, double s, const Extent& extent);
 

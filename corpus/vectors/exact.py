@@ -1,6 +1,6 @@
 """Exact facts of two moving features, in whole numbers: whether they cross or only touch, and
-polynomials that are zero at their times. oracle/query/contact_events.h defines coplanarity, sides
-and gaps, and calls them F, L and D; this file computes them in another way.
+polynomials whose zeros include the first time of contact. oracle/query/contact_events.h defines
+coplanarity, sides and gaps, and calls them F, L and D; this file computes them in another way.
 
 A polynomial c0 + c1 t + ... is a list of whole numbers: [c0, c1, ...].
 """
@@ -39,7 +39,7 @@ def derivative(p):
 
 
 class Time:
-    """The only zero of a polynomial between lo and hi; if lo and hi are equal, that number."""
+    """The only zero of a polynomial between lo and hi; if lo and hi are equal, the number lo."""
 
     def __init__(self, polynomial, lo, hi):
         self.lo, self.hi = Fraction(lo), Fraction(hi)
@@ -123,7 +123,7 @@ class Features:
         return [[0, 1]]
 
     def meets(self, time):
-        """Returns whether the features meet. REQUIRES four coplanar points at `time`."""
+        """Returns whether the features meet at `time`. REQUIRES coplanar points then."""
         for sides in self.sides:
             signs = {time.sign(p) for p in sides} - {0}
             if signs:
@@ -141,7 +141,7 @@ class Features:
                    for time in (zeros_inside(f) if any(f) else ()))
 
     def within(self, d):
-        """Yields polynomials, simple ones first; one is zero at the first time within d."""
+        """Yields polynomials, simple ones first. One has a zero at the first time within d."""
         square = (Fraction(d) * self.scale) ** 2
         a, b = self.x[:self.first], self.x[self.first:]
         lines = [(p, q, r) for ends, others in ((a, b), (b, a))

@@ -18,7 +18,7 @@ def demand_module():
 class BuiltIn:
     """The built-in detector with all pairs, in one arithmetic.
 
-    Only `exact` and `bounded`, which prove their answers, answer limits; only `exact` distances.
+    Only `exact` and `bounded`, which prove answers, answer limits; only `exact` answers distances.
     """
 
     def __init__(self, arithmetic):

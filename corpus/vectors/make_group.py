@@ -4,13 +4,13 @@
   make_group.py CASE.json... --name GROUP --out DIR [--distance D] [--limit] [--float]
                 [--flags FLAG...] [--breaks PRODUCT...]
 
-The group goes to DIR/GROUP.json, and DIR/set.json lists the group, too; in a folder without a set,
-set.json is made. A case is two features (its option `query`) or a mesh; corpus/README.md describes
+The group goes to DIR/GROUP.json, and DIR/set.json lists the group, too. If DIR has no set, set.json
+is made. A case is two features (its option `query`) or a mesh; corpus/README.md describes
 case files. First times, pairs and least distances come from the Python module `assay`. Whether
 features pass through each other or only touch, and by which polynomial, is computed in whole
 numbers (exact.py).
 
-The flags that follow from numbers, times and pairs are set; --flags adds other flags to every case.
+Each case gets the flags that follow from its numbers, times and pairs, and all flags of --flags.
 """
 import argparse
 import json
@@ -32,7 +32,7 @@ def points_of(frame, indices):
 
 
 def as_mesh(query):
-    """Returns two triangles without area that are the two features, at t = 0 and at t = 1."""
+    """Returns a mesh of two triangles without area, each a feature, and its points (t = 0, 1)."""
     corners = [0, 0, 0, 1, 2, 3] if query.first == 1 else [0, 1, 1, 2, 3, 3]
     return [[0, 1, 2], [3, 4, 5]], *(points_of(end, corners) for end in (query.t0, query.t1))
 
@@ -49,7 +49,7 @@ def comes_nearer(query, distance):
 
 
 def facts_of(result, first, candidates):
-    """Returns facts of a result, with the first of the candidates that has a zero at `first`."""
+    """Returns facts of a result. Their polynomial is a candidate with a zero in `first`."""
     polynomial = [0, 1] if first[1] == 0 else primitive(
         next(p for p in candidates if vanishes_within(p, *first)))
     return {"result": result, "first_time": list(map(float, first)),
@@ -163,7 +163,7 @@ def read_case(file):
         raise vectors.Wrong(str(problem)) from None
     case = vectors.read_json(file)
     query = case["options"].get("query")
-    want(query in (None, "vertex-face", "edge-edge"), file, f"the query {query} is unknown")
+    want(query in (None, "vertex-face", "edge-edge"), file, f"its option query is unknown: {query}")
     want(not query or (len(case["frames"]) == 2 and all(len(x) == 4 for x in case["frames"])), file,
          "a query has two frames of four points")
     return case
@@ -172,7 +172,7 @@ def read_case(file):
 def case_of(file, given, features, known):
     case = read_case(file)
     want(case["options"].get("query", "mesh") == features, file,
-         f"is no case of {features}, but the first case is")
+         f"its kind is not {features}, but the first case has this kind")
     if features == "mesh":
         stated, flags = mesh_facts(case, given.float)
     else:
@@ -196,7 +196,7 @@ def main(words):
     parser.add_argument("--distance", type=float, default=0, metavar="D",
                         help="ask whether features come within D")
     parser.add_argument("--limit", action="store_true", help="ask how far a step can be taken")
-    parser.add_argument("--float", action="store_true", help="the coordinates are floats")
+    parser.add_argument("--float", action="store_true", help="the coordinates are float32")
     parser.add_argument("--flags", nargs="+", default=[], metavar="FLAG")
     parser.add_argument("--breaks", nargs="+", default=[], metavar="PRODUCT",
                         help="products that fail on these cases")
@@ -211,7 +211,7 @@ def main(words):
         info.update(version="0", profile="own", groups=[], licence="that of its cases", cite="")
     for flag in given.flags:
         want(flag in info["flags"], "--flags", f"there is no flag {flag}")
-    want(0 <= given.distance < math.inf, "--distance", "a finite number >= 0 is wanted")
+    want(0 <= given.distance < math.inf, "--distance", "must be a finite number >= 0")
     features = read_case(given.files[0])["options"].get("query", "mesh")
     group = {"schema": vectors.SET_SCHEMA, "version": info["version"], "group": given.name,
              "features": features,
@@ -220,7 +220,7 @@ def main(words):
     cases = [case_of(file, given, features, info["flags"]) for file in given.files]
     ids += [case["id"] for case in cases]
     for name in set(ids):
-        want(ids.count(name) == 1, "a case", f"{name} is there twice")
+        want(ids.count(name) == 1, f"case {name}", "occurs twice in the set")
     vectors.write_set(out, info, [(group, cases)])
 
 

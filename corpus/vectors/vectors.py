@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs, scores, checks and converts sets of Assay vectors: small hard cases for continuous
-collision detection whose answers are known exactly. README.md says what everything means.
+"""Runs, scores, checks and converts sets of Assay vectors: small hard cases of continuous
+collision detection with exactly known answers. README.md says what everything means.
 
   vectors.py run [--set DIR] [--out FILE] [--group G...] [--timeout S] [--restart] -- COMMAND ARGS...
   vectors.py run [...] --detector LIB.so|python:MODULE:CLASS
@@ -86,7 +86,7 @@ class VectorSet:
         check_set(self.info, self.folder / "set.json")
         names = [*(Path(g["file"]).stem for g in self.info["groups"]), *self.info["flags"]]
         for name in sorted({*(only or [])} - {*names}):
-            raise Wrong(f"no group or flag {name}; there are: {' '.join(names)}")
+            raise Wrong(f"no group or flag is named {name}; the names are: {' '.join(names)}")
         self.groups, self.cases = [], []
         lines, ids = "", set()
         for entry in self.info["groups"]:
@@ -99,17 +99,17 @@ class VectorSet:
             group = parse_json(data, file)
             check_group(group, file, self.info, entry)
             for case in group["cases"]:
-                want(case["id"] not in ids, file, f"case {case['id']} is there twice")
+                want(case["id"] not in ids, file, f"case {case['id']} occurs twice")
                 ids.add(case["id"])
             cases = [c for c in group["cases"] if not only or {group["group"], *c["flags"]} & {*only}]
             if cases:
                 self.groups.append(group)
                 self.cases += [Case(group, case) for case in cases]
         if hashlib.sha256(lines.encode()).hexdigest() != self.info["digest"]:
-            raise Wrong(f"{self.folder / 'set.json'}: its digest does not fit its groups")
+            raise Wrong(f"{self.folder / 'set.json'}: its digest is not the digest of its groups")
         if len(ids) != self.info["cases"]:
             raise Wrong(f"{self.folder / 'set.json'}: it states {self.info['cases']} cases, "
-                        f"and its groups hold {len(ids)}")
+                        f"but its groups have {len(ids)} cases")
 
     def label(self):
         return {key: self.info[key] for key in ("version", "profile", "digest")}
@@ -136,7 +136,7 @@ def parse_json(data, file):
     try:
         return json.loads(data, parse_constant=no_constant)
     except (ValueError, RecursionError) as problem:
-        raise Wrong(f"{file}: no JSON: {problem}") from None
+        raise Wrong(f"{file}: is no JSON: {problem}") from None
 
 
 def read_json(file):
@@ -165,11 +165,11 @@ def want(holds, place, what):
 
 
 def want_fields(value, fields, place):
-    """Demands fields. `fields` holds for each name a test of the value, and that test in words."""
-    want(isinstance(value, dict), place, "no object")
+    """Demands fields. `fields` maps each name to a test of its value, and to that test in words."""
+    want(isinstance(value, dict), place, "is no object")
     for name, (good, words) in fields.items():
-        want(name in value, place, f"no field {name}")
-        want(good(value[name]), place, f"{name} is not {words}")
+        want(name in value, place, f"has no field {name}")
+        want(good(value[name]), place, f"field {name} is not {words}")
 
 
 def one_of(*words):
@@ -178,7 +178,7 @@ def one_of(*words):
 
 TEXT = (is_text, "a text")
 HEX = (lambda x: is_text(x) and re.fullmatch("[0-9a-f]{64}", x), "64 hexadecimal digits")
-COUNT = (is_count, "a count")
+COUNT = (is_count, "a whole number >= 0")
 SCHEMA = one_of(SET_SCHEMA)
 KIND = {"features": one_of("vertex-face", "edge-edge", "mesh"),
         "question": one_of("contact", "distance", "limit"),
@@ -210,10 +210,10 @@ def check_group(group, file, info, entry):
                         **{key: one_of(entry[key]) for key in KIND}}, file)
     want((group["question"] != "distance" or group["features"] != "mesh") and
          (group["question"] != "limit" or group["features"] == "mesh"), file,
-         "the question limit is for meshes, distance for two features")
+         'question "limit" is only for meshes, question "distance" only for two features')
     for case in group["cases"]:
         want_fields(case, {"id": (lambda x: is_text(x) and re.fullmatch(r"[\w.:-]+", x),
-                                  "a name")}, f"{file}: a case")
+                                  "a name of letters, digits and . : - _")}, f"{file}: a case")
         check_case(case, group, info["flags"], f"{file}: case {case['id']}")
 
 
@@ -239,32 +239,32 @@ def check_case(case, group, flags, place):
         check_truth(case, place)
         points = case["t0"] + case["t1"]
     if group["precision"] == "float32":
-        want(all(is_float32(x) for p in points for x in p), place, "a coordinate is no float")
+        want(all(is_float32(x) for p in points for x in p), place, "a coordinate is no float32")
 
 
 def check_mesh(case, group, place):
     frames = case.get("frames")
     want(isinstance(frames, list) and frames and isinstance(frames[0], list) and
          is_list(frames, None, lambda f: is_list(f, len(frames[0]), TRIPLE)), place,
-         "frames are not lists of points, all of one length")
+         "frames are not lists of equally many points")
     index = (lambda x: is_count(x, len(frames[0])))
     want(case.get("triangles") and is_list(
         case["triangles"], None, lambda t: is_list(t, 3, index) and len(set(t)) == 3), place,
         "a triangle is not three different indices of points")
     steps = case.get("steps")
     want(is_list(steps, 1 if group["question"] == "limit" else None, lambda s: isinstance(s, dict))
-         and steps, place, "steps is not a list of steps (for the question limit, of one step)")
+         and steps, place, 'steps is not a list of steps (for question "limit": of exactly one step)')
     number = (lambda x: is_count(x, len(frames))), "the number of a frame"
     for i, step in enumerate(steps):
         here = f"{place}: step {i + 1}"
         want_fields(step, {"from": number, "to": number, "result": one_of(*RESULTS)}, here)
-        want(isinstance(step.get("commit", True), bool), here, "commit is not true or false")
+        want(isinstance(step.get("commit", True), bool), here, "commit is neither true nor false")
         check_truth(step, here)
         want(group["question"] != "limit" or step.get("first_time") != [0, 0], here,
-             "the question is limit, but the step begins in contact")
+             'question is "limit", but the step begins in contact')
         triangle = (lambda x: is_count(x, len(case["triangles"])))
         pairs = step.get("pairs", [])
-        want(isinstance(pairs, list), here, "pairs are no list")
+        want(isinstance(pairs, list), here, "pairs is not a list")
         for pair in pairs:
             want(is_list(pair, 4, is_number) and triangle(pair[0]) and triangle(pair[1]) and
                  pair[0] < pair[1] and pair[2] <= pair[3], here,
@@ -277,15 +277,15 @@ def check_mesh(case, group, place):
 
 def check_truth(truth, place):
     for name in ("first_time", "polynomial"):
-        want(isinstance(truth.get(name, []), list), place, f"{name} is no list")
+        want(isinstance(truth.get(name, []), list), place, f"{name} is not a list")
     time_, polynomial = truth.get("first_time"), truth.get("polynomial")
     if truth["result"] == "free":
-        want(time_ is None and polynomial is None, place, "it is free, but has a first time")
+        want(time_ is None and polynomial is None, place, "result is free, but first_time or polynomial is set")
     if time_ is not None:
         want(is_list(time_, 2, is_number) and 0 <= time_[0] <= time_[1] <= 1, place,
-             "first_time is not two times of the step")
+             "first_time is not [lo, hi] with 0 <= lo <= hi <= 1")
         want(time_[1] == time_[0] or time_[1] == next_double(time_[0]), place,
-             "first_time is neither one double nor two neighbouring doubles")
+             "the doubles of first_time are neither equal nor neighbours")
     if polynomial is not None:
         want(is_list(polynomial, None, lambda c: is_text(c) and re.fullmatch(r"-?\d+", c)), place,
              "polynomial is not a list of whole numbers written as texts")
@@ -370,7 +370,7 @@ def check(folder):
 
 
 def check_halves(cases):
-    """Demands that halves make up a step, and have a contact exactly if the whole step has one."""
+    """Demands that halves make up a step, and have a contact exactly if the step has a contact."""
     halves = collections.defaultdict(list)
     for case in cases.values():
         if "split_of" in case.json:
@@ -382,14 +382,14 @@ def check_halves(cases):
         if not both and ("SplitInvariant" not in case.flags or "split_of" in whole):
             continue
         want("SplitInvariant" in case.flags, f"case {name}", "it has halves, but not the flag SplitInvariant")
-        want(len(both) == 2, f"case {name}", "it does not have two halves")
+        want(len(both) == 2, f"case {name}", "it does not have two halves (by their split_of)")
         ways = [[[Fraction(b) - Fraction(a) for a, b in zip(p, q)]
                  for p, q in zip(h["t0"], h["t1"])] for h in both]
         want(ways[0] == ways[1] and both[0]["t0"] == whole["t0"] and
              both[0]["t1"] == both[1]["t0"] and both[1]["t1"] == whole["t1"], f"case {name}",
              "its halves do not make up its step")
         want((whole["result"] == "free") == all(h["result"] == "free" for h in both),
-             f"case {name}", "its result differs from its halves' result")
+             f"case {name}", "its result differs from the result of its halves")
 
 
 # --- asking -------------------------------------------------------------------------------------
@@ -622,10 +622,10 @@ class Functions:
 
 
 def true_or_false(said, case):
-    """Returns a bool, also of NumPy. Refuses a number, because a time of 0.0 would mean free."""
+    """Returns a bool of Python or NumPy as bool. Refuses a number, because 0.0 would mean free."""
     is_bool = getattr(getattr(said, "dtype", None), "kind", "") == "b" and not said.shape
     want(isinstance(said, bool) or is_bool, case.id,
-         f"{said!r} is no answer: True, False, None, or a line such as \"collision 0.25\"")
+         f"{said!r} is no answer; answers are True, False, None and lines such as \"collision 0.25\"")
     return bool(said)
 
 
@@ -669,15 +669,15 @@ def write_text(file, text, mode="w"):
 # --- judging ------------------------------------------------------------------------------------
 
 class Judged:
-    """The outcomes of a product's answers, and counts over them."""
+    """The outcomes of a product's answers, and numbers that sum them up."""
 
     def __init__(self, product):
         self.product = product
         self.outcome = {}  # by id
-        self.missed = {}  # by id of a miss: the first step that is one, and the answer to it
+        self.missed = {}  # by id of a missed case: its first missed step, and the answer to it
         self.closed = self.open = self.missing = self.spurious = 0
         self.met = self.named = 0  # right pairs and answered pairs, of steps whose pairs are judged
-        self.times, self.late_by, self.early_by = 0, [], []  # judged first times; parts of a step
+        self.times, self.late_by, self.early_by = 0, [], []  # count of first times; parts of a step
         self.gave_pairs = False
         self.uses = []  # the shares of the possible way that a limiter allows
         self.limits = 0  # the limits that have one right answer
@@ -760,17 +760,17 @@ def read_results(file, vectors):
     given, own = results["set"], vectors.label()
     want(given["digest"] == own["digest"], file,
          f"results of another set ({given['version']} {given['profile']}, digest "
-         f"{given['digest'][:12]}); this one is {own['version']} {own['profile']}, digest "
+         f"{given['digest'][:12]}); the set to score is {own['version']} {own['profile']}, digest "
          f"{own['digest'][:12]}")
     cases = {case.id: case for case in vectors.cases}
     for name, answer in results["answers"].items():
         place = f"{file}: {name}"
         want(name in cases, place, "the set has no such case")
         case = cases[name]
-        want(isinstance(answer, dict), place, "no object")
+        want(isinstance(answer, dict), place, "is no object")
         if case.triangles is not None:
             want(is_list(answer.get("steps"), len(case.steps), lambda a: isinstance(a, dict)), place,
-                 f"not {len(case.steps)} steps")
+                 f"its steps are not a list of {len(case.steps)} objects")
         for one in answer["steps"] if case.triangles is not None else [answer]:
             check_answer(one, case, place)
     return results
@@ -780,17 +780,17 @@ def check_answer(answer, case, place):
     want_fields(answer, {"answer": one_of(*ANSWERS)}, place)
     if answer["answer"] in ("free", "collision", "share"):
         want((answer["answer"] == "share") == (case.question == "limit"), place,
-             f"{answer['answer']} is no answer to the question {case.question}")
+             f'"{answer["answer"]}" is no answer to the question "{case.question}"')
     if answer["answer"] == "share":
         want(is_number(answer.get("share")) and 0 <= answer["share"] <= 1, place,
              "share is not a number from 0 to 1")
     if "time" in answer:
         want(is_list(answer["time"], 2, is_number) and answer["time"][0] <= answer["time"][1], place,
-             "time is not two numbers")
+             "time is not [lo, hi] with lo <= hi")
     if "pairs" in answer:
         end = len(case.triangles or [])
         want(is_list(answer["pairs"], None, lambda p: is_list(p, 2, lambda i: is_count(i, end))),
-             place, "a pair is not two triangles")
+             place, "a pair is not two indices of triangles")
 
 
 def letter_of(i):
@@ -807,8 +807,8 @@ def table_text(rows, left):
 
 
 def uses_text(judged):
-    return (f"{len(judged.uses)} of {judged.limits} safe, the median uses "
-            f"{100 * statistics.median(judged.uses):.1f} % of the way")
+    return (f"{len(judged.uses)} of {judged.limits} are safe; their median is "
+            f"{100 * statistics.median(judged.uses):.1f} % of the safe way")
 
 
 def matrix_rows(title, members, every, brief):
@@ -851,13 +851,13 @@ def score_text(vectors, every, brief=False):
                                ("timeout", "timeout")):
             ids = judged.ids(outcome)
             if ids:
-                more = f" and {len(ids) - 8} more" if len(ids) > 8 else ""
+                more = f" and {len(ids) - 8} more cases" if len(ids) > 8 else ""
                 lines.append(f"{letter} {words}: {' '.join(ids[:8])}{more}\n")
         if judged.closed or judged.open:
-            lines.append(f"{letter} where features only touch: {judged.closed} answers collision, "
-                         f"{judged.open} free\n")
+            lines.append(f"{letter} where features only touch: {judged.closed} answers "
+                         f"are collision, {judged.open} answers are free\n")
         if judged.early_by:
-            lines.append(f"{letter} times too early: {len(judged.early_by)}\n")
+            lines.append(f"{letter} answers whose time is too early: {len(judged.early_by)}\n")
         if judged.gave_pairs:
             lines.append(f"{letter} pairs: {judged.missing} missing, {judged.spurious} spurious\n")
         if judged.uses:
@@ -883,7 +883,7 @@ def features_of(path):
     for folder in path.absolute().parent.parts[::-1]:
         if folder in ("vertex-face", "edge-edge"):
             return folder
-    raise Wrong(f"{path}: vertex-face or edge-edge? Say it by --features")
+    raise Wrong(f"{path}: are its queries vertex-face or edge-edge? Give --features")
 
 
 def double_of(words, place):
@@ -912,13 +912,13 @@ def read_csv(file, truth):
     labels = read_json(truth) if truth else None
     if truth:
         want(is_list(labels, len(lines) // 8, lambda x: isinstance(x, bool)), truth,
-             f"not {len(lines) // 8} booleans")
+             f"is not a list of {len(lines) // 8} booleans")
     queries = []
     for first in range(0, len(lines), 8):
         points, ends = [], set()
         for i in range(first, first + 8):
             place, columns = f"{file}: line {i + 1}", [c.strip() for c in lines[i].split(",")]
-            want(3 <= len(columns) <= 8, place, f"{len(columns)} columns; a row has 3 to 8")
+            want(3 <= len(columns) <= 8, place, f"{len(columns)} columns; a row has 3 to 8 columns")
             each = 1 if len(columns) < 6 else 2  # a decimal, or numerator and denominator
             points.append([double_of(columns[k:k + each], place) for k in range(0, 3 * each, each)])
             ends.add(tuple(columns[3 * each:]))
@@ -926,7 +926,7 @@ def read_csv(file, truth):
         want(len(ends) == 1, place, "the eight rows of this query differ in label or separation")
         end = ends.pop()
         label = labels[first // 8] if labels else {"1": True, "0": False}.get((*end, "")[0])
-        want(label is not None, place, "this query has no label, which a case needs: give labels with --truth")
+        want(label is not None, place, "this query has no label, but must have one: give --truth")
         distance = None
         if len(end) == 2:
             want(bool(NUMBER.fullmatch(end[1])) and 0 <= float(end[1]) < math.inf, place,
@@ -964,7 +964,7 @@ def from_csv(files, out, features, truth):
 
 
 def write_set(out, info, groups):
-    """Writes groups with their cases, and a set.json that names them and the groups of `info`."""
+    """Writes groups with their cases, and a set.json that also lists the groups of `info`."""
     out = Path(out)
     try:
         out.mkdir(parents=True, exist_ok=True)
@@ -1000,7 +1000,7 @@ def to_csv(group_file, out, truth):
     group = read_json(group_file)
     want_fields(group, {"schema": SCHEMA, **KIND, "cases": (lambda x: is_list(
         x, None, lambda c: isinstance(c, dict)), "a list of objects")}, group_file)
-    want(group["features"] != "mesh", group_file, "holds meshes, which a query file cannot hold")
+    want(group["features"] != "mesh", group_file, "has meshes, which no query file can hold")
     text, labels = "", []
     for case in group["cases"]:
         want_fields(case, {"result": one_of(*RESULTS)}, group_file)
@@ -1040,32 +1040,32 @@ def parser_of_all():
     parser = Parser(prog="vectors.py", description=__doc__, add_help=True,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = parser.add_subparsers(dest="verb", required=True, parser_class=Parser)
-    one = verbs.add_parser("run", help="ask a program or a detector")
-    one.add_argument("--set", metavar="DIR", help="the set (default: the folder of this file)")
+    one = verbs.add_parser("run", help="ask a program or a detector all questions of a set")
+    one.add_argument("--set", metavar="DIR", help="the set (default: this program's folder)")
     one.add_argument("--out", metavar="FILE", default="results.json", help="default: results.json")
-    one.add_argument("--group", nargs="+", metavar="G", help="only these groups or flags")
+    one.add_argument("--group", nargs="+", metavar="G", help="ask only cases of these groups or flags")
     one.add_argument("--timeout", type=float, default=10, metavar="S",
                      help="seconds for an answer (default: 10)")
     one.add_argument("--restart", action="store_true", help="start the program again for each case")
     one.add_argument("--detector", metavar="NAME",
                      help="ask a plug-in of Assay, or a Python class: python:MODULE:CLASS")
     one.add_argument("--arithmetic", metavar="WORD",
-                     help="ask the built-in detector: exact, bounded, double or float")
+                     help="arithmetic of the built-in detector: exact, bounded, double or float")
     one = verbs.add_parser("score", help="compare results with the exact answers")
     one.add_argument("results", nargs="+")
     one.add_argument("--set", metavar="DIR")
-    one.add_argument("--out", metavar="FILE.html", help="write the matrix of all products here")
+    one.add_argument("--out", metavar="FILE.html", help="write the page of results to this file")
     one = verbs.add_parser("check", help="check that a set is whole and sound")
     one.add_argument("set", metavar="DIR")
     one = verbs.add_parser("to-csv", help="write a group as a query file")
     one.add_argument("group", metavar="GROUP.json")
     one.add_argument("out", metavar="OUT.csv")
-    one.add_argument("--truth", metavar="FILE", help="write labels here, not into the rows")
+    one.add_argument("--truth", metavar="FILE", help="write the labels to FILE, not into the rows")
     one = verbs.add_parser("from-csv", help="make a set from query files")
     one.add_argument("files", nargs="+", metavar="FILE.csv")
     one.add_argument("--out", required=True, metavar="DIR")
     one.add_argument("--features", choices=("vertex-face", "edge-edge"))
-    one.add_argument("--truth", metavar="FILE", help="a JSON file: one boolean for each query")
+    one.add_argument("--truth", metavar="FILE", help="a JSON list with a boolean for each query")
     one = verbs.add_parser("flags", help="print the flags as a table")
     one.add_argument("--set", metavar="DIR")
     return parser
@@ -1074,7 +1074,7 @@ def parser_of_all():
 def asked_by(given, command):
     """Returns the object that answers: a Program, or a detector of Assay."""
     ways = [way for way in (command, given.detector, given.arithmetic) if way]
-    want(len(ways) == 1, "run", "who answers? One of -- COMMAND ARGS..., --detector, --arithmetic")
+    want(len(ways) == 1, "run", "who answers? Give one of -- COMMAND ARGS..., --detector, --arithmetic")
     want(0 < given.timeout < math.inf, "--timeout", "the seconds must be a number above 0")
     write_text(given.out, "", "a")  # whether it can be written: no work is to be lost
     if command:
@@ -1082,7 +1082,7 @@ def asked_by(given, command):
     import hosted
     hosted.demand_module()
     words = hosted.assay.OPTIONS["arithmetic"]
-    want(given.detector or given.arithmetic in words, "--arithmetic", f"one of {', '.join(words)}")
+    want(given.detector or given.arithmetic in words, "--arithmetic", f"is not one of {', '.join(words)}")
     return (hosted.PlugIn(given.detector, given.timeout) if given.detector
             else hosted.BuiltIn(given.arithmetic))
 
@@ -1124,7 +1124,7 @@ def main(words):
 
 
 def end_with(work):
-    """Ends the process with the exit code of work(words of the command line), or 0."""
+    """Ends the process with the exit code that work(words of the command line) returns."""
     try:
         sys.exit(work(sys.argv[1:]))
     except Wrong as wrong:

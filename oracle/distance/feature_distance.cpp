@@ -1,5 +1,5 @@
 // The fast rungs find times at which two features are surely farther apart than d, and times at
-// which they surely are not. Integers decide the rest.
+// which they surely are within d. Integers decide the rest.
 #include "oracle/distance/feature_distance.h"
 
 #include <algorithm>

@@ -31,21 +31,21 @@ using detector::Separation;
 ContactAnswer first_time_within(const detector::FourPoints& q, const Separation& d,
                                 detector::Want want = detector::Want::first_time);
 
-// Returns the least double d that the features come within during the step. So the least distance
-// is at most d and greater than the double before d; if d is 0, the least distance is 0. Returns
-// infinity if no double is so large. Takes 1 ms; 25 ms if the least distance is close to 0 and not
-// 0.
+// Returns the least double d such that the features come within d during the step. So the least
+// distance is at most d and greater than the double before d; if d is 0, the least distance is 0.
+// Returns infinity if every double is less than the least distance. Takes 1 ms; 25 ms if the least
+// distance is close to 0 and not 0.
 double least_distance(const detector::FourPoints& q);
 
 // The nearest places of two features at one time, in plain doubles: a guess on which no verdict
 // rests.
 
-// Vertex-face: the first place is the vertex, the second is b0 + first (b1 - b0) + second (b2 - b0)
-// on the face b. Edge-edge: the places are a0 + first (a1 - a0) and b0 + second (b1 - b0). Both
-// `first` and `second` lie in [0,1]; for a face, so does their sum.
+// Vertex-face: place p is the vertex, and place q on the face b is b0 + first (b1 - b0) + second
+// (b2 - b0). Edge-edge: p is a0 + first (a1 - a0), and q is b0 + second (b1 - b0). Both `first` and
+// `second` lie in [0,1]; for a face, so does their sum.
 struct ClosestPlaces {
   double first = 0, second = 0;
-  detector::Point apart{};  // from the second place to the first
+  detector::Point apart{};  // from q to p
   double squared = 0;       // the square of the distance
 };
 
@@ -97,13 +97,13 @@ class Regions {
   Region edges() const;
 
   int first_group_;
-  std::array<PolynomialVector, 4> x_;  // each point minus the first
+  std::array<PolynomialVector, 4> x_;  // each point minus the first point
   IntegerPolynomial squared_;          // d^2
 };
 
 // The times of a region, exactly.
 
-// Returns whether f <= 0 with all conditions at t=0.
+// Returns whether f <= 0 and all conditions hold at t=0.
 bool near_at_start(const Region& region);
 
 // Returns the first zero of f in (s,e] at which the conditions hold; nothing if there is none, or

@@ -1,13 +1,13 @@
 // Finds which triangles of a mesh come within a distance of each other during a step, when, and how
-// near any two of them come.
+// near any two triangles come.
 //
 // The search works like the one for the exact pair set (mesh/step.h). Boxes, grown by the distance,
 // find candidate pairs of features. feature_distance.h judges each pair as soon as it is found. If
-// two features come within d, then so do all pairs of triangles that hold them. Two triangles are
-// within d at t if a closed face of one (the triangle, an edge or a vertex) is within d of a closed
-// face of the other at t, and the two faces have no common vertex. They are also within d if t is 0
-// and an edge of one pierces the other. After t=0 an edge begins to pierce a face only by a contact
-// of two features.
+// two features come within d, all pairs of triangles that hold them come within d. Two triangles
+// are within d at t if a closed face of one (the triangle, an edge or a vertex) is within d of a
+// closed face of the other at t, and the two faces have no common vertex. They are also within d if
+// t is 0 and an edge of one pierces the other. After t=0 an edge begins to pierce a face only by a
+// contact of two features.
 #pragma once
 
 #include <limits>

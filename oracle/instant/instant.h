@@ -54,7 +54,7 @@ class Instant {
   Integer denominator_ = 1;
 };
 
-// Whether features at rest meet, decided by signs of integer determinants alone. These tests are as
+// The tests below tell by signs of integer determinants whether features at rest meet. They are as
 // complete as the queries of contact.h: they decide degenerate, coplanar, collinear and coinciding
 // features too. For degenerate features they are faster (1 to 5 us), because they find no time.
 

@@ -1,6 +1,6 @@
-// Layers, pieces and clean triangles of a mesh at one instant, found from the places at that
-// instant alone, without history (L9 and L10, detector/LAWS.md); and exact winding numbers of a
-// cycle, found by counting how often a ray crosses it.
+// Layers, pieces and clean triangles of a mesh at one instant, found only from the places at that
+// instant, without history (L9 and L10, detector/LAWS.md); and exact winding numbers of a cycle,
+// found by counting how often a ray crosses it.
 #pragma once
 
 #include <memory>
@@ -78,8 +78,8 @@ struct LayerState {
 
 // Finds the layers. REQUIRES closes(triangles, ghosts), and that triangles and ghosts name vertices
 // of this instant. Contacts between two components make no triangle dirty here, because pairs of
-// two components are always candidates, and the layers of a component are winding numbers of that
-// component alone (L10). Every untouched triangle has a normal: a triangle of zero area is always
+// two components are always candidates, and the layers of a component are winding numbers of only
+// that component (L10). Every untouched triangle has a normal: a triangle of zero area is always
 // touched, by the triangle or ghost at its longest edge, and a triangle that repeats an index
 // counts as touched.
 LayerState layers_at(const Instant& instant, const detector::TrianglesView& triangles,

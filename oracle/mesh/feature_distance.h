@@ -12,8 +12,8 @@
 namespace assay::oracle {
 
 // Returns whether two features, each given by its vertices, are nearer to each other than
-// `distance` at these places, compared exactly. A vertex and a face that holds it have distance 0.
-// REQUIRES distance finite and greater than 0.
+// `distance` when each vertex is at its place in `places`. Exact. A vertex and a face that holds it
+// have distance 0. REQUIRES distance finite and greater than 0.
 bool vertex_nearer_than(const std::vector<detector::Point>& places, std::int32_t vertex,
                         const Face& face, double distance);
 bool edges_nearer_than(const std::vector<detector::Point>& places, const Edge& a, const Edge& b,

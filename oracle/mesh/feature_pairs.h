@@ -1,6 +1,6 @@
 // Candidate feature pairs of two meshes, or of one mesh with itself: pairs whose boxes meet and
 // that share no vertex. Several threads find the pairs, and hand each pair to the caller's visitor
-// at once. The visitor tests the pair exactly. No pair is stored, and the caller can stop the
+// immediately. The visitor tests the pair exactly. No pair is stored, and the caller can stop the
 // threads.
 #pragma once
 
@@ -38,8 +38,8 @@ Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
 }
 
 // Finds which of many closed boxes meet another box: a packed R-tree (Boost.Geometry). Its answers
-// rest on comparisons of doubles alone; rounded sums decide its layout, never an answer. Many
-// threads may ask at once.
+// rest only on comparisons of doubles; rounded sums decide its layout, never an answer. Several
+// threads may search at the same time.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);
@@ -84,7 +84,7 @@ class FeatureIndex {
   mutable std::unique_ptr<BoxTree> faces_, edges_;
 };
 
-// Two features whose boxes meet and that share no vertex, and the triangles that hold each.
+// Two features whose boxes meet and that share no vertex, and the triangles that hold each feature.
 struct FeaturePair {
   detector::Feature feature;
   std::span<const std::int32_t> of_first, of_second;
@@ -126,27 +126,27 @@ struct Workers {
 using VisitPair = std::function<void(const FeaturePair& pair, int worker)>;
 using VisitFaces = std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)>;
 
-// Visits vertices of a with faces of b, or edges of a with edges of b, or (piercing) edges of a
-// with faces of b. If a and b are the same object, each pair of edges is visited once, with the
-// lower edge first.
+// Visits each pair of a vertex of a and a face of b, or of an edge of a and an edge of b, or
+// (piercing) of an edge of a and a face of b, whose boxes meet and that share no vertex. If a and b
+// are the same object, each pair of edges is visited once, with the lower edge first.
 void for_each_pair(const FeatureIndex& a, const FeatureIndex& b, detector::FeatureKind kind,
                    const Workers& workers, const VisitPair& visit);
-// Visits pairs of faces of a mesh whose boxes meet, also faces that share vertices. Each pair is
+// Visits the pairs of faces whose boxes meet, also if the two faces share vertices. Each pair is
 // visited once, with the lower face first.
 void for_each_face_face(const FeatureIndex& mesh, const Workers& workers, const VisitFaces& visit);
 
 // Says of two triangles, the lower first, whether they count.
 using WantedPair = std::function<bool(std::int32_t, std::int32_t)>;
 
-// Triangle pairs whose features meet, by a test that the caller chooses (at rest or over a step).
+// The rest of this file finds pairs of triangles whose features meet, by a test of the caller.
 
 // An exact test of two features: whether they meet.
 using FeaturesMeet = std::function<bool(const detector::Feature& feature)>;
 
 struct PairVisitor {
-  // Says whether a contact of these two triangles matters. Two features are tested only if a
-  // contact of some pair of triangles that hold them matters. With several jobs both functions are
-  // called from several threads.
+  // Says whether a contact of these two triangles matters. Two features are tested only if
+  // `matters` is true for some pair of triangles that hold them. With several jobs both functions
+  // are called from several threads.
   std::function<bool(std::int32_t of_a, std::int32_t of_b)> matters;
   // Called for each pair in contact that matters. Called several times for one pair if several of
   // its features meet.

@@ -16,7 +16,7 @@ using Edge = std::array<std::int32_t, 2>;  // vertices, lower first
 using Face = std::array<std::int32_t, 3>;  // vertices, in the order of the mesh
 
 // Lists for each item (a vertex or an edge) the triangles that hold it, ascending. All lists lie in
-// one array: the list of item i begins at first[i].
+// one array: the list of item i begins at triangle[first[i]].
 struct Incidence {
   std::vector<std::size_t> first;  // by item; the last element is the end of the last list
   std::vector<std::int32_t> triangle;
@@ -67,8 +67,8 @@ std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangl
 // start. Returns no walk for a cycle. Takes n log n.
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
 
-// Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop).
-// Together with the triangles whose loops these are, the ghosts make a cycle.
+// Returns one ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). The
+// ghosts, together with the triangles that have these loops, are a cycle.
 detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex);
 
 // Returns whether `ghosts` closes the mesh with one ghost for each unmatched edge: triangles and

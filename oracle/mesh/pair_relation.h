@@ -27,8 +27,8 @@ class PairRelation {
   // Returns whether the relation lets the bodies of two vertices meet (CountedPairs::apart). This
   // is cheap, and needs no triangle.
   bool bodies_meet(std::int32_t u, std::int32_t v) const;
-  // Returns whether a pair of faces counts. In a relation of features, two faces count if some
-  // feature pair of theirs counts.
+  // Returns whether a pair of faces counts. In a relation of features, two faces count if some pair
+  // of their features counts.
   bool counts_faces(std::int32_t a, std::int32_t b) const;
   // Return whether a pair of features counts. REQUIRES a relation of features, and two features
   // that share no vertex.

@@ -1,9 +1,9 @@
 // The exact pair set of one step, with the first contact time of each pair.
 //
-// The pair set is found from the mesh alone; view sets, state and culling play no part. An exact
-// box cull finds candidate pairs of features, and the exact query of contact.h judges them. If two
-// features meet, all pairs of triangles that hold them are in contact. Candidates are judged when
-// they are found and never stored: only the mesh, one box tree and the contacts take memory.
+// The pair set is found only from the mesh; view sets, detector state and culling play no part. An
+// exact box cull finds candidate pairs of features, and the exact query of contact.h judges them.
+// If two features meet, all pairs of triangles that hold them are in contact. Candidates are judged
+// when they are found and never stored: only the mesh, one box tree and the contacts take memory.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@
 
 namespace assay::oracle {
 
-// Which pairs of features a detector tests; some detectors test one kind alone.
+// Which pairs of features a detector tests; some detectors test only one kind.
 enum class AskedFeatures : std::uint8_t { all, vertex_face, edge_edge };
 
 struct JudgeOptions {
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // called by one thread at a time
   AskedFeatures features = AskedFeatures::all;
-  // Which pairs count; null: all do. The judgement speaks of counted pairs alone. REQUIRES a
+  // Which pairs count; null: all pairs. The judgement is about counted pairs only. REQUIRES a
   // relation without errors (detector/mesh/mesh_checks.h) that outlives the call.
   const detector::CountedPairs* counted = nullptr;
   // Which of the counted pairs the detector tests; null: all. Together with `features` it decides
@@ -36,7 +36,7 @@ struct JudgeOptions {
 
 struct StepJudgement {
   // `free` or `collision`; or `undecided` if the judgement was stopped: then `pairs` holds the
-  // pairs that were found before.
+  // pairs that were found before the stop.
   detector::Answer answer = detector::Answer::undecided;
   bool complete = false;                     // false: the judgement was stopped
   detector::TimeEnclosure first;             // the least time of all pairs; set for a collision
@@ -48,8 +48,8 @@ struct StepJudgement {
   // if JudgeOptions names no single kind and no tested pairs.
   std::vector<detector::PairContact> asked_pairs;
   // The pairs that a detector with a slack is allowed to report, ascending: all pairs that come
-  // within its separation plus its slack. The time of a pair is the earliest that the detector is
-  // allowed to state. judge_step does not set this.
+  // within its separation plus its slack. The time of a pair is the earliest time that the detector
+  // is allowed to state. judge_step does not set this.
   std::optional<std::vector<detector::PairContact>> within_slack;
   // The number of feature pairs (vertex-face, edge-edge) whose boxes meet and whose bodies are
   // allowed to meet.
@@ -73,7 +73,7 @@ class StepFeatures {
   StepFeatures(const StepFeatures&) = delete;
   StepFeatures& operator=(const StepFeatures&) = delete;
 
-  // Visits the pairs of features whose boxes meet, with the number of the calling thread.
+  // Visits each pair of features whose boxes meet; `visit` gets the number of its thread.
   void for_each(const BoxOfVertices& boxes, const Workers& workers, const VisitPair& visit) const;
 
   // Visits the counted pairs of triangles that are in contact at t=0 because an edge of one pierces

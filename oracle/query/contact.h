@@ -4,7 +4,7 @@
 // also for degenerate features, for features at rest, and for points that are coplanar or collinear
 // throughout. Touching is a contact, and the step includes t = 0 and t = 1. Coordinates must be
 // finite. Cost: 0.03 us if an axis separates the two features; 1 to 2 us in interval arithmetic,
-// and about 8 more if a time is wanted; about 10 us in integers for degenerate and nearly
+// and about 8 us more if a time is wanted; about 10 us in integers for degenerate and nearly
 // degenerate queries (0.4 ms when exponents spread over all doubles). Thread safe, because threads
 // share no number objects. Ends the process when the processor does not round to nearest or flushes
 // denormals.

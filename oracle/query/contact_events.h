@@ -62,7 +62,7 @@ struct ExactAnswer {
 // - These times are the zeros of F, if F is not identically zero.
 // - Else t=0 and the zeros of the L of an axis whose L are not all identically zero.
 // - If all L of all axes are identically zero, t=0 and the zeros of the D of an axis whose D are
-//   not all identically zero. If there is no such axis, t=0 alone.
+//   not all identically zero. If there is no such axis, only t=0.
 // Between two neighbouring zeros, contact neither begins nor ends, and the set of contact times is
 // closed. So the first of these times with a contact is the first contact time.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);

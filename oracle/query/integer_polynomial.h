@@ -14,7 +14,7 @@ namespace assay::oracle {
 
 using Integer = mpz_class;
 
-// c[0] + c[1] t + ... The last coefficient is never zero, so the zero polynomial has none.
+// c[0] + c[1] t + ... The last coefficient is never 0; the zero polynomial has no coefficients.
 struct IntegerPolynomial {
   std::vector<Integer> c;
 

@@ -1,5 +1,5 @@
-// Certain signs of intervals (of any type with inf() and sup()); polynomials on pieces of the step;
-// and intervals that need no change of the rounding mode.
+// Signs that all numbers of an interval (a type with inf() and sup()) surely have; polynomials on
+// pieces of the step; and intervals that need no change of the rounding mode.
 #pragma once
 
 #include <algorithm>
@@ -170,10 +170,10 @@ Bernstein<Number, 2> dot(const LinearVector<Number>& u, const LinearVector<Numbe
 
 // Intervals of doubles that hold exact results and need no change of the rounding mode.
 //
-// A result r, rounded to nearest, differs from the exact one by at most 2^-53 |r|, and by half of
-// the least double where it is denormal. The result is widened by `slack(r)` = 2^-52 |r| plus the
-// least double. This is more than twice the error of r. The excess covers the rounding of the
-// widening itself, which is at most half a unit in the last place of r or of its neighbour.
+// A result r, rounded to nearest, differs from the exact result by at most 2^-53 |r| or, if r is
+// denormal, by at most half of the least double. The result is widened by `slack(r)` = 2^-52 |r|
+// plus the least double. This is more than twice the error of r. The excess covers the rounding of
+// the widening itself, which is at most half a unit in the last place of r or of its neighbour.
 // REQUIRES rounding to nearest, denormals that are not flushed, and results below the greatest
 // double.
 struct Enclosure {

@@ -10,8 +10,8 @@ namespace assay::oracle {
 // The rung "axis", the first rung of the oracle's elementary test. It only compares differences of
 // inputs, so it is exact for every finite input. Takes about 0.03 us.
 
-// Returns true when along some axis one group of points (the vertex and the face, or the two edges)
-// lies more than `distance` before the other at t=0 and at t=1.
+// Returns true if, along some axis, one group of points (of the vertex and the face, or of the two
+// edges) lies more than `distance` before the other group at t=0 and at t=1.
 // Then it does so at every time, because each difference of two coordinates is linear in time. So
 // the two groups never come within `distance`.
 bool separated_by_axis(const FourPoints& q, double distance = 0);
@@ -23,8 +23,8 @@ bool separated_by_axis(const FourPoints& q, double distance = 0);
 struct IntervalAnswer {
   detector::Decision decision = detector::Decision::open;
   // Set if there is a contact and the caller wants Want::first_time. Then the first contact time is
-  // the only zero of F in [s,e]. It lies inside and is simple, and F has strictly opposite signs at
-  // s and e.
+  // the only zero of F in [s,e]. That zero lies in (s,e) and is simple, and F has strictly opposite
+  // signs at s and e.
   double s = 0, e = 1;
 };
 
@@ -43,7 +43,7 @@ IntervalAnswer interval_answer(const FourPoints& q, detector::Want want);
 
 // Tests the contact condition at each time at which a contact can begin (contact_events.h). It
 // decides every query. It needs only signs at zeros of quadratics (times/times.h), and finds each
-// from the signs of a few integers.
+// sign from the signs of a few integers.
 ExactAnswer quadratic_answer(ContactPolynomials& polynomials, detector::Want want);
 
 // Finds the answer of quadratic_answer by other means: CGAL's algebraic kernel. algebraic_answer is

@@ -139,10 +139,10 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
 // Returns true if, by the theorem of Poincare-Miranda, some box about the guess holds a time and
 // place at which the origin is in the hull. False says nothing.
 // Let f(t,u,v) = P + u U + v V, and let g = A f with A the adjugate of the Jacobian of f at the
-// guess (regular, checked). Each component of g is affine in each of t, u, v alone, so it takes
-// its extremes on a side of the box at the side's four corners. If for every i component i is <= 0
-// on one side of direction i and >= 0 on the other, g has a zero in the box, and so has f. The box
-// lies in [0,until] x hull. REQUIRES until <= 1. All in integers; some 20 us a box.
+// guess (regular, checked). Each component of g is affine in each of t, u and v, so it takes
+// its extremes on a side of the box at the side's four corners. If, for every i, component i is <=
+// 0 on one side of direction i and >= 0 on the other side, g has a zero in the box, and so has f.
+// The box lies in [0,until] x hull. REQUIRES until <= 1. All in integers; some 20 us a box.
 bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double until = 1);
 
 }  // namespace assay::oracle

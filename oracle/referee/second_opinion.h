@@ -1,4 +1,4 @@
-// Checks a step's judgement by two other methods, on a share of its questions.
+// Checks a share of the questions of a step's judgement by two other methods.
 //
 // Feature queries whose swept boxes meet go to the referee (referee.h). Its decision is compared
 // with the answer of contact.h and with the pair set. Triangle pairs whose swept boxes meet are
@@ -35,12 +35,12 @@ struct Contradiction {
   detector::Feature feature;            // set for query and missing_pair
   detector::TrianglePair pair{-1, -1};  // set for all kinds but query
   StaticTime time;                      // set for the static kinds
-  bool judged = false, second = false;  // contact: in the judgement; by the second method
+  bool judged = false, second = false;  // contact by the judgement; by the second method
 };
 
 struct SecondOpinion {
   bool complete = false;      // false: stopped; the rest covers what was compared
-  std::uint64_t queries = 0;  // the sum of the referee's decisions, below
+  std::uint64_t queries = 0;  // the sum of the three counts below
   std::uint64_t contact = 0, no_contact = 0, open = 0;
   std::uint64_t static_checks = 0;
   std::vector<Contradiction> contradictions;  // in a fixed order

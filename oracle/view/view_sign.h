@@ -13,9 +13,9 @@ namespace assay::oracle {
 
 using MovingTriangle = std::array<detector::MovingPoint, 3>;
 
-// Returns the view sign of a triangle, which is then certain, or nothing if intervals cannot decide
-// it. Uses interval arithmetic on pieces of the step. For a view-point it takes 0.2 us over a small
-// motion and 2 us over a large motion; for a segment it takes 7 us.
+// Returns the view sign of a triangle, or nothing if intervals cannot prove it. Uses interval
+// arithmetic on pieces of the step. For a view-point it takes 0.2 us over a small motion and 2 us
+// over a large motion; for a segment it takes 7 us.
 // Notation, with N = (p1 - p0) x (p2 - p0) and d = q1 - q0:
 //   h0 = (p - q0).N, h1 = (p - q1).N (the same for every p in the triangle's plane),
 //   g0 = (p - q0).d, g1 = (p - q1).d = g0 - |d|^2, hm = h1 g0 - h0 g1 = h0 |d|^2 - g0 (d.N).

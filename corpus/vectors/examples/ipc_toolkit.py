@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Asks the IPC Toolkit's Python module (pip install ipctk, 1.x) and writes results_ipctk.json.
-Run: python3 ipc_toolkit.py [DIR of the set]"""
+"""Asks the IPC Toolkit's Python module (pip install ipctk, 1.x) the questions of a set, and writes
+results_ipctk.json. Run: python3 ipc_toolkit.py [DIR of the set]"""
 import sys
 from pathlib import Path
 
@@ -17,7 +17,7 @@ except ImportError as missing:
 
 
 class IpcToolkit:
-    """Tight-Inclusion answers for two features, is_step_collision_free for whole steps."""
+    """Asks Tight-Inclusion about two features, and is_step_collision_free about whole steps."""
     name = "ipctk"
     version = getattr(ipctk, "__version__", "unknown")
     settings = "Tight-Inclusion, defaults"

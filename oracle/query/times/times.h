@@ -29,13 +29,13 @@ class ExactTimes {
   virtual detector::TimeEnclosure enclosure(int i) const = 0;
 };
 
-// Returns the canonical enclosure of a time in [lo,hi] that can only be compared with doubles.
-// REQUIRES 0 <= lo <= hi, and that compare(t) is the exact sign of (time - t) for doubles t in
-// [lo,hi]. A wrong guess costs only work: about 2 log2 n comparisons if the guess is n units in the
-// last place away from the time.
+// Returns the canonical enclosure of a time in [lo,hi] that is known only by comparisons with
+// doubles. REQUIRES 0 <= lo <= hi, and that compare(t) is the exact sign of (time - t) for doubles
+// t in [lo,hi]. A wrong guess costs only work: about 2 log2 n comparisons if the guess is n units
+// in the last place away from the time.
 template <class Compare>
 detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
-  // Doubles >= 0 are ordered as their bit patterns.
+  // Doubles >= 0 have the same order as their bit patterns.
   auto bits = [](double t) { return std::bit_cast<std::uint64_t>(t); };
   auto value = [](std::uint64_t b) { return std::bit_cast<double>(b); };
   const std::uint64_t least = bits(lo + 0.0), greatest = bits(hi + 0.0);  // no -0
@@ -45,7 +45,7 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   std::uint64_t at = bits(guess + 0.0);
   const int first = compare(value(at));
   if (first == 0) return {value(at), value(at)};
-  // Doubles its steps until it has passed the time, then halves the interval.
+  // Doubles `step` until `at` has passed the time; then halves the interval.
   std::uint64_t below = at, above = at;
   for (std::uint64_t step = 1;; step *= 2) {
     if (first > 0) {

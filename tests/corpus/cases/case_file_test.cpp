@@ -193,7 +193,7 @@ TEST_F(CaseFile, ARefusedMeshMayBeACase) {
   Case c;
   c.triangles = tests::triangles_of("0 1 1");
   c.frames = {detector::Positions::Zero(3, 3)};
-  EXPECT_TRUE(says(parse_case(case_text(c), "x"), "a vertex named twice"));
+  EXPECT_TRUE(says(parse_case(case_text(c), "x"), "the triangle names a vertex twice"));
   c.expected.answer = detector::Answer::error;
   EXPECT_TRUE(parse_case(case_text(c), "x"));
 }
@@ -231,7 +231,7 @@ TEST_F(CaseFile, ProblemsNameTheField) {
   expect("is not in [0, 5)", "ghosts.triangles[0]", "[0, 1, 4]", "[0, 1, 5]");
   expect("3 items expected, not 2", "frames[0][2]", "[1, 0, 0]", "[1, 0]");
   expect("a number expected", "frames[0][2][0]", "[1, 0, 0]", "[\"1\", 0, 0]");
-  expect("a number that is too large for a double", "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
+  expect("a number is too large for a double", "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
   expect("not JSON", "not JSON", "[1, 0, 0]", "[nan, 0, 0]");
   expect("vertices, but frame 0 has", "frames[1]", ",\n      [1, 0, 0]", "");
   expect("3 items expected, not 2", "view.q1", ",\n      [0, 0, 3]", "");

@@ -87,7 +87,7 @@ TEST_F(Exported, WhatIsSplitSkippedOrSuspectIsTold) {
   EXPECT_EQ(
       remarks_on_tetrahedron("rational.obj",
                              "v 0 0 0 1\nv 1 0 0 2\nv 0 1 0 .5\nv 0 0 1\n" + std::string(faces)),
-      "2 of 4 vertices have a weight (a fourth number) other than 1, which is not looked at\n");
+      "2 of 4 vertices have a weight (a fourth number) other than 1; weights are not looked at\n");
   EXPECT_EQ(remarks_on_tetrahedron("call.obj", "call rest.obj\n" + std::string(corners) + faces),
             "not looked at: 1 file (call)\n");
   const auto quad =
@@ -150,22 +150,22 @@ TEST_F(Exported, OtherFormatsAreRefusedByTheirNamesWithAWayOn) {
     }
   };
   expect("a.stl", "solid a\n",
-         "an STL file; OBJ, PLY and OFF are read: python3 -c \"import meshio; meshio.read('");
+         "an STL file; only OBJ, PLY and OFF are read: use python3 -c \"import meshio; meshio.");
   expect("B.STL", "solid a\n", "B.ply");
   // A line to paste runs nothing that a name says.
   expect("it's $(id).stl", "solid a\n", "meshio.read('FILE.stl').write('FILE.ply')");
   expect("a.vtk", "# vtk DataFile Version 5.1\n",
-         "a VTK file; OBJ, PLY and OFF are read: python3 -c");
+         "a VTK file; only OBJ, PLY and OFF are read: use python3 -c");
   expect("a.vtu", "<?xml version=\"1.0\"?>\n", "a VTK file");
-  expect("a.vtp", "<?xml version=\"1.0\"?>\n", "a VTK file; OBJ, PLY and OFF are read: export it");
+  expect("a.vtp", "<?xml?>\n", "a VTK file; only OBJ, PLY and OFF are read: export it");
   expect("a.msh", "$MeshFormat\n",
-         "a Gmsh file; OBJ, PLY and OFF are read: python3 -c \"import meshio; meshio.read('");
-  expect("a.usda", "#usda 1.0\n", "a USD file; OBJ, PLY and OFF are read: export it");
+         "a Gmsh file; only OBJ, PLY and OFF are read: use python3 -c \"import meshio; meshio.");
+  expect("a.usda", "#usda 1.0\n", "a USD file; only OBJ, PLY and OFF are read: export it");
   expect("a.usd", "PXR-USDC", "a USD file");
   expect("a.abc", "Ogawa", "an Alembic file");
   expect("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}", "a glTF file");
   expect("a.glb", "glTF", "a glTF file");
-  expect("a.npz", "PK", "a NumPy file; OBJ, PLY and OFF are read: use assay.check in Python");
+  expect("a.npz", "PK", "a NumPy file; only OBJ, PLY and OFF are read: use assay.check in Python");
   expect("a.fbx", "Kaydara FBX Binary  ", "an FBX file");
   expect("a.xyz", "0 0 0\n", "this is neither PLY nor OFF");
   expect("a.us", "0 0 0\n", "this is neither PLY nor OFF");
@@ -191,7 +191,7 @@ TEST_F(Exported, RefusalsSayWhatWasFoundAndTheWayOn) {
   };
   EXPECT_TRUE(says(folder_with("frames/a.txt"), "holds no OBJ, PLY or OFF file"));
   write("frames/a.obj", "x");
-  EXPECT_TRUE(says(folder_with("frames/b.obj.gz"), "Is a directory: name its files, "));
+  EXPECT_TRUE(says(folder_with("frames/b.obj.gz"), "Is a directory: give its files, "));
   EXPECT_TRUE(says(look_at_mesh(folder() / "frames"), "frames/*.obj"));
 }
 

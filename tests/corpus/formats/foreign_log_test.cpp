@@ -207,9 +207,9 @@ TEST_F(ForeignLogs, RecordsInAnotherOrderEndThem) {
     return body;
   };
   EXPECT_EQ(damage({begin(), step(0), step(1)}), "");
-  EXPECT_EQ(damage({begin(), step(0), changed(1, "record", 5)}), "record 5 in place of record 2");
-  EXPECT_EQ(damage({begin(), step(0), step(0)}), "record 1 in place of record 2");
-  EXPECT_EQ(damage({begin(), step(0), changed(1, "step", 0)}), "a step number that does not rise");
+  EXPECT_EQ(damage({begin(), step(0), changed(1, "record", 5)}), "record 5 instead of record 2");
+  EXPECT_EQ(damage({begin(), step(0), step(0)}), "record 1 instead of record 2");
+  EXPECT_EQ(damage({begin(), step(0), changed(1, "step", 0)}), "a step number out of order");
   EXPECT_EQ(damage({begin(), step(0), changed(1, "step", -1)}),
             "a record without the number of its step");
   EXPECT_TRUE(says(damage({begin(), step(0), begin()}), "another log begins"));

@@ -38,7 +38,7 @@ TEST_F(MeshSequence, ProblemsNameBothFiles) {
   expect("vertices, but", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
   expect("triangle 0 is (1, 2, 0), but", {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
   expect("2 triangles, but", {triangle + "f 1 2 3\n", triangle + "f 1 2 3\nf 1 3 2\n"});
-  expect("for two meshes: --body", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
+  expect("two meshes need --body", {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
 }
 
 TEST_F(MeshSequence, FramesAreTakenInTheOrderOfTheirNumbers) {

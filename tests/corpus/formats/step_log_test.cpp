@@ -226,7 +226,7 @@ TEST_F(StepLogs, BytesTakenOutOrPutInEndThem) {
               "\x83\x44"
               "ASR1 and so on");
   for (const auto& [bytes, what] :
-       {std::pair(missing, "record 8 in place of record 5"), std::pair(more, "no record")}) {
+       {std::pair(missing, "record 8 instead of record 5"), std::pair(more, "no record")}) {
     check_steps(bytes, {});
     const auto log = StepLog::open(folder() / "damaged.log");
     EXPECT_EQ(log.value().count(), 4u);

@@ -105,25 +105,24 @@ TEST_F(QueryCsv, Problems) {
   expect_problem("the label is neither 0 nor 1", "line 1", "1,1,3,4,5,8,2\n" + rows(",1", 7));
   expect_problem("is not a whole number", "line 1", "1,1,3,4,5,\n" + rows("", 7));
   expect_problem("the label is neither 0 nor 1", "line 1", rows(","));
-  expect_problem("3 (x,y,z) or 6 (numerator and denominator of each)", "line 2: 2 columns",
+  expect_problem("3 (x,y,z) or 6 (a numerator and denominator each)", "line 2: 2 columns",
                  rows("", 1) + "1,1\n");
-  expect_problem("3 (x,y,z) or 6 (numerator and denominator of each)", "line 2: 9 columns",
+  expect_problem("3 (x,y,z) or 6 (a numerator and denominator each)", "line 2: 9 columns",
                  rows("", 1) + "1,1,3,4,5,8,1,1,1\n");
   expect_problem("y: \"a\" is no finite number", "line 1", "0.5,a,1\n" + rows("", 7));
   expect_problem("z: \"1e999\" is no finite number", "line 1", "0 0 1e999\n");
   expect_problem("the label is neither 0 nor 1", "line 1", "0.5,0,1,0.5\n");
   for (const std::string none : {"", "x", "-1", "nan", "inf", "1e999", "1 2"})
     expect_problem("the separation is no finite number >= 0", "line 1", rows(",1," + none));
-  expect_problem("denominator 0", "line 1: y", "1,1,3,0,5,8\n" + rows("", 7));
+  expect_problem("denominator is 0", "line 1: y", "1,1,3,0,5,8\n" + rows("", 7));
   expect_problem("no double has this value", "line 1: z", "1,1,3,4,5,7\n" + rows("", 7));
   expect_problem("no double has this value", "line 1: x",
                  "1" + std::string(400, '0') + ",1,3,4,5,8\n");
-  expect_problem("label differs from that of the first row", "line 3",
-                 rows(",1", 2) + rows(",0", 6));
-  expect_problem("label differs from that of the first row", "line 8", rows(",1", 7) + rows("", 1));
-  expect_problem("separation differs from that of the first row", "line 4",
+  expect_problem("label differs from the first row", "line 3", rows(",1", 2) + rows(",0", 6));
+  expect_problem("label differs from the first row", "line 8", rows(",1", 7) + rows("", 1));
+  expect_problem("separation differs from the first row", "line 4",
                  rows(",1,2", 3) + rows(",1,3", 5));
-  expect_problem("separation differs from that of the first row", "line 4",
+  expect_problem("separation differs from the first row", "line 4",
                  rows(",1,2", 3) + rows(",1", 5));
   expect_problem("the file is empty", "q.csv", "");
   EXPECT_TRUE(says(read_queries(folder() / "absent-vf.csv"), "cannot be read"));

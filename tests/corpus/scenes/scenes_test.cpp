@@ -100,7 +100,7 @@ TEST(Scenes, AUsersMeshIsDeformed) {
     const auto scene = make_scene(info.name, {0, 3, sheet});
     ASSERT_EQ(scene.has_value(), info.takes_mesh);
     if (!scene) {
-      EXPECT_TRUE(says(scene, "it deforms no other mesh"));
+      EXPECT_TRUE(says(scene, "it takes no other mesh"));
       continue;
     }
     EXPECT_EQ(scene.value().triangles, sheet.triangles);
@@ -122,7 +122,7 @@ TEST(Scenes, DeformationsFollowTheMeshToAnyPlaceAndScale) {
 
 TEST(Scenes, Problems) {
   const auto unknown = make_scene("nonsense", {});
-  EXPECT_TRUE(says(unknown, "no scene is named nonsense; there are "));
+  EXPECT_TRUE(says(unknown, "no scene is named nonsense; scenes: "));
   EXPECT_TRUE(says(unknown, "arm-in-box"));
   const auto expect = [](std::string_view words, const SceneOptions& options) {
     EXPECT_TRUE(says(make_scene("bend", options), words)) << words;

@@ -237,7 +237,7 @@ for line in sys.stdin:
                               {"answer": "collision", "time": [0.5, 0.5], "pairs": [[0, 1]]},
                               {"answer": "free", "pairs": []}])
             self.assertEqual(code, 0, text)
-            self.assertIn("A limits: 1 of 1 safe, the median uses 87.5 % of the way", text)
+            self.assertIn("A limits: 1 of 1 are safe; their median is 87.5 % of the safe way", text)
             self.assertIn("A pairs: 0 missing, 0 spurious", text)
 
 
@@ -276,7 +276,7 @@ class AsAModule(InScratch):
 
     def test_a_time_in_place_of_true_or_false_is_refused(self):
         for said in (0.0, 0.5, (0.25, 0.5), {"first": 0.5}):
-            with self.assertRaisesRegex(vectors.Wrong, "is no answer: True, False, None"):
+            with self.assertRaisesRegex(vectors.Wrong, "is no answer; answers are True, False, None and lines"):
                 vectors.run(lambda *_: said, set=MINI)
 
     def test_a_function_is_asked_contacts(self):
@@ -422,7 +422,7 @@ class Committed(unittest.TestCase):
                 (lambda w, a, b: (a.pop("split_of"), b.pop("split_of")), "it does not have two halves"),
                 (lambda w, a, b: a.update(t0=b["t0"]), "its halves do not make up"),
                 (lambda w, a, b: a.update(split_of="nothing"), "half of a case that is missing"),
-                (lambda w, a, b: w.update(result=opposite), "its result differs from its halves' result")):
+                (lambda w, a, b: w.update(result=opposite), "its result differs from the result of its halves")):
             cases = [copy.deepcopy(case) for case in (whole, *halves)]
             change(*(case.json for case in cases))
             by_id = {case.id: case for case in cases}
@@ -498,19 +498,19 @@ class Checking(InScratch):
         def change(key, value):
             return lambda group: first(group).update({key: value})
         for wrong, line in (
-                (change("first_time", [0.5, 0.75]), "neither one double nor two neighbouring"),
+                (change("first_time", [0.5, 0.75]), "neither equal nor neighbours"),
                 (change("first_time", [0.75, 0.75]), "its polynomial has no zero in first_time"),
-                (change("first_time", [2.0, 2.0]), "first_time is not two times of the step"),
+                (change("first_time", [2.0, 2.0]), "first_time is not [lo, hi] with 0 <= lo <="),
                 (change("result", "maybe"), "result is not one of"),
-                (change("result", "free"), "it is free, but has a first time"),
+                (change("result", "free"), "result is free, but first_time or polynomial is"),
                 (change("flags", ["Unheard"]), "set.json knows no flag Unheard"),
-                (change("id", "vf-d-0002"), "case vf-d-0002 is there twice"),
+                (change("id", "vf-d-0002"), "case vf-d-0002 occurs twice"),
                 (change("id", "a b"), "id is not a name"),
                 (change("t0", [[0, 0, 0]] * 3), "t0 is not four points"),
                 (change("polynomial", ["0.5"]), "polynomial is not a list of whole numbers"),
                 (lambda group: first(group).pop("about"), "no field about"),
                 (lambda group: group.update(precision="float32"), "precision is not one of double"),
-                (lambda group: group["cases"].pop(), "it states 11 cases, and its groups hold 10")):
+                (lambda group: group["cases"].pop(), "it states 11 cases, but its groups have 10 cases")):
             self.refused(["check", self.changed(wrong)], line)
         self.refused(["check", self.changed(lambda group: first(group)["t1"][0].__setitem__(0, 0.1),
                                             "vertex-face-distance-float32")], "no float")
@@ -538,7 +538,7 @@ class Checking(InScratch):
                                    ("vf-d-0001", {"answer": "share", "share": 0.5}, "no answer to the question"),
                                    ("vf-d-0001", {"answer": "perhaps"}, "answer is not one of"),
                                    ("vf-d-0001", {"answer": "collision", "time": [1, 0]}, "time is"),
-                                   ("st-d-0001", {"steps": [{"answer": "free"}]}, "not 3 steps"),
+                                   ("st-d-0001", {"steps": [{"answer": "free"}]}, "not a list of 3 objects"),
                                    ("lm-d-0001", {"steps": [{"answer": "share", "share": 2}]},
                                     "share is not a number")):
             vectors.write_results({**results, "answers": {name: answer}}, file)

@@ -90,8 +90,7 @@ TEST_F(CheckedBodies, DoubledCornersAreToldAndLeftOut) {
     EXPECT_EQ(outcome.exit_code, exit_code) << options << outcome.out << outcome.err;
     EXPECT_TRUE(contains(outcome.out + outcome.err, words)) << options << outcome.out;
   };
-  expect("", 5,
-         "12 vertices are at 4 places: neighbours do not share their corners, so they touch");
+  expect("", 5, "12 vertices are at 4 places: neighbouring triangles share none, so they touch");
   expect(" --weld", 0, "welded: 12 vertices are at 4 places and count as 4 vertices");
   expect(" --weld --detector " + plugin("wrapped_builtin"), 0, "welded: 12 vertices");
   expect(" --weld --separation 0", 0, "welded: 12 vertices");

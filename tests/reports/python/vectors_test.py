@@ -246,12 +246,12 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
         files.append(tmp_path / f"{name}.json")
         files[-1].write_text(json.dumps(hosted.case_file_of(case)))
     for words, line in (
-        (files, "is no case of vertex-face"),
+        (files, "its kind is not vertex-face"),
         ([ROOM / "set.json"], "assay-case/1"),
         ([tmp_path / "none.json"], "No such file"),
         ([files[0], "--flags", "Odd"], "no flag Odd"),
-        ([files[0], "--limit"], "the question limit is for meshes"),
-        ([files[0], files[0]], "is there twice"),
+        ([files[0], "--limit"], 'question "limit" is only for meshes'),
+        ([files[0], files[0]], "occurs twice"),
     ):
         with pytest.raises(vectors.Wrong, match=line):
             make_group.main([*map(str, words), "--name", "g", "--out", str(tmp_path / "set")])
@@ -259,7 +259,7 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
     odd = json.loads(files[0].read_text())
     for name, change, line in (
         ("frames", {"frames": odd["frames"] * 2}, "two frames"),
-        ("query", {"options": {"query": "foo"}}, "the query foo is unknown"),
+        ("query", {"options": {"query": "foo"}}, "its option query is unknown: foo"),
         ("index", {"triangles": [[0, 1, 9]]}, "triangles"),
         ("list", None, ""),
     ):
@@ -273,7 +273,7 @@ def test_a_case_that_fits_no_group_is_refused_in_a_line(committed, tmp_path):
     words = [str(files[0]), "--out", str(tmp_path / "set"), "--name"]
     make_group.main([*words, "g"])
     make_group.main([*words, "g"])  # replaces the group
-    with pytest.raises(vectors.Wrong, match="is there twice"):
+    with pytest.raises(vectors.Wrong, match="occurs twice"):
         make_group.main([*words, "h"])
     for name in ("a b", "set"):  # an error leaves the set unchanged
         with pytest.raises(vectors.Wrong):

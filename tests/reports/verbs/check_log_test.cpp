@@ -317,8 +317,7 @@ TEST_F(CheckLog, SeveralLogsAreJudgedWhateverOneIs) {
   const auto damaged = scratch_.write("damaged.log", spoilt);
   expect_refused("check " + damaged + " --junit " + one, "its first record is damaged");
   EXPECT_TRUE(says(read_text(one), "<error message="));
-  expect_refused("check " + scratch_.write("packed.log", "\x1f\x8b\b more") + "#1",
-                 "gunzip it first");
+  expect_refused("check " + scratch_.write("packed.log", "\x1f\x8b\b more") + "#1", "gunzip it");
   // No log is written over, and what each would refuse is refused once.
   expect_refused("check " + log + " " + log + " --junit " + log, log);
   EXPECT_EQ(read_text(log), bytes);

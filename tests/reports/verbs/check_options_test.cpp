@@ -198,7 +198,7 @@ TEST_F(CheckOptions, TheBytesTellTheKindAndThenTheName) {
                                         file);
   }
   expect_refused("check " + scratch.write("none.bin", "noise\n"), "it begins with \"noise\": ");
-  expect_refused("check " + scratch.write("none", "\x01\x02"), "no text: ");
+  expect_refused("check " + scratch.write("none", "\x01\x02"), "it is no text: ");
   expect_refused("check " + scratch.write("none.log", "no log"),
                  "and it is no case file, log or query file (assay check --help)");
   expect_refused("check " + scratch.write("cloud.xyz", "0 0 0\n1 0 0\n"),
