@@ -92,32 +92,30 @@ ROW</code>, for Assay <code>--arithmetic NAME</code>; <code>--group</code> takes
 README.md says what that needs.</p>
 """
 
-ORIGIN = """<p>Assay is this project's own detector. The others are called through plug-ins: public
-libraries, and two textbook methods written here, the cubic and static tests. The answers were
-computed exactly by Assay's oracle (<code>make_group.py</code>), and held against methods that share
-no arithmetic with it: CGAL's algebraic kernel, and a referee that knows no polynomial.
-vectors_test.cpp proves each case again.</p>\n"""
-
 WORDS = """<ul>
 <li>A case counts once in a cell, as the worst of its steps: missed, late, alarm, unanswered or
-right. Pairs of triangles left out are no misses, but are counted further below.</li>
+right. The sign before the misses: &#x2717; some; ! none, but late, alarms or unanswered; &#x2713;
+all right. Pairs of triangles left out are no misses, but are counted further below.</li>
 <li>A <b>miss</b>: the product answers "free" though features meet, or, when asked how far a step is
 safe, names a share at or beyond the contact. It counts even if the product promises nothing of the
 kind: <code>corpus/peers</code> has what each promises, FINDINGS.md what causes defects.</li>
-<li><b>Late</b>: it reports a first time after the true one, even in the last digit; of a product
-that reports an interval, its lower end counts. A dash means that the product reports no time. An
-<b>alarm</b> is a contact that does not exist: false, but safe.</li>
-<li><b>Unanswered</b> is undecided, an error, a crash, or a timeout: no answer in 2 to 10 s.</li>
-<li><b>Unsupported</b> cases were not asked, because the contract of the product leaves them out:
+<li><b>Late</b>: it reports a first time after the true one, even in the last digit and within its
+own tolerance; of an interval, its lower end counts. A dash means that it reports no time. An
+<b>alarm</b> is a contact in a step without any: false, but safe. A wrong pair beside a right one,
+or an early time, is none.</li>
+<li><b>Unanswered</b> is undecided; an error (the product reports one itself, or names a time or
+share that is not from 0 to 1); a crash; or a timeout.</li>
+<li><b>Unsupported</b> cases were not asked: they are outside the contract of the product, that is,
 the inputs that its plug-in declares that it takes. All plug-ins leave out distances, limits (how
 far a step may go), starts in contact, coordinates above 1e6, and edges shorter than 1e-6 but not 0;
 what else one leaves out, or takes, stands below its name. Rest the pointer on the number to see how
 many cases those are: first by what is asked (contact, distance, limit: these add up), then by flag
 (these overlap).</li>
-<li>Features <b>only touch</b> if they meet and do not pass: at t = 0 or t = 1 alone, in one plane
-throughout, or at a double root of the cubic; or if they come exactly as near as the distance asked
-about, and no nearer. Both answers are right here. A product's own promise can still make one of
-them wrong: the first of FINDINGS.md is such a case.</li>
+<li>Features <b>pass</b> if they meet at a time between 0 and 1, where their cubic changes its sign:
+at a simple root or a triple one. If they meet and never pass, they <b>only touch</b>: at t = 0 or 1
+alone, in one plane throughout, or at a double root; or they come exactly as near as the distance
+asked about. Both answers are right here. A product's own promise can still make one of them wrong:
+the first of FINDINGS.md is such a case.</li>
 <li>Lengths such as eta are in the unit of the coordinates. Times are shares of the step.</li>
 </ul>\n"""
 
@@ -128,7 +126,8 @@ the touch or beyond. Both are right, and a product should hold to one of them.</
 
 # Words: of a product, its plug-in or arithmetic, what it is, and the flag or features of misses by
 # design, with a sentence; of a flag, its meaning and pitfall, where set.json needs more; of a case,
-# what stands in place of its `about`; of the kinds of a group; of a mesh's flags, and of misses.
+# what stands in place of its `about`; of the kinds of a group; of where the answers are from, of a
+# mesh's flags, and of misses.
 MORE = vectors.read_json(Path(__file__).with_name("matrix.words"))
 
 # What is counted of a product, and the words that stand before the ids.
@@ -273,19 +272,20 @@ def product_html(judged, letter, cases):
     if judged.early_by:
         html += (f"<p>Early, which is safe: {len(judged.early_by)} of {judged.times} first times, "
                  f"{size_text(judged.early_by)}</p>\n")
-    if judged.gave_pairs:
-        html += ("<p>In mesh steps with a right answer, the product also lists pairs: of "
-                 f"{judged.met:,} pairs in contact it left out {judged.missing:,}; of "
-                 f"{judged.named:,} pairs it listed, {judged.spurious:,} are not in contact.</p>\n")
+    html += ("<p>Pairs of triangles, in mesh steps whose contact it found and is no mere touch: of "
+             f"{judged.met:,} in contact (touching ones, too) it left out {judged.missing:,}; of "
+             f"{judged.named:,} listed, {judged.spurious:,} are not in contact.</p>\n"
+             if judged.gave_pairs else "<p>It lists no pairs of triangles.</p>\n")
     if judged.uses:
         limits = [i for i, outcome in judged.outcome.items()
                   if cases[i].question == "limit" and outcome != "unsupported"]
         ends = [cases[i].json["result"] for i in limits]
         html += (f"<p>Limits, how much of a step is safe: {len(limits)} cases, of which "
                  f"{ends.count('collision')} end in a contact ({len(set(limits) & set(misses))} "
-                 f"missed), {ends.count('acceptable')} touch, {ends.count('free')} are free; it "
-                 f"allows, in the median, {100 * statistics.median(judged.uses):.1f} % of the way "
-                 "to the contact (or of the whole step if free); a margin is no fault</p>\n")
+                 f"missed), {ends.count('acceptable')} touch, {ends.count('free')} are free; in "
+                 f"the median of {len(judged.uses)} safe answers, touches aside, it allows "
+                 f"{100 * statistics.median(judged.uses):.1f} % of the way to the contact (or of "
+                 "the whole step if free); a margin is no fault</p>\n")
     return html
 
 
@@ -316,8 +316,8 @@ def page(asked, every):
             "collision detection, whose answers are known exactly. <span class=\"quiet\">Set "
             f"{escaped(info['version'])}, a selection called {escaped(info['profile'])}; digest of "
             f"its files, which all results here state: <code>{info['digest']}</code></span></p>\n"
-            f"{ORIGIN * is_own}{WORDS}{products_html(every, cases)}<h2>By what makes a case hard"
-            f"</h2>\n{LEGEND}<p>A case may have several flags, or none "
+            f"{MORE['origin'] * is_own}{WORDS}{products_html(every, cases)}<h2>By what makes a "
+            f"case hard</h2>\n{LEGEND}<p>A case may have several flags, or none "
             f"({sum(not case.flags for case in asked.cases)} cases), and has one group.</p>\n"
             f"{MORE['mesh'] * is_own}" +
             matrix_html("flag", flags, every, flag_words) +
