@@ -99,8 +99,8 @@ all right. Pairs of triangles left out are no misses, but are counted further be
 <li>A <b>miss</b>: the product answers "free" though features meet, or, when asked how far a step is
 safe, names a share at or beyond the contact. It counts even if the product promises nothing of the
 kind: <code>corpus/peers</code> has what each promises, FINDINGS.md what causes defects.</li>
-<li><b>Late</b>: it reports a first time after the true one, even in the last digit and within its
-own tolerance; of an interval, its lower end counts. A dash means that it reports no time. An
+<li><b>Late</b>: it reports a time after that of the first meeting, a touch included, even in the
+last digit and within its own tolerance; of an interval, its lower end counts. A dash means that it reports no time. An
 <b>alarm</b> is a contact in a step without any: false, but safe. A wrong pair beside a right one,
 or an early time, is none.</li>
 <li><b>Unanswered</b> is undecided; an error (the product reports one itself, or names a time or
@@ -272,9 +272,9 @@ def product_html(judged, letter, cases):
     if judged.early_by:
         html += (f"<p>Early, which is safe: {len(judged.early_by)} of {judged.times} first times, "
                  f"{size_text(judged.early_by)}</p>\n")
-    html += ("<p>Pairs of triangles, in mesh steps whose contact it found and is no mere touch: of "
-             f"{judged.met:,} in contact (touching ones, too) it left out {judged.missing:,}; of "
-             f"{judged.named:,} listed, {judged.spurious:,} are not in contact.</p>\n"
+    html += (f"<p>Pairs of triangles: it left out {judged.missing:,} of {judged.met:,} in contact "
+             f"(touching ones, too), and {judged.spurious:,} of {judged.named:,} listed are not in "
+             "contact. Counted in mesh steps where it found a contact that is no touch.</p>\n"
              if judged.gave_pairs else "<p>It lists no pairs of triangles.</p>\n")
     if judged.uses:
         limits = [i for i, outcome in judged.outcome.items()
