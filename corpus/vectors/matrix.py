@@ -100,9 +100,9 @@ all right. Pairs of triangles left out are no misses, but are counted further be
 safe, names a share at or beyond the contact. It counts even if the product promises nothing of the
 kind: <code>corpus/peers</code> has what each promises, FINDINGS.md what causes defects.</li>
 <li><b>Late</b>: it reports a time after that of the first meeting, a touch included, even in the
-last digit and within its own tolerance; of an interval, its lower end counts. A dash means that it reports no time. An
-<b>alarm</b> is a contact in a step without any: false, but safe. A wrong pair beside a right one,
-or an early time, is none.</li>
+last digit and within its own tolerance; of an interval, its lower end counts. A dash means that it
+reports no time. An <b>alarm</b> is a contact in a step without any: false, but safe. A wrong pair
+beside a right one, or an early time, is none.</li>
 <li><b>Unanswered</b> is undecided; an error (the product reports one itself, or names a time or
 share that is not from 0 to 1); a crash; or a timeout.</li>
 <li><b>Unsupported</b> cases were not asked: they are outside the contract of the product, that is,
