@@ -96,9 +96,8 @@ class Panel:
 
 
 def looks_of(subjects, of_peers):
-    """Returns shape, colour and hollowness of each subject's mark. Marks are hollow for exact
-    arithmetic, so that it does not hide bounded arithmetic, and for a detector that does not claim
-    free-sound."""
+    """Returns each subject's shape, colour and hollowness. Exact arithmetic is hollow, so that it does
+    not hide bounded arithmetic; so are detectors that do not claim free-sound."""
     looks = {}
     for place, subject in enumerate(subjects):
         if not of_peers:
