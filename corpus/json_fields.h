@@ -93,8 +93,8 @@ T want(Expected<T> expected) {
   return std::move(expected).value();
 }
 
-// Rules: Below demands a whole number >= 0 and < `end`; Items demands an array of `count` items.
-// Rules for the items may follow Items.
+// Two rules. `Below` demands a whole number >= 0 and < `end`. `Items` demands an array of `count`
+// items; rules for the items may follow it.
 struct Below {
   std::int64_t end;
 };

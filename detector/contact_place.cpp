@@ -1,6 +1,6 @@
 // Bounds, with u = 2^-53. Places are scaled by a power of two, so that the largest coordinate M of
-// both triangles, at t=0 and at t=1, is in [0.5, 1); M is smaller if it is below 2^-1000 before
-// scaling.
+// both triangles, at t=0 and at t=1, is in [0.5, 1). If M is below 2^-1001 before scaling, it is
+// only multiplied by 2^1000, and stays below 0.5.
 // - A place at t, (1 - t) x0 + t x1, is off by at most 4 u. A sum of three weighted places is off
 //   by at most 8 u, and the computed difference between that sum and `point` by at most 10 u.
 //   `error` is the computed difference plus 16 u. It does not depend on how `point` was computed.

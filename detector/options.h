@@ -46,7 +46,7 @@ constexpr bool uses_views(Culling culling) {
 }
 
 // The triangles that are known to be clean at a new start: at the first step, and after a jump of
-// positions. With Start::verified, Culling::automatic and Culling::view_auto compute no layers. So
+// positions. Under Start::verified, the cullings `automatic` and `view_auto` compute no layers. So
 // a step without views verifies nothing at its start: its pairs tell which triangles are clean at
 // its end (L15).
 enum class Start : std::uint8_t {
@@ -64,10 +64,11 @@ constexpr auto names_of(Start) {
 enum class Pairs : std::uint8_t {
   all,  // every pair that is in contact at some time of the step (K with closure, L7)
   // At least one pair from each connected part of the contact graph at the first contact time (L6).
-  // A reported pair can meet a little later than that time: then its own time is the same
-  // TimeEnclosure, or the upper end of that enclosure. Once a contact is found, no later contact is
-  // looked for. `first` took 0.1 to 0.45 of the time of `all` on scenes with many contacts, 0.92 on
-  // the scene rod-twist, and a few percent more than `all` on scenes without a contact.
+  // A reported pair can meet a little later than that time. The time stated for it is then the
+  // TimeEnclosure of the first contact time, or the upper end of that enclosure. Once a contact is
+  // found, no later contact is looked for. `first` took 0.1 to 0.45 of the time of `all` on scenes
+  // with many contacts, 0.92 on the scene rod-twist, and a few percent more than `all` on scenes
+  // without a contact.
   first,
 };
 constexpr auto names_of(Pairs) {

@@ -20,8 +20,8 @@ namespace assay::properties {
 
 using assay::name_of;  // of enums that list their values
 using corpus::Case, corpus::CaseStep, corpus::CaseView;
-// A function of this room returns its failure as a value; the only exception that leaves the room
-// is std::bad_alloc.
+// A function of properties/ returns its failure as a value; the only exception that leaves this
+// folder is std::bad_alloc.
 using corpus::Expected, corpus::Problem, corpus::ProblemKind;
 using detector::Answer, detector::Arithmetic, detector::CountedPairs, detector::Culling,
     detector::Feature, detector::FeatureKind, detector::FourPoints, detector::MovingPoint,

@@ -26,8 +26,9 @@ struct SourceStep {
 
 // A description of an input in words.
 struct InputText {
-  std::string title = {};                 // "one mesh moving from a.obj to b.obj"; may be empty
-  std::vector<std::string> files = {};    // in the order of reading; empty: the user's own list
+  std::string title = {};  // "one mesh moving from a.obj to b.obj"; may be empty
+  // In the order of reading. If empty, reports name the files as the user passed them.
+  std::vector<std::string> files = {};
   std::vector<std::string> remarks = {};  // one line for each change and each ignored part
 };
 

@@ -157,8 +157,8 @@ enum class Side { all_around, positive_y, negative_y };
 void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int64_t reach,
                std::int64_t height, Side side);
 
-// Returns a place at height z that lies straight above or below the inside of every wide_face of
-// this reach.
+// Returns a place at height z that is straight above or below an interior point of every wide_face
+// of this reach.
 GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 
 // Returns a vertex at (p.x, p.y) that goes from height z_t0 to z_t1.
@@ -197,7 +197,8 @@ std::span<const HardFamily> hard_families();
 // triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 
-// Return the hard families of one file each; hard_families() returns all of them.
+// Each of these functions returns the families that one source file defines; hard_families()
+// returns all of them.
 
 std::vector<HardFamily> feature_families();  // near-coplanar, near-parallel, slivers, ...
 std::vector<HardFamily> time_families();     // t=0 and t=1, multiple roots, lengths

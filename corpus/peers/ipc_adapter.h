@@ -226,8 +226,8 @@ class AssayBroadPhase : public ipc::BroadPhase {
     WideSearch().search({topology_, *tree_, marks, everything}, counts, take_pair);
     return near_;
   }
-  // Returns whether some vertex of `one` is allowed to collide with some vertex of `other`, as the
-  // toolkit does.
+  // Returns whether some vertex of `one` is allowed to collide with some vertex of `other`. The
+  // toolkit applies the same rule.
   bool may_collide(std::span<const int> one, std::span<const int> other) const {
     return std::ranges::any_of(one, [&](int v) {
       return std::ranges::any_of(other, [&](int w) { return can_vertices_collide(v, w); });

@@ -61,12 +61,12 @@ class ApexChoice {
     std::size_t cut_short = 0;  // sweeps that were ended because they took too much work
   };
 
-  // The most work that the choice takes, in the units of GhostCounts::work (box tests):
+  // The most work that choosing the rules takes, in the units of GhostCounts::work (box tests):
   // work_per_triangle for each triangle and ghost, and base_work (1 ms) once. A step of
   // Culling::bvh takes 0.8 to 1.4 us a triangle, as much as 160 to 280 box tests.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
-  // The stop function is called each time the choice has done this much work.
+  // The stop function is called after each such amount of work on choosing the rules.
   static constexpr std::uint64_t work_between_asks = 10'000;
 
   // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.

@@ -96,8 +96,8 @@ bool coplanar_throughout(const FourPoints& query);
 
 // The rung `fixed`: exact integers of fixed width. It computes in the smallest of a few widths into
 // which the coordinates of the query fit. This rung never decides wrongly. Its decision is `open`
-// if signs over a few pieces of the step do not tell, or if the exponents of the coordinates spread
-// too far. It allocates nothing.
+// if the signs over a few pieces of the step do not show whether there is a contact, or if the
+// exponents of the coordinates differ too much. It allocates nothing.
 
 struct FixedResult {
   Decision decision = Decision::open;
@@ -108,7 +108,7 @@ struct FixedResult {
 FixedResult fixed_contact(const FourPoints& query, Want want);
 
 // Returns the only root of the coplanarity cubic in (lo, hi), or nullopt if the exponents of the
-// coordinates spread too far. The preconditions are those of exact_bracketed_time. 0.4 us.
+// coordinates differ too much. The preconditions are those of exact_bracketed_time. 0.4 us.
 std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, double lo, double hi,
                                                   double guess);
 

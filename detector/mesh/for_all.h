@@ -51,7 +51,7 @@ bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run r
   return !pace->stopped();
 }
 
-// Does the same if each item takes work_of_each of work. Here `run` returns nothing.
+// Does the same if each item counts as work_of_each units of work. Here `run` returns nothing.
 template <class Run>
 bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
                     PacedStop* pace, Run run) {
@@ -62,8 +62,8 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
                          });
 }
 
-// Calls body(i) for i = 0 .. count - 1; each call takes work_of_each of work. Returns false if the
-// stop function ended the loop.
+// Calls body(i) for i = 0 .. count - 1; each call counts as work_of_each units of work. Returns
+// false if the stop function ended the loop.
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {

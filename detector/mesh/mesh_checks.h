@@ -18,7 +18,8 @@ namespace assay::detector {
 // The largest allowed number of triangles. Indices have 31 bits, and a triangle with its ghosts can
 // need 12 indices. It can have three unmatched edges, and so three ghosts. These four triangles
 // have 12 corners, which are numbered in one list. Their directed edges take at most 12 numbers: 6
-// for the edges of the triangle, and for each ghost 2 for its next edge to the apex.
+// for the three edges of the triangle, and 2 for each ghost, because each ghost adds one edge to
+// the apex; its other edge to the apex is also an edge of the next ghost.
 inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 12;
 // The largest allowed number of vertices. Apexes are numbered after the vertices, and there are no
 // more apexes than triangles.

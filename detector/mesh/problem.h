@@ -24,7 +24,7 @@ enum class InputError : std::uint8_t {
   same_vertices_twice = 4,      // two triangles have the same three vertices
   wrong_frame_size = 5,         // positions do not have the mesh's number of vertices
   non_finite_coordinate = 6,    // NaN or infinity
-  wrong_primitive_count = 7,    // the view primitives are not 0, 1, or 1 for each component
+  wrong_primitive_count = 7,    // not 0 view primitives, not 1, and not one for each component
   nothing_to_commit = 8,        // commit() without a completed evaluate()
   foreign_state = 9,            // restore() with the state of another mesh or culling
   damaged_state = 10,           // restore() with a state that contradicts its mesh

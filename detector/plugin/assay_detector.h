@@ -152,8 +152,8 @@ enum { ASSAY_COUNTS_TRIANGLES = 0, ASSAY_COUNTS_FEATURES = 1 };
 enum { ASSAY_MOTION_ENDS = 0, ASSAY_MOTION_DISPLACEMENT = 1 };
 
 /* Where the caller stops if a limiter gives a share of the step: at positions that the limiter also
- * gives, or at positions that the code of the caller computes from the share. The host computes
- * these in the same way, in the contract's coordinates, with one rounding for each operation. */
+ * gives, or at positions that the code of the caller computes from the share. The host computes the
+ * latter in the same way, in the contract's coordinates, with one rounding for each operation. */
 enum {
   ASSAY_LIMIT_POSITIONS = 0,  /* the limiter gives the positions */
   ASSAY_LIMIT_START_PLUS = 1, /* x_t0 + share * (x_t1 - x_t0) */

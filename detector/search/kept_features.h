@@ -89,7 +89,8 @@ class KeptFeatures {
   Positions x_t0_, x_t1_;
   double until_ = 0;  // 0: no feature pairs are kept
   std::array<double, 3> tolerance_{};
-  std::vector<FeatureKey> found_, keys_;  // found_: in the order of the search; keys_: by part
+  // The kept feature pairs: found_ in the order of the search, keys_ sorted by part (see part()).
+  std::vector<FeatureKey> found_, keys_;
   std::array<std::size_t, parts + 1> begins_{};
   // The vertex and the axis with the largest motion; set when covered_until() first needs them.
   std::optional<std::pair<Eigen::Index, Eigen::Index>> fastest_;

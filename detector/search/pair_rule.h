@@ -69,8 +69,8 @@ class PairRule {
   // with all triangles of its component (U,H). Pairs of two components are not asked for, because
   // the first search has asked for all of them.
   virtual PairTables closure() const;
-  // Returns whether triangle `t` of this contact joins H: always, by L7. REQUIRES that both
-  // triangles of the contact are of one component.
+  // Returns whether triangle `t` of this contact joins H. This implementation always returns true,
+  // by L7. REQUIRES that both triangles of the contact are of one component.
   virtual bool joins_closure(const TrianglePair& contact, std::int32_t t) const;
 };
 

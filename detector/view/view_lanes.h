@@ -40,7 +40,7 @@ struct LaneKernels {
   LaneKernel middle_piece;  // for a line: by (1-s) h0 + s h1, with s bounded over the step
 };
 
-// These have 2, 4 and 8 lanes.
+// Sets of instructions for kernels with 2, 4 and 8 lanes.
 enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 
 // Returns whether the library has code for `set` and this machine can run it. The baseline is

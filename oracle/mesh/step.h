@@ -62,7 +62,7 @@ struct StepJudgement {
 StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
-// The features of a mesh over a step, and the feature pairs that counted pairs of triangles hold.
+// The features of a mesh over a step, and the feature pairs of all pairs of triangles that count.
 class StepFeatures {
  public:
   // Makes the features. If `neighbours` is false, triangles that share a vertex do not count.

@@ -130,7 +130,7 @@ std::vector<Fault> state_faults() {
       {wrong<Forgotten<later_pairs>>, "state/first-pairs-are-all", "L8", "F_first_pairs_only", 6,
        "after a collision, if only K was searched, triangles with no pair are clean", first_pairs},
       {wrong<LostByContactAlone>, "state/lost-by-contact-alone", "L8", "F_views_dropped", 47,
-       "after a free step without views an open component is taken to be as clean as before",
+       "after a free step without views, clean triangles of an open component stay clean",
        auto_views},
       {wrong<CarriedPastGhosts>, "state/carried-past-ghosts", "L15", "F_views_dropped", 47,
        "clean triangles stay clean after a step that swept no ghosts", auto_views},

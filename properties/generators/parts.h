@@ -158,7 +158,8 @@ class EverydayNumbers {
   Point place(const Point& x) const;
   // Returns the place to which a vertex at `x0` moves by `way`, which is in units of the size.
   Point end(const Point& x0, const Point& way) const;
-  // Returns whether equal coordinates stay equal in places and ends.
+  // Returns whether points with equal coordinates along an axis keep them equal in the results of
+  // place() and end().
   bool keeps_levels() const { return !is_turned_; }
   const char* tag() const;
 

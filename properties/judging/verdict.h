@@ -50,7 +50,7 @@ struct Failure {
   std::string stage;        // the stage of the built-in detector that lost the pair
   std::string feature;      // the feature of the pair
   std::string cause;        // only of a plug-in, whose stages are unknown (cause.h)
-  std::string explanation;  // one line for people: by how much, both answers and their times
+  std::string explanation;  // one line for people: what is wrong, how far, and both answers
 
   // Returns claim, kind, stage, feature and cause, which a shrunk case must keep.
   std::string signature() const;

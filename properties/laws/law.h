@@ -20,8 +20,8 @@ struct CaseChange;
 
 struct LawTally {
   std::uint64_t premise = 0;       // steps in which the premise held
-  std::uint64_t close = 0;         // steps with the premise that were close
-  std::uint64_t broken_steps = 0;  // steps with the premise that refute the law
+  std::uint64_t close = 0;         // steps that met the premise and were close
+  std::uint64_t broken_steps = 0;  // steps that met the premise and refute the law
   std::string first_broken;        // case id, step, finding; the alphabetically first if several
 
   LawTally& operator+=(const LawTally& other);

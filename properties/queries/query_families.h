@@ -1,6 +1,6 @@
 // Families of random elementary queries (generators/families.h): generic, degenerate, nearly
-// degenerate, and with everyday numbers. The families of contact are the strata of a campaign of
-// queries.
+// degenerate, and with everyday numbers. The families that ask for contact, and not for distance,
+// are the strata of a campaign of queries.
 #pragma once
 
 #include <cstdint>

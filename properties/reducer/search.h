@@ -149,7 +149,8 @@ void try_small_spheres(ReductionSearch& search);    // also around the pair: tho
 
 // small_meshes.cpp: lists all triangulated spheres with few vertices.
 
-using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike; a cycle
+// Triangles that are oriented alike, and together form a closed surface (a cycle).
+using SphereMesh = std::vector<std::array<std::int32_t, 3>>;
 
 // Returns every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are
 // 1, 10, 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not

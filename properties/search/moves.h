@@ -23,7 +23,9 @@ struct Focus {
   std::size_t step = 0;                    // index into corpus::steps_of
   std::array<std::int32_t, 4> vertices{};  // in the order of FourPoints
   int first_group = 1;
-  double time = 0;  // of the contact; without one, of the least sampled distance; in doubles
+  // In double precision: the time of the contact or, if there is no contact, of the least distance
+  // that was sampled.
+  double time = 0;
   std::optional<PairContact> contact;
   std::vector<TrianglePair> pairs;  // all pairs that meet first
 };

@@ -115,7 +115,8 @@ Estimate ratio_of(std::span<const double> a, std::span<const double> b);
 // Returns the estimate times `factor`, for example to turn ns a mesh into ns a triangle.
 Estimate scaled(Estimate estimate, double factor);
 
-// Returns the k of the rank interval for n samples, 1-based.
+// Returns the rank k, from 1, of the lower end of the rank interval of the median of n samples (see
+// Estimate).
 std::size_t rank_of_lower_end(std::size_t n);
 
 // Returns the value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples

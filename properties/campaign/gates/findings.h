@@ -49,7 +49,7 @@ struct RunFindings {
   // the same indices (trial_index), and a check of every 16th index, for example, might never be
   // made. A part of a campaign has to pass fewer checks; for example, it needs no bounds.
   bool is_whole() const;
-  // Returns how many of n items all runs together have to do.
+  // Returns how many of n items have to be done, summed over all runs.
   std::uint64_t shares_of(std::uint64_t n) const;
   // Return the number of cases that all runs together have to judge: in this stratum, or in all
   // strata.

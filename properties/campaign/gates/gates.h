@@ -146,8 +146,9 @@ Extremes largest_tried(const RunFindings& findings);
 // because no step had a contact, or no step with a contact had an answer to judge.
 std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate);
 
-// A group of kinds of failure that one change of the detector would probably repair. One mistake
-// shows as many kinds, because a signature names the contact that happened to be lost.
+// A group of kinds of failure that one change of the detector would probably repair. A single
+// mistake can appear as several kinds, because a signature names the contact that happened to be
+// lost.
 
 struct FailureGroup {
   std::string does;                // "lose a contact", "end without an answer"

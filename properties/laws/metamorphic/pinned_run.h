@@ -52,8 +52,8 @@ class PinnedPlayer {
   PinnedPlayer(const Case& run, std::shared_ptr<PinnedBoundary> boundary);
 
   const Case* run_;
-  std::optional<detector::Detector> detector_;  // or the problem of the mesh
-  std::optional<detector::Problem> problem_;
+  std::optional<detector::Detector> detector_;  // absent if the mesh was refused
+  std::optional<detector::Problem> problem_;    // then: why it was refused
   std::shared_ptr<PinnedBoundary> boundary_;
   // Indices of pinned points: by loop, its apex; by component, the first end of its view primitive.
   Numbers apex_of_loop_, view_of_component_;
