@@ -101,8 +101,8 @@ class JsonFields : public NamedFields<JsonFields<Json, zeros, reads>> {
       pass(object_[name], item);
     }
   }
-  // Passes an object. A writer leaves out an object that equals its default, and else writes all of
-  // its fields. A reader sets a missing object to its default.
+  // Passes an object. A writer leaves out an object that equals its default, and writes all fields
+  // of any other object. A reader sets a missing object to its default.
   template <class T>
   void may(const char* name, T& item) {
     if constexpr (reads) item = {};

@@ -39,8 +39,8 @@ constexpr const auto& row_of(Enum value) {
   return all_rows<Enum>[static_cast<std::size_t>(value)];
 }
 
-// Returns the whole number that the word spells, if the word consists of digits only and the number
-// fits into T; otherwise nothing.
+// Returns the whole number that the word spells. Returns nothing if the word has other characters
+// than digits, or if the number does not fit into T.
 template <class T = std::uint64_t>
 std::optional<T> whole_number_of(std::string_view word) {
   T number = 0;

@@ -112,8 +112,9 @@ const detector::Positions& end_of(const Case& c, const CaseStep& step);
 // Returns the view primitive during steps_of(c)[step]; nothing if the case has no view primitive.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
-// Makes a case of one step. `rest`: the frame from which a detector is created; it becomes the
-// first frame; null: the start of the step. `counted`: which pairs count; null: all of them.
+// Makes a case of one step. A detector is created from the frame `rest`, which becomes the first
+// frame; if `rest` is null, from the start of the step. `counted` says which pairs count; if it is
+// null, all pairs count.
 Case case_of_step(const detector::Triangles& triangles, const detector::CountedPairs* counted,
                   const detector::Positions* rest, const detector::Positions& x_t0,
                   const detector::Positions& x_t1);

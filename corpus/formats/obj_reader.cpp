@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 34> passed_over = {
     "hole",       "scrv",      "sp",     "end",   "con",  "lod",  "bevel", "c_interp", "d_interp",
     "shadow_obj", "trace_obj", "ctech",  "stech", "cdc",  "cdp",  "res"};
 
-// Geometry, or a file with some, that is no part of the mesh.
+// A statement that the mesh leaves out: other geometry, or a file or command that can make some.
 struct Skipped {
   std::string_view keyword;
   const char* what;

@@ -66,7 +66,7 @@ class OffReader {
     if (has_header && words_[0].find_first_of("4n") != std::string_view::npos) {
       return wrong("vertices of more than three dimensions are not read");
     }
-    // Some writers put the counts behind the header word, or leave it out.
+    // Some writers put the counts behind the header word, or leave the header word out.
     if (!has_header) {
     } else if (words_.size() == 1) {
       BOOST_OUTCOME_TRY(next_line("the counts"));

@@ -252,7 +252,7 @@ class PlyBody {
     while (offset_ < bytes_.size() && !is_blank(bytes_[offset_])) ++offset_;
     return bytes_.substr(begin, offset_ - begin);
   }
-  // Returns the next value as the low bytes of an integer. REQUIRES: it is there.
+  // Returns the next value as the low bytes of an integer. REQUIRES that it is there.
   std::uint64_t bits(std::size_t size) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < size; ++i) {

@@ -39,7 +39,7 @@ struct LoggedAnswer {
   std::int32_t answer = ASSAY_UNDECIDED;
   double first_lo = 0, first_hi = 0;
   std::vector<std::int32_t> pairs;  // the two triangles of each pair
-  std::vector<double> pair_times;   // lo and hi of each pair; or empty
+  std::vector<double> pair_times;   // lo and hi of each pair; empty: no times
   std::string message;
 };
 

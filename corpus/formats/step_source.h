@@ -43,8 +43,9 @@ class StepSource {
   // Returns the number of step s in the whole run, from 0; the input can be a part of the run.
   virtual std::uint64_t number_of(std::size_t s) const { return s; }
   virtual InputText text() const { return {}; }
-  // Return lines of text. notes(): the notes before the step that was read last. After all steps,
-  // lost(): the lost parts of the input, and last_remarks(): other remarks.
+  // Each of these functions returns lines of text. notes() returns the notes before the step that
+  // was read last. After all steps, lost() returns the lost parts of the input, and last_remarks()
+  // all other remarks.
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<std::string> lost() const { return {}; }
   virtual std::vector<std::string> last_remarks() const { return {}; }

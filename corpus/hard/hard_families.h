@@ -141,8 +141,8 @@ inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
 inline constexpr int usual_exponent = 45;
 inline constexpr std::int64_t usual_size = std::int64_t{1} << usual_exponent;
 
-// Returns a triangle in z = 0 whose inside holds all points within reach / 8 of the origin. Its
-// corners are at most `reach` away along each axis. REQUIRES reach >= 32.
+// Returns a triangle in z = 0 whose interior has all points of that plane within reach / 8 of the
+// origin. Its corners are at most `reach` away along each axis. REQUIRES reach >= 32.
 std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
 
 // Adds the block under a wide face; its fourth corner is `depth` deep, near the axis.
@@ -174,7 +174,7 @@ struct HardFamily {
   std::string_view name;
   std::string_view about;  // one line
   std::string_view knob;   // the quantity that is 2^exponent(s)
-  std::string_view unit;   // of the knob; may be empty
+  std::string_view unit;   // the unit of the knob; may be empty
   int exponent_at_0;
   int slope;
   int strongest;  // strengths with a knob are 0 .. strongest

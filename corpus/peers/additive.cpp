@@ -27,11 +27,11 @@
 #if ASSAY_PEER_CODIM_IPC
 #include <Eigen/Dense>
 #include <vector>
-// After these.
+// This header needs the two above.
 #include <Math/Distance/CCD.h>
 #else
 #include <utils/distance/distance_flagged.h>
-// After this.
+// This header needs the one above.
 #include <utils/distance/ccd.h>
 #endif
 

@@ -40,7 +40,7 @@ Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& ap
 // fewest triangles of the mesh at rest.
 //
 // A bad apex costs dirty triangles but never makes an answer wrong, because L11 only needs ghosts
-// that close the loops, wherever the apexes are. So the choice must not take more work than a step
+// that close the loops, wherever the apexes are. So ApexChoice must not take more work than a step
 // of Culling::bvh. It counts its work, and does not measure time. Loops are handled from the
 // shortest to the longest. Each loop gets a share of the remaining work, in proportion to its
 // length. A share is at least 4,000 box tests, so a mesh of many tiny holes can take several times

@@ -52,7 +52,7 @@ class HoleTree {
 
   static constexpr std::size_t root = 0;
   bool is_leaf(std::size_t node) const { return node + 1 >= ghosts_.size(); }
-  std::size_t child(std::size_t node) const { return 2 * node + 1; }  // the second: the next node
+  std::size_t child(std::size_t node) const { return 2 * node + 1; }  // the second is the next node
   std::int32_t first_ghost() const { return ghosts_.front(); }
   std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
   const MovingBox& box(std::size_t node) const { return boxes_[node]; }
@@ -101,8 +101,8 @@ struct GhostSweep {
   // If not null, a list to which the sweep appends, once, each triangle for which it sets touched.
   std::vector<std::int32_t>* found = nullptr;
   ByPlanes by_planes = ByPlanes::no;
-  // The stop function is called at the first pair, and then each time this much work
-  // (GhostCounts::work) was done: about every millisecond.
+  // The stop function is called at the first pair, and then after each such amount of work
+  // (GhostCounts::work), which is about every millisecond.
   std::uint64_t work_between_stops = PacedStop::usual_interval;
   // If not null, these workers sweep different parts of the mesh (BoundaryHandler::sweep).
   const Workers* workers = nullptr;

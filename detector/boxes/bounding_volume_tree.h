@@ -135,8 +135,8 @@ class BoundingVolumeTree {
 
   // Calls body(node) for each node: for children before their parents, otherwise in any order.
   // First the workers of the pace share the subtrees; then one thread does the nodes above the
-  // subtrees. A call takes work_of_node of work (paced_stop.h). Returns false if the pace was
-  // stopped.
+  // subtrees. Each call counts as work_of_node units of work (paced_stop.h). Returns false if
+  // the pace was stopped.
   template <class Body>
   bool for_each_upward(std::uint64_t work_of_node, PacedStop* pace, Body body) const {
     const auto below = [&](std::size_t block) {
@@ -215,7 +215,7 @@ class BoundingVolumeTree {
   static constexpr std::int32_t nodes_of_block = 2048;
   void make_blocks();
 
-  LargeArray<std::int32_t> child_;            // the first child of a node; for a leaf ~triangle
+  LargeArray<std::int32_t> child_;            // by node: its first child, or ~triangle of a leaf
   LargeArray<std::int32_t> parent_;           // by pair of siblings
   LargeArray<std::int32_t> leaf_;             // by triangle
   std::vector<std::int32_t> component_;       // by node; empty if there is one component

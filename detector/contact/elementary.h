@@ -18,7 +18,7 @@ namespace assay::detector {
 
 struct ContactResult {
   bool contact = false;
-  TimeEnclosure time;                    // of the first contact, if any; set if Want::first_time
+  TimeEnclosure time;                    // of the first contact; set only with Want::first_time
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 

@@ -40,7 +40,7 @@ class FixedRoot {
     c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
   }
 
-  // Encloses the one root in (lo, hi), as bracket_root does; sign_lo is the sign before the root.
+  // Encloses the one root in (lo, hi) by bracket_root; sign_lo is the sign before the root.
   TimeEnclosure bracket(int sign_lo, double lo, double hi, double guess) const {
     return bracket_root([this](double t) { return sign_at(t); }, sign_lo, lo, hi,
                         sharpened(guess, lo, hi));

@@ -139,9 +139,9 @@ SignChanges sign_changes_over(const Polynomial& f, const Dyadic& lo, const Dyadi
 //   proof    The two cells around the guess hold all roots of the part where there is no sign
 //            change to their left and none to their right. Only that counts: a wrong guess costs
 //            time.
-//   pace After a proof the two cells are the part, and k is doubled. Without a proof k is halved,
-//            and a new guess is made; at k = 1 the part is halved, and its halves begin with
-//            first_log_cells.
+//   pace     After a proof the two cells are the part, and k is doubled. Without a proof k is
+//            halved, and a new guess is made; at k = 1 the part is halved, and its halves begin
+//            with first_log_cells.
 //
 // Why it ends: each narrowing or halving leaves parts of at most half the width, and over a short
 // enough part the count is 0 or 1, because f has no multiple root.

@@ -162,7 +162,7 @@ class FeatureContacts {
   std::optional<std::vector<FeatureKey>> take_keys();
   // Returns the grid of the motion of the last take_near_in().
   const FloatGrid& grid() const { return pairs_.grid(); }
-  // Tests these feature pairs as the other run() does, also those that are not near.
+  // Tests these feature pairs like the other run(), even if they are not near.
   bool run(std::span<const FeatureKey> keys, const StopFunction& stop, const PacedStop* pace);
 
   // Returns the triangle pairs in contact that were found since the last call, each once.

@@ -59,8 +59,8 @@ double KeptFeatures::covered_until(const SteppedMesh& other, PacedStop& pace) {
   return begins_.back() == found_.size() || make_parts(pace) ? until_ / share : 0;
 }
 
-// Whether the other step begins at the same places and ends where the kept step was after this
-// share.
+// Returns whether the other step begins at the same places as the kept step, and ends where the
+// kept step was after this share.
 bool KeptFeatures::follows(const SteppedMesh& other, double share, PacedStop& pace) const {
   std::atomic<bool> is_near = true;
   const auto compare = [&](std::size_t begin, std::size_t end, std::size_t) {

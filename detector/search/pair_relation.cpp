@@ -103,7 +103,7 @@ bool PairRelation::may_count(const Topology& mesh, Vertices a, Vertices b) const
   return counted_->rings == 0 || !are_joined(mesh, a, b);
 }
 
-// Whether a path of fewer than `rings` edges joins a vertex of one to a vertex of the other. No
+// Returns whether a path of fewer than `rings` edges joins a vertex of `a` to a vertex of `b`. No
 // path joins two components. The path is looked for from both ends, because the number of vertices
 // reached grows with the square of the steps.
 bool PairRelation::are_joined(const Topology& mesh, Vertices a, Vertices b) const {

@@ -42,7 +42,8 @@ class PairRelation {
   }
   // Returns whether there is a component within which no pair counts because of its body.
   bool leaves_out_components() const { return leaves_out_components_; }
-  // Returns 0 if there is no such component, otherwise a hash of the set of these components.
+  // Returns a hash of the set of all components within which no pair counts because of their body;
+  // 0 if there is no such component.
   std::uint64_t digest_of_left_out() const { return digest_of_left_out_; }
 
   // Returns whether a pair of triangles counts; in a relation of features, whether some feature

@@ -33,15 +33,14 @@ FloatLanes size_of(FloatLanes a) { return greatest(a, -a); }
 // Returns the sides. A triangle that is seen from one side is seen from there throughout the step.
 // Positions are floats of the grid, off by e = 2^-23 at most (its radius is 1, and the third of
 // three roundings is that to float). S_k is the greatest size of an edge along axis k, as computed,
-// at most 4. An edge is off by 2 e and by its own rounding, 2^-24 S_k: by d = 2^-21 at most. A
-// component a_i b_j
-// - a_j b_i of the normal is off by 2 d (S_i + S_j) + 2 d^2, and by the roundings of its two
-// products and of their difference, 2^-22 S_i S_j <= 2^-20 min(S_i, S_j): by less than 2^-19 (S_i +
-// S_j) + 2^-41. Twice the middle coefficient is a sum of two such components; it is off by twice
-// that, and by its own rounding, at most 2^-22 S_i S_j: by less than (1 + 2^-2) 2^-18 (S_i + S_j) +
-// 2^-40. The code compares with 2^-17 (S_i + S_j) + 2^-39; its own two roundings are 2^-23 of it.
-// So all three coefficients have the sign that is compared, and the normal, which lies between
-// them, has it throughout.
+// at most 4. An edge is off by 2 e and by its own rounding, 2^-24 S_k: by d = 2^-21 at most. The
+// component a_i b_j - a_j b_i of the normal is off by 2 d (S_i + S_j) + 2 d^2, and by the roundings
+// of its two products and of their difference, 2^-22 S_i S_j <= 2^-20 min(S_i, S_j): by less than
+// 2^-19 (S_i + S_j) + 2^-41. Twice the middle coefficient is a sum of two such components; it is
+// off by twice that, and by its own rounding, at most 2^-22 S_i S_j: by less than (1 + 2^-2) 2^-18
+// (S_i + S_j) + 2^-40. The code compares with 2^-17 (S_i + S_j) + 2^-39; its own two roundings are
+// 2^-23 of it. So all three coefficients have the sign that is compared, and the normal, which lies
+// between them, has it throughout.
 Sides sides_of(const std::array<std::int32_t, 3>& triangle, const FeaturePoints& points) {
   const std::array<FloatLanes, 3> corners = {points.start(triangle[0]).axes,
                                              points.start(triangle[1]).axes,

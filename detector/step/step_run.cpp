@@ -54,10 +54,11 @@ void count_sets(const StepMarks& marks, bool looks_everywhere, StepResult& resul
   }
 }
 
-// Returns the enclosure of the first contact time; {0, 0} without pairs.
+// Returns the enclosure of the first contact time; {0, 0} if there are no pairs.
 //
-// The least lo and the least hi, each by itself. No contact is before the least lo, and by each hi
-// below 1 there is a contact. For unique enclosures the result is the least of them.
+// The enclosure has the least lo and the least hi, each taken by itself. No contact is before the
+// least lo, and by each hi below 1 there is a contact. For unique enclosures the result is the
+// least of them.
 TimeEnclosure least_time(std::span<const PairContact> pairs) {
   if (pairs.empty()) return {};
   TimeEnclosure least = pairs.front().time;

@@ -20,7 +20,7 @@ struct LaneInput {
   double cubic_error;
   // The members below are for a line, with d = q1 - q0.
   double d_t0[3], d_t1[3];
-  double length2_reciprocals[3];  // 1 / coefficient of d.d; the middle coefficient times 2
+  double length2_reciprocals[3];  // 1 / each coefficient of d.d, the middle one doubled first
   double axial_error;             // error of a ratio of coefficients (p-q0).d / d.d
   double value_error;             // error of (1-s) h0 + s h1 at a given s
   double end_error;               // error of (1-s) h0 + s h1 at t=0 or t=1, at a computed s

@@ -51,7 +51,7 @@ constexpr int most_depth = 9;
 // If a query needs more pieces, the rung "quadratic" is the cheaper one.
 constexpr int most_pieces = 40;
 
-// Does what the rung "axis" does, on a piece. The four points are taken as 0, u_1, u_2, u_3.
+// Makes the test of the rung "axis" on a piece. The four points are taken as 0, u_1, u_2, u_3.
 bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
   for (int k = 0; k < 3; ++k) {
     auto order = [&](const auto& end) {

@@ -14,8 +14,8 @@ namespace {
 using detector::Feature;
 using detector::TrianglePair;
 
-// Returns a hash in [0,1): equal for equal indices in equal order, otherwise as good as random
-// (splitmix64's mixing).
+// Returns a hash in [0,1). It is equal for equal indices in equal order, and as good as random for
+// different ones (splitmix64's mixing).
 double hash_to_unit(std::initializer_list<std::int32_t> indices) {
   std::uint64_t h = indices.size();
   for (const std::int32_t index : indices) {

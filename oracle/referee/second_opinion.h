@@ -17,7 +17,7 @@
 namespace assay::oracle {
 
 struct SecondOpinionOptions {
-  double share = 1;             // of queries and of triangle pairs, in (0,1]
+  double share = 1;             // the share of queries and of triangle pairs, in (0,1]
   int jobs = 1;                 // threads; the result does not depend on it
   detector::StopFunction stop;  // called by one thread at a time
 };
@@ -35,11 +35,11 @@ struct Contradiction {
   detector::Feature feature;            // set for query and missing_pair
   detector::TrianglePair pair{-1, -1};  // set for all kinds but query
   StaticTime time;                      // set for the static kinds
-  bool judged = false, second = false;  // contact by the judgement; by the second method
+  bool judged = false, second = false;  // a contact by the judgement; one by the second method
 };
 
 struct SecondOpinion {
-  bool complete = false;      // false: stopped; the rest covers what was compared
+  bool complete = false;      // false: stopped; the members below are of what was compared
   std::uint64_t queries = 0;  // the sum of the three counts below
   std::uint64_t contact = 0, no_contact = 0, open = 0;
   std::uint64_t static_checks = 0;

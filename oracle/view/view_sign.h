@@ -53,8 +53,8 @@ std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
 class Candidates {
  public:
   // Each list has one element for each triangle. `violated` is 1 for a triangle of Vv (dirty, or
-  // touched by a ghost), else 0; it may be empty if Vv is. `groups` holds components; it may be
-  // empty if all are of one group.
+  // touched by a ghost), else 0; it may be empty if Vv is empty. `groups` holds components; it
+  // may be empty if all triangles are of one group.
   Candidates(std::vector<detector::ViewSign> signs, std::vector<std::uint8_t> violated,
              std::vector<std::int32_t> groups = {});
 

@@ -17,14 +17,14 @@ namespace assay::properties {
 // One family of cases. Each case is a trial of every configuration of the detector.
 struct StratumPlan {
   std::string family;       // a name that find_family (queries/query_families.h) knows
-  std::uint64_t cases = 0;  // n
+  std::uint64_t cases = 0;  // their number n
   double wanted_bound = 0;  // upper bound wanted on the share of defects; 0: none
 };
 
 // The figures of certify's speed table, which are ratios of interleaved runs.
 inline constexpr std::string_view speed_figures[] = {"free-step-over-bvh", "search-step-over-bvh",
                                                      "exact-over-double"};
-// Orders figures as speed_figures does. REQUIRES figures in speed_figures.
+// Orders figures by their places in speed_figures. REQUIRES figures that are in that list.
 struct FigureOrder {
   bool operator()(std::string_view a, std::string_view b) const {
     return std::ranges::find(speed_figures, a) < std::ranges::find(speed_figures, b);

@@ -12,8 +12,8 @@ namespace assay::properties {
 
 namespace {
 
-// Makes the vertices from `first` on a body of their own in the relation; at rest they are as at
-// the start. Facts about the case without them are dropped.
+// Makes the vertices from `first` on a body of their own in the relation. Their places at rest are
+// those at the start. Facts about the case without them are dropped.
 void tell_of_added(Case& c, std::int32_t first) {
   if (c.counted) {
     auto& [pairs, steps] = *c.counted;

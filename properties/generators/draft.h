@@ -82,7 +82,7 @@ struct Draft {
   std::int32_t second_piece = 0;
   Points holes;                   // centres of holes at the start
   std::vector<Landing> landings;  // use_everyday_numbers carries them out
-  Points closing;  // by vertex, the displacement that closes the shape to a ring; or empty
+  Points closing;  // by vertex, the displacement that closes the shape to a ring; empty: none
   std::vector<Point> q0, q1;  // view primitive by frame; q1 empty: a point; both empty: none
   std::vector<std::string> tags;
 

@@ -86,7 +86,8 @@ void move_positively(Random& random, Draft& draft, int steps);
 //
 // Contacts: the path of a vertex is chosen so that the vertex meets a feature at a chosen time. The
 // time is a dyadic number, and the place a dyadic combination of vertices. The contact is exact if
-// coordinates have few bits, and otherwise only nearly exact. Another contact may come first.
+// coordinates have few bits, and only nearly exact if they have many. Another contact may come
+// first.
 
 // Changes one step of the draft, which has two frames or more. Tags "aim:..." say the aim (face,
 // edge, vertex, edge-edge, grazing, simultaneous, coplanar, region-border) and the time (start,

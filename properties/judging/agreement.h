@@ -73,9 +73,9 @@ TimeOff time_off(const TimeEnclosure& interval, const TimeEnclosure& exact, doub
 // pair that shares a vertex is spurious, because such pairs are not asked for.
 //
 // The detector's times are intervals. An interval is wrong if it begins after the oracle's time, or
-// ends before this time, by more than the contract's tolerance. The comparison is in doubles:
-// exact for a tolerance of 0, otherwise to 1e-16. If times-unique is claimed, an interval is wrong
-// if any bit differs from the oracle's interval.
+// ends before this time, by more than the contract's tolerance. The comparison is in doubles: it is
+// exact for a tolerance of 0, and right to 1e-16 for any other tolerance. If times-unique is
+// claimed, an interval is wrong if any bit differs from the oracle's interval.
 //
 // If all-pairs is not claimed, a missing pair is excused in two cases: the pair is first in contact
 // after t*, or its connected part of the contact graph at t* (contact_parts) holds a reported pair.

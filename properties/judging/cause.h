@@ -22,7 +22,7 @@
 //   Only features without a shared vertex count, and distances are exact. The extent is the longest
 //   side of the box around all vertices at t = 0.
 // - The size of the nonzero coordinates of the two triangles: "huge numbers" if one is above 2^40,
-//   about 1e12; otherwise "tiny numbers" if one is below 2^-40.
+//   about 1e12; if none is, "tiny numbers" if one is below 2^-40.
 #pragma once
 
 #include <optional>

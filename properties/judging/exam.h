@@ -82,7 +82,7 @@ StepTruth truth_of(const Case& c, const StepJudgement& judgement, const Contract
 // - A crash breaks `total`. A refusal breaks `total` too, except if the case is expected to be
 //   refused. If `total` is not claimed, a crash or such a refusal is Outcome::error.
 // - A mesh that the detector refused as beyond its capacity is Outcome::refused if it has more
-//   triangles than the capacity; otherwise this is a refusal as above. If some steps are
+//   triangles than the capacity; if it has not, the refusal is judged as above. If some steps are
 //   Outcome::refused and the rest holds, the run is Outcome::refused.
 // - A hang, or a lack of memory, is undecided.
 // - A run that did not take place is Outcome::error.

@@ -41,8 +41,8 @@ class BodyNames {
 // A defect of a trial, described by the facts that distinguish it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // How the claim is broken: Symptom::kind of a step (ClaimRow::symptom_of), or otherwise "two runs
-  // differ", "crashed" or "refused".
+  // How the claim is broken: by a step (then this is Symptom::kind, see ClaimRow::symptom_of), or
+  // by the run as a whole ("two runs differ", "crashed" or "refused").
   std::string kind;
   std::size_t step = 0;              // the place of the step in the script
   std::optional<TrianglePair> pair;  // the first wrong pair

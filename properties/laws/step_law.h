@@ -27,8 +27,8 @@ std::span<const Law> repetition_laws();      // metamorphic: the same steps in a
 std::span<const Law> question_laws();        // L16, L17, stops
 std::span<const Law> option_laws();          // pairs of options, states, sizes
 
-// The observation of a law in a step: nothing if its premise does not hold; else a text that says
-// how the law is broken. The text is empty if the law holds.
+// The observation of a law in a step: nothing if the premise of the law does not hold, an empty
+// text if the law holds, and a text that says how the law is broken if it is broken.
 using Observation = std::optional<std::string>;
 
 inline Observation not_met() { return std::nullopt; }

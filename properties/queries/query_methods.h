@@ -40,7 +40,7 @@ struct QueryTask {
   std::optional<MethodAnswer> truth = {};
 };
 
-// The queries of the self-test that a method must answer as the oracle does.
+// The queries of the self-test to which a method must give the oracle's answer.
 enum class QueryChecks : std::uint8_t { nothing, contacts, distances };
 
 struct QueryMethod {

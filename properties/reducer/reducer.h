@@ -39,7 +39,7 @@ struct ReduceLimits {
 
 struct PassStatistics {
   std::string name;
-  std::uint64_t tries = 0, accepted = 0;  // calls of the judge; smaller cases found by them
+  std::uint64_t tries = 0, accepted = 0;  // calls of the judge, and smaller cases found
   double seconds = 0;
 };
 

@@ -27,7 +27,7 @@ class ReductionSearch {
   // Returns whether `candidate` is now the best case.
   bool offer(const Case& candidate);
 
-  // Makes `candidate` the best case as offer() does, even if it is not smaller.
+  // Does the same as offer(), but also accepts a candidate that is not smaller.
   bool replace(const Case& candidate);
 
   // Returns the judge's finding on a case of any size if its signature matches, or nothing. The
@@ -126,9 +126,8 @@ void drop_later_steps(ReductionSearch& search);  // drops steps after the failin
 void drop_steps(ReductionSearch& search);        // halves, then one by one
 void merge_steps(ReductionSearch& search);       // one step in place of two consecutive ones
 
-// mesh_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
-// drop_components.
-void drop_components(ReductionSearch& search);  // halves, then one by one; the exception
+// mesh_passes.cpp: passes for any mesh. Only drop_components keeps a closed mesh closed.
+void drop_components(ReductionSearch& search);  // halves, then one by one
 void keep_rings(ReductionSearch& search);       // the reported pair and 0, 1, 2 .. rings around it
 void drop_faces(ReductionSearch& search);       // halves, then one by one, far ones first
 void drop_unused_vertices(ReductionSearch& search);
@@ -145,7 +144,7 @@ void remove_and_close(ReductionSearch& search);     // a face or a vertex star, 
 
 // small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
 void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
-void try_small_spheres(ReductionSearch& search);    // also around the pair: thousands of proposals
+void try_small_spheres(ReductionSearch& search);    // also over vertices near it: thousands
 
 // small_meshes.cpp: lists all triangulated spheres with few vertices.
 
@@ -165,8 +164,8 @@ SphereMesh mirrored(SphereMesh mesh);
 // edge exists already.
 SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 
-// step_passes.cpp: puts moving vertices to rest.
-void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at t=0 or t=1
+// step_passes.cpp: puts moving vertices to rest, each where it is at t=0 or where it is at t=1.
+void freeze_vertices(ReductionSearch& search);  // halves, then one by one
 
 // step_passes.cpp: simplifies the relation. Drops all of it, or parts of it, or takes the positions
 // at rest from frame 0.

@@ -41,7 +41,7 @@ FourPoints query_at(const Case& c, const Focus& focus);
 // Puts the paths of the four points into the two frames of the step.
 void set_query(Case& c, const Focus& focus, const FourPoints& query);
 
-// Returns the pair in contact; without a contact, two triangles, each with one of the features.
+// Returns the pair in contact or, if there is none, two triangles, each with one of the features.
 TrianglePair pair_in_focus(const Case& c, const Focus& focus);
 
 // Returns whether the first contact is within one component, not between two.
@@ -57,7 +57,7 @@ bool is_within_a_component(const Case& c, const Focus& focus);
 //
 // The result says, from 0 to 1, how nearly the two triangles of a pair have the same sign, measured
 // at a few times in doubles; it is the least over the pairs of the first contacts. It is 1 if each
-// pair has one sign, and 0 without a contact or a view primitive. It is meaningless if two
+// pair has one sign, and 0 if there is no contact or no view primitive. It is meaningless if two
 // components meet, because pairs of two components are never left out (L10). Takes about 2 us for
 // each pair.
 double seen_alike(const Case& c, const Focus& focus);

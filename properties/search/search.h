@@ -73,8 +73,9 @@ LaneResult search(const SearchLane& lane, const SearchSpace& space, const Examin
                   const std::function<bool()>& stop);
 
 // A swarm says what a lane does for a while: its moves, the sources of its cases, and their sizes.
-// A choice that finds one fault hides others, so each swarm has a theme, and in it about half of
-// the sources are switched off at random; in themes of many moves also about half of the moves.
+// A choice of moves and sources that finds one fault hides others. So each swarm has a theme, and
+// in it about half of the sources are switched off at random; in themes of many moves, about half
+// of the moves are switched off too.
 
 enum class Theme : std::uint8_t {
   everything,    // the first theme of a lane: fresh cases and all moves
@@ -105,8 +106,8 @@ struct Swarm {
   Swarm(const std::string& lane, const SearchSpace& space, std::uint64_t begin);
 };
 
-// Chooses the sources of fresh cases: the families of the strata (those of queries give queries, or
-// meshes of few triangles), hard cases by construction, and the curated cases.
+// Chooses the sources of fresh cases: the families of the strata (families of queries give queries,
+// or meshes of few triangles), hard cases by construction, and the curated cases.
 
 struct SourceChoice {
   bool meshes = true, queries = false;

@@ -59,7 +59,7 @@ using CandidatePairs = std::optional<std::vector<TrianglePair>>;
 
 // How far a limiter lets the caller go in one step (L17).
 struct LimitAnswer {
-  double share = -1;    // of the step; -1: not stated
+  double share = -1;    // the share of the step; -1: not stated
   Positions positions;  // the positions at which the caller stops
 };
 

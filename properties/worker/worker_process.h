@@ -30,8 +30,8 @@ struct WorkerLimits {
   double seconds = 10;
   std::uint64_t bytes = 0;  // address space of a process; 0: no limit
   // The isolation of a plug-in's process. If Isolation::bubblewrap is asked for and does not work
-  // on this machine, the plug-in is not loaded. Nothing: Isolation::bubblewrap if it works,
-  // otherwise Isolation::limits.
+  // on this machine, the plug-in is not loaded. If this is nothing, the isolation is
+  // Isolation::bubblewrap if that works, and Isolation::limits if it does not.
   std::optional<Isolation> isolation = {};
   std::uint64_t threads = 1;  // for a plug-in with a function that limits its threads
   // Workers of one detector with different variations have different hash seeds (PYTHONHASHSEED)

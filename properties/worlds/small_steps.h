@@ -13,7 +13,7 @@ struct SmallStep {
   std::string family;  // family of the mesh
   Triangles triangles;
   Positions x_t0, x_t1;
-  ViewPrimitive point, line;  // small integers too; the line may move and change its length
+  ViewPrimitive point, line;  // with small integers too; the line may move and change its length
 };
 
 // Makes case `index` of `seed`. The hash of these two numbers is the only source of randomness, so

@@ -69,8 +69,8 @@ BenchCase timed_case(const std::string& id, corpus::Sequence sequence, detector:
 // Returns the deforming meshes of the public data: rod-twist, thick-cloth, kick, and bunny-bent,
 // which is the bunny, bent into a ring in five steps as in scene `bend`. The start is clean if the
 // mesh is closed and without contact at the first frame. A mesh with missing files is left out, and
-// `missing` gets the first of these files. Throws UnusableData for a file that exists and cannot be
-// used, as the functions below do.
+// `missing` gets the first of these files. This function and the functions below throw UnusableData
+// if a file exists and cannot be used.
 std::vector<BenchCase> real_sequences(const BenchSettings& settings,
                                       std::vector<std::string>& missing);
 

@@ -37,7 +37,7 @@ constexpr std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
 // searches before the step, such as the counts of marking.
 std::uint64_t result_hash(const detector::StepResult& result);
 
-// Returns the time of one run of `work`, in ns.
+// A function that returns the time of one run of `work`, in ns.
 using Clock = double(const std::function<void()>& work);  // ns_of, wall_ns_of
 
 // Makes the stages of a detector in this process; a test can replace some of them.

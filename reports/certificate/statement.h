@@ -74,7 +74,7 @@ Expected<int> judge_together(const std::vector<std::string>& folders, const std:
 // trials once more.
 
 struct Verification {
-  std::vector<std::string> differences;  // one line each; none: the certificate is verified
+  std::vector<std::string> differences;  // one line each; empty: the certificate is verified
   nlohmann::ordered_json statement;      // as it was read; null if the file is no statement
   // Files beside the certificate, and in failures/, that were not examined, such as a page: the
   // certificate does not rest on them.

@@ -102,7 +102,7 @@ struct CheckQuestion {
   BodyWords bodies;
   std::vector<std::array<std::int32_t, 2>> apart;
   BuiltInChoice built_in;
-  DetectorWords detector;     // its `threads` is not used, but the next member
+  DetectorWords detector;     // its `threads` is not used; the next member is
   std::uint64_t threads = 0;  // 0: 1 for a plug-in, else all cores
   std::string answers;        // table of answers (GivenAnswers) in place of a detector, or empty
   properties::Adjacency adjacency = properties::Adjacency::all;  // of the answers in the table
@@ -143,7 +143,7 @@ struct CheckListener {
 
 struct CheckAnswer {
   CheckOutcome outcome;
-  nlohmann::ordered_json report;  // schema assay-check/1; null if not wanted
+  nlohmann::ordered_json report;  // schema assay-check/1; null if no report is wanted
 };
 
 // Checks one mesh. `input` is used up; for a plug-in, its steps become the steps that the contract

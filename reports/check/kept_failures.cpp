@@ -116,7 +116,7 @@ class KeptFailures {
     std::string picture = {};             // SVG; empty: too large
     std::optional<bool> reproduced = {};  // by the plug-in; nothing: it was not asked
     std::string reply = {};               // the plug-in's result, in words
-    std::string replay = {};              // the line that replays the smallest case; or empty
+    std::string replay = {};              // the line that replays the smallest case; empty: none
   };
 
   // Returns the text to print. Fails if a file cannot be written.

@@ -34,7 +34,7 @@ std::string_view page_template();
 std::string script_safe(const nlohmann::ordered_json& data);
 
 // Returns the template `page` with the data in place of the mark. REQUIRES that `page` contains the
-// mark for the data exactly once, as page_template() does.
+// mark for the data exactly once, like page_template().
 std::string page_text(std::string_view page, const nlohmann::ordered_json& data);
 
 }  // namespace assay::reports

@@ -30,8 +30,8 @@ struct NearestPoints {
 
 // Returns the closest points, at time t in [0,1] of the step, of the two features of a contact
 // (detector/contact_place.h). At a contact the two points coincide up to rounding; if an edge
-// pierces a face, they are one point. If the contact names no features, as a plug-in's contacts do
-// not, returns the closest points of the two triangles over all pairs of features that share no
+// pierces a face, they are one point. If the contact names no features (those of a plug-in name
+// none), returns the closest points of the two triangles over all pairs of features that share no
 // vertex. Returns nothing if all features share a vertex, or if a coordinate overflows.
 std::optional<NearestPoints> contact_places(detector::PairContact contact,
                                             const detector::TrianglesView& triangles,
@@ -42,7 +42,7 @@ struct CaseScene;
 struct SceneStep {
   corpus::CaseStep span;
   properties::StepTruth truth;                 // under the detector's contract
-  std::optional<detector::StepResult> answer;  // by the detector; nothing if its run broke off
+  std::optional<detector::StepResult> answer;  // the detector's; nothing if its run broke off
   // How truth and answer differ; nothing if the detector did not run.
   std::optional<properties::StepDiff> diff;
   properties::CandidatePairs candidates = {};  // only of a plug-in that returns candidates
@@ -63,7 +63,7 @@ struct CaseScene {
   properties::Claims claims;                   // the claims that are judged under the contract
   properties::Contract contract;               // by which the case is judged
   bool reports_pairs = true;                   // false: the detector reports no pairs
-  std::string ending;                          // how the detector's run broke off; else empty
+  std::string ending;                          // how the detector's run broke off, if it did
   std::optional<properties::Failure> failure;  // the failure, if the case still fails
 
   // Return the step and the pair that the picture is about: the step and pair of the failure, or
@@ -74,8 +74,8 @@ struct CaseScene {
   // Returns the distances of the contract, "d 0.01, slack 0.002"; empty if it asks for contact.
   std::string asked_distance() const;
   // Returns where the two sides of a contact are nearest to each other at the time of the contact.
-  // The sides are the two features of a query; else, if the contract asks for a distance, the two
-  // triangles; else the features that touch.
+  // The sides of a query are its two features. The sides of a pair of triangles are the features
+  // that touch or, if the contract asks for a distance, the two triangles.
   std::optional<NearestPoints> nearest_points(const SceneStep& step,
                                               detector::PairContact contact) const;
 };

@@ -81,9 +81,9 @@ struct Found {
   bool collision = false;
   double lo = 0, hi = 1;         // the interval of the first contact time; [0, 1]: not stated
   std::vector<Pair> pairs;       // the pairs that meet, each with the interval of its first time
-  std::vector<Pair> candidates;  // of a broad phase; their times do not matter
+  std::vector<Pair> candidates;  // what a broad phase lists; its times do not matter
   double share = -1;             // the share of the step that a limiter allows; -1: not stated
-  std::vector<double> stop;      // the positions at which a limiter stops the caller; else empty
+  std::vector<double> stop;      // where a limiter stops the caller; empty: no limiter answered
   bool is_answered = true;       // false: undecided, or only a broad phase
   std::string error;             // why there is no answer; empty if there is an answer
 };

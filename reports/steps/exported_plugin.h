@@ -59,7 +59,7 @@ class Plugin {
   Plugin(const Case& c, const assay_detector_api* api, const assay_counted_pairs* counted)
       : case_(c), api_(api), counted_(counted) {}
 
-  // Returns which function the plug-in lacks for this case; empty if none.
+  // Returns which function the plug-in lacks for this case; empty if it lacks none.
   const char* lacking() const {
     if (case_.query) return api_->abi_version >= 2 && api_->query ? "" : "it has no function query";
     return api_->create && (api_->evaluate || has_candidates() || has_limit())

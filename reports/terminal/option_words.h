@@ -100,8 +100,8 @@ std::string detector_words(const DetectorWords& detector);
 DetectorPart part_asked_by(const properties::CampaignPlan& plan);
 
 // Opens the detector that the words name. `limits` apply to the detector's processes; isolation and
-// number of threads come from the words. `worker` is the program assay-worker. Fails as
-// Subject::open does.
+// number of threads come from the words. `worker` is the program assay-worker. Fails if
+// Subject::open fails.
 Expected<properties::Subject> choose_detector(
     const DetectorWords& words, properties::WorkerLimits limits = {},
     const std::filesystem::path& worker = properties::worker_program());

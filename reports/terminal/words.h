@@ -23,10 +23,10 @@ std::string xml_escaped(const std::string& text);
 // A test in a JUnit file.
 struct JunitTest {
   std::string name;
-  std::string element;  // "failure", "error" or "skipped"; empty: it holds
+  std::string element;  // "failure", "error" or "skipped"; empty: the test holds
   std::string why;      // not used for a test that holds
 };
-// Returns the tests as a suite of a JUnit file. Empty if there are none.
+// Returns the tests as a suite of a JUnit file. Empty if there are no tests.
 std::string junit_suite(const std::string& suite, const std::string& class_name,
                         const std::vector<JunitTest>& tests, const std::string& output = "");
 

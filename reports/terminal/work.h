@@ -152,7 +152,7 @@ class Progress {
                     std::chrono::seconds between_lines = std::chrono::seconds(60));
 
   void phase(std::string name);
-  // Shows a line if one is due. Cheap otherwise.
+  // Shows a line if one is due. A call that shows no line is cheap.
   void tick();
   void finish() { line_.finish(); }
 

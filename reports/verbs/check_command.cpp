@@ -192,7 +192,7 @@ std::string words_of(const CheckRequest& request) {
   return answers.empty() ? words : words + " --answers " + answers;
 }
 
-// Returns the mesh and its steps. Fails as their readers do.
+// Returns the mesh and its steps. Fails if their readers fail.
 Expected<CheckInput> read_input(Kind kind, const CheckRequest& request,
                                 const CheckQuestion& question) {
   if (kind == a_log) return read_log(log_name(request.inputs.front()), request.selection);

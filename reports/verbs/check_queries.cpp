@@ -104,7 +104,7 @@ bool is_label_disputed(const properties::QueryMethod& method, const properties::
 
 class QueryScore {
  public:
-  // Without a method it is the score of a plug-in (QueryPlugin).
+  // If there is no method, this is the score of a plug-in (QueryPlugin).
   QueryScore(std::string name, std::vector<std::string> files,
              const properties::QueryMethod* method)
       : method_(method) {

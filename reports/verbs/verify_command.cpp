@@ -20,7 +20,7 @@ namespace {
 
 struct VerifyRequest {
   std::vector<std::string> certificates;
-  std::string out;                    // the folder where runs are judged together, or empty
+  std::string out;                    // the folder where runs are judged together; empty: none
   std::optional<double> again;        // the share of the trials that is run once more
   std::optional<std::uint64_t> seed;  // the seed of their choice; by default a fresh one
   DetectorWords detector;

@@ -38,7 +38,7 @@ using QueryKernel = void (*)(const QueryInput& input, const QueryVertices* queri
 // The kernels of one instruction set. A contact query takes 15 to 25 ns with AVX2.
 struct QueryKernels {
   QueryKernel vertex_face, edge_edge;
-  QueryKernel piercing;  // at t=0; never writes `axis`
+  QueryKernel piercing;  // of a triangle by an edge, at t=0; never writes `axis`
 };
 
 // Returns the kernels for the best instruction set that this machine has.

@@ -26,7 +26,7 @@ struct StratumTally {
   std::set<std::uint64_t> meshes;  // hashes, one for each distinct case
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
-    std::uint64_t refused = 0;  // not in trials(): nothing was judged
+    std::uint64_t refused = 0;  // not counted in trials(), because nothing was judged
     std::uint64_t trials() const { return holds + defects + undecided + errors; }
     std::uint64_t open() const { return undecided + errors; }
     friend bool operator==(const Outcomes&, const Outcomes&) = default;

@@ -165,7 +165,7 @@ struct TrialsEnd {
   bool complete = false;        // every planned trial of the run is in the store
   double seconds = 0;           // the time that this call took
   std::uint64_t trials = 0;     // the number of trials that this call judged
-  std::string harness_problem;  // the error of the harness itself that ended the call; or empty
+  std::string harness_problem;  // the error of the harness itself that ended the call, if any
   // Any other problem that ended the call early: a store that could not be written, a worker that
   // could not be started (the system gives no process, or the plug-in does not load any more), or
   // too little memory.

@@ -57,7 +57,7 @@ class ExactView {
   // Return (x - n(x)).N for a point x of the triangle, whose coordinates are passed multiplied by
   // 2^4. The values of all points of one ExactView have the same positive factor.
   ExactInteger by_clamp(const ExactPoint& x) const;   // (1-s) f0 + s f1
-  ExactInteger by_region(const ExactPoint& x) const;  // from q0, from q1, from the foot
+  ExactInteger by_region(const ExactPoint& x) const;  // seen from q0, from q1 or from the foot
   Region region_of(const ExactPoint& x) const;
 
   bool has_zero_area() const;
@@ -194,8 +194,8 @@ class CaseFacts {
   bool has_ghosts(std::size_t component) const;
   // Returns whether some edge has three or more triangles, or is used twice in one direction.
   bool has_broken_edges() const;
-  // Returns whether the detector verifies a new start by views alone (L5), as Culling::view_auto
-  // does, and not by layers (L9).
+  // Returns whether the detector verifies a new start by views alone (L5) and not by layers (L9).
+  // This is so with Start::verified under a culling that chooses views itself.
   bool starts_by_view_alone() const;
   // Returns whether the oracle finished this step.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }

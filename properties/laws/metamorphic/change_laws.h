@@ -24,7 +24,7 @@ bool is_of_plugins(const Law& law);
 bool is_given_in_form(const Law& law, std::string_view case_id);
 
 // Returns how one detector's answer to a step of the form differs from its answer to the step of
-// the case; empty if it does not. `pairs`: whether all pairs were asked for.
+// the case; empty if it does not differ. `pairs` says whether all pairs were asked for.
 std::string difference_in_form(const StepResult& of_case, const Form& form,
                                const StepResult& of_form, bool pairs = true);
 

@@ -83,7 +83,7 @@ struct DrawnOptions {
   Apart apart = Apart::none;
   LeftOut left_out = LeftOut::nothing;
   Question question = Question::none;
-  bool has_far_body = false;  // with_far_body
+  bool has_far_body = false;  // the case has a far body (with_far_body)
 
   std::string text() const;
 };

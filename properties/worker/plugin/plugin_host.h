@@ -27,7 +27,7 @@ class PluginHost {
   // Sets whether run() evaluates each step twice and uses the second result.
   void ask_twice(bool asks_twice) { asks_twice_ = asks_twice; }
 
-  // Runs a case as run_case does. If a result breaks the rules of the plug-in interface (an index
+  // Runs a case like run_case. If a result breaks the rules of the plug-in interface (an index
   // out of range, an invalid interval), the answer is an error, which CaseRun::explanation states.
   // Coordinates are rounded as the contract says. The caller must leave out the steps that the
   // contract leaves out. If the case is a query (query_case.h), the plug-in's function for queries
