@@ -207,8 +207,8 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
     }
   }
   Case c = sheared_case(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
-  // view-auto, because from a chosen primitive every ghost of a flat sheet is swept against every
-  // triangle: n^1.5.
+  // The culling is view-auto, because under a culling that always uses views every ghost of a flat
+  // sheet would be swept against every triangle, which takes n^1.5.
   c.options["culling"] = "view-auto";
   return c;
 }

@@ -216,10 +216,10 @@ detector::Point narrow(const detector::Point& x, double s, const Extent& extent)
 
 // Fields that move unclosed surfaces through their own holes or around themselves, and back again.
 //
-// They are periodic: the places at s = 1 equal the places at s = 0, bit by bit, so a sequence can
-// be repeated without end. They are for shapes of this file, in the shapes' own coordinates: tubes
-// are tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is at most a fortieth
-// of the period.
+// These fields are periodic: the places at s = 1 equal the places at s = 0, bit by bit, so a
+// sequence can be repeated without end. The fields are for shapes of this file, in the shapes' own
+// coordinates: tubes are tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is
+// at most a fortieth of the period.
 
 // Rolls the tube's upper end outward and down over the tube until the whole tube is inside out. The
 // identity at s = 0.

@@ -127,7 +127,7 @@ constexpr double cost_of_open = 15;
 // the many smaller ones. Worths: proofs leave out pairs of neighbours. About half of these lie
 // within small patches that are free, three quarters within medium ones, and nearly all within
 // large ones. Each candidate that is left costs more in the binary descent, too. Measured on steps
-// of 20,000 to 25,000 triangles against culling bvh: with all patches free 3.5 to 4.9 candidates a
+// of 20,000 to 25,000 triangles against Culling::bvh: with all patches free 3.5 to 4.9 candidates a
 // triangle, with 0.4 of the large ones 7.1, with 0.6 of them and many contacts 10.
 constexpr double cost_of_cones = 3, cost_of_small = 3, cost_of_medium = 3, cost_of_left = 0.6,
                  worth_of_small = 0.5, worth_of_medium = 0.25, worth_of_large = 0.2,
@@ -140,11 +140,11 @@ constexpr double worth_beside_views = 0.4;
 
 constexpr std::uint64_t longest_pause = 32;
 
-// The work of steps, in box tests of 5 ns, fitted to steps of bvh and of views. Box tests
+// The work of steps, in box tests of 5 ns, fitted to steps of Culling::bvh and of views. Box tests
 // themselves are not counted, because they depend on the tree, and thus on the positions that the
-// detector was made from. So a candidate of bvh stands for the boxes above it and for its share of
-// the triangle. In steps with views the triangles are counted by themselves, and a candidate stands
-// for more boxes, because the candidates left lie scattered.
+// detector was made from. So a candidate of Culling::bvh stands for the boxes above it and for its
+// share of the triangle. In steps with views the triangles are counted by themselves, and a
+// candidate stands for more boxes, because the candidates left lie scattered.
 constexpr double work_of_candidate = 4.4, work_of_triangle = 5, work_beside_views = 22,
                  work_of_test = 48, work_of_contact = 155;
 
@@ -179,8 +179,8 @@ double least_work_of_views(const Surface& surface) {
   return work;
 }
 
-// Choosing anchors looks at an eighth of the triangles and costs at most half a step of culling
-// bvh. Because it is done every 16 steps or less often, it stays below 5 %.
+// Choosing anchors looks at an eighth of the triangles and costs at most half a step of
+// Culling::bvh. Because it is done every 16 steps or less often, it stays below 5 %.
 constexpr std::uint64_t first_anchor_age = 16, greatest_anchor_age = 4096;
 constexpr double loss_that_wears = 0.125, gain_that_counts = 0.0625;
 

@@ -17,9 +17,9 @@ struct StepContext;
 // rules that place apexes. They are made when views are first due, not when the detector is
 // created, because making them takes longer than all other work of creation.
 //
-// They are made from the positions with which the detector was created, and these positions are
-// kept until then. So results do not depend on when anchors and rules are made, and an evaluation
-// that makes them does not change the state.
+// Anchors and rules are made from the positions with which the detector was created, and these
+// positions are kept until then. So results do not depend on when anchors and rules are made, and
+// an evaluation that makes them does not change the state.
 class FirstViews {
  public:
   // For a culling without views, which has no anchors and no rules.

@@ -75,7 +75,7 @@ TimeEnclosure least_time(std::span<const PairContact> pairs) {
 // `start` decides; a verified start looks at the component from its view primitive (L5), then at
 // its layers (L9). Returns false if stopped.
 //
-// Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
+// Layers take about as long as a step of Culling::bvh. With StartBy::view_alone a verified start
 // leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
 // of this step tell the next one which triangles are clean (L15).
 bool find_clean_at_start(const GivenStep& step, StepMarks& marks, StepCost& cost,

@@ -133,8 +133,8 @@ SamplePatches sample_patches(const Topology& mesh, ContourMaker& maker);
 // A normal cone of [VMT94] serves one purpose: to show that there is a direction d with N.d > 0 for
 // all triangles of a patch. Instead of a cone, this file stores the set of these directions d, out
 // of 50 fixed directions. The set of the union of two patches is the intersection of their sets.
-// This is exact, needs no normalization, and loses nothing when patches are merged. A patch has a
-// normal cone if its set is not empty.
+// Such sets are exact, need no normalization, and lose nothing when patches are merged. A patch has
+// a normal cone if its set is not empty.
 //
 // Bit 2i is the direction of axis i, and bit 2i+1 is the opposite direction.
 using DirectionSet = std::uint64_t;

@@ -119,7 +119,7 @@ void correct(const std::vector<Neighbour>& around, std::vector<double>& weights)
 
 // A search looks at some of the planes only: for points at a half, for lines at an eighth, but no
 // fewer than `least`. The best places that it finds are then scored among all planes. If the search
-// looked at all planes, lines alone would take as long as three to ten steps of culling bvh.
+// looked at all planes, lines alone would take as long as three to ten steps of Culling::bvh.
 struct Thinning {
   std::size_t divisor, least;
   ViewPlanes of(const ViewPlanes& planes) const {

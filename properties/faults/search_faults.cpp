@@ -282,7 +282,7 @@ struct PatchesOneByOne : NormalConeSearch {
   }
 };
 
-// In exact arithmetic auto hardly ever asks for cones, because fans of vertices prove the same.
+// In exact arithmetic Culling::automatic hardly ever asks for cones, because fans prove the same.
 constexpr Options auto_with_cones{Culling::automatic, Start::verified, Pairs::all,
                                   Arithmetic::bounded};
 

@@ -171,7 +171,7 @@ struct Comparison {
   }
 
   // Returns the diff, with this outcome if it breaks no claim. If the pairs within the slack are
-  // known, alarms are judged as those of queries are.
+  // known, alarms are judged like the alarms of queries.
   StepDiff weighed(Outcome outcome) {
     diff_.outcome = outcome;
     weigh(judged_claims(claims_, contract_, judgement_.within_slack.has_value()), diff_);

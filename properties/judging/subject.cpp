@@ -41,8 +41,8 @@ DetectorUnderTest built_in_detector() {
   for (const auto culling : all_values<Culling>) {
     detector.configurations.push_back({name_of(culling), {culling, Start::verified, Pairs::all}});
   }
-  // There is no configuration of first pairs for view lines, because a step with first pairs ends
-  // with K, which is found in the same way from lines.
+  // No configuration has Pairs::first and Culling::view_line, because a step with Pairs::first ends
+  // with K, which is found from lines in the same way as from points.
   detector.configurations.push_back(
       {"view-point/first", {Culling::view_point, Start::verified, Pairs::first}});
   for (const auto culling : {Culling::view_point, Culling::view_line}) {

@@ -27,7 +27,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
   for (const auto& contact : facts.judgement(s).pairs) {
     if (facts.same_component(contact.pair)) continue;
     if (!is_left_out_by_signs(facts, s, contact.pair)) continue;
-    // With pairs first, no later contact is reported.
+    // With Pairs::first, no later contact is reported.
     if (facts.options().pairs == detector::Pairs::first &&
         contact.time > facts.judgement(s).first) {
       continue;

@@ -19,7 +19,7 @@ enum class Hardness : std::uint8_t {
   flat,         // F is 0 throughout
   no_area,      // the normal is 0 at a root: a face without area, or parallel edges
   bound,        // the least Bernstein coefficient of F lies at the error bound of a filter
-  distance,     // the least distance is the query's distance, or is 0 without a contact
+  distance,     // the least distance is the query's distance or, if nothing meets, is 0
 };
 constexpr auto names_of(Hardness) {
   using enum Hardness;

@@ -15,7 +15,7 @@ using detector::Positions;
 using Vector = Eigen::Vector3d;
 using Corners = std::array<std::int32_t, 3>;
 
-// These are in pixels.
+// Lengths in pixels.
 constexpr double width = 360, picture = 300, margin = 24, row = 18;
 constexpr std::size_t letters_in_a_row = 54;
 

@@ -294,7 +294,7 @@ GateFindings check_speed(const RunFindings& f, const VerbRequest&) {
   return gate;
 }
 
-// These are in the order of gate_rules.
+// The checks of the gates, in the order of gate_rules.
 constexpr std::array<GateFindings (*)(const RunFindings&, const VerbRequest&), gate_rules.size()>
     checks = {check_harness, check_corpus, check_claims, check_complete, check_bounds, check_speed};
 

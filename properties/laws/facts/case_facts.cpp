@@ -275,7 +275,7 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
 }
 
 // Returns which triangles of `in_question` are untouched and in the right layer: that of the
-// triangles of their component that are not in doubt or, without any, the common layer.
+// triangles of their component that are not in doubt or, if there are none, the common layer.
 TriangleFlags clean_beside(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question,
                            const TriangleFlags& in_doubt) {
   const auto& layers = facts.layers_at_start(s);

@@ -96,7 +96,7 @@ std::optional<Case> pinned_run(const CaseFacts& facts) {
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     if (!facts.has_views(s)) return std::nullopt;
     const auto& result = facts.result(s);
-    // The other run, of view-line, would ask for layers where this one did not.
+    // The other run has Culling::view_line, and would ask for layers where this run did not.
     const bool any_dirty = std::ranges::any_of(
         result.doubts, [](std::uint8_t marks) { return (marks & detector::doubt::dirty) != 0; });
     if (any_dirty && !facts.known_from(s) && facts.starts_by_view_alone()) return std::nullopt;

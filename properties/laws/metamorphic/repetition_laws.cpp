@@ -124,8 +124,8 @@ std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   return std::move(creation.value());
 }
 
-// Restores the same state with one primitive too few among those that view-auto has chosen since.
-// The detector has to refuse this state.
+// Restores the same state with one primitive too few among those that Culling::view_auto has chosen
+// since. The detector has to refuse this state.
 bool is_taken_with_one_too_few(const detector::SavedState& state, detector::Detector& detector) {
   detector::StateFields fields = state.fields();
   if (!fields.committed || fields.anchors.empty()) return false;

@@ -33,7 +33,7 @@ int full_size(const std::string& scene) {
   return scene == "inverted-sleeve" ? 1'000 : scene == "winding-spiral" ? 2'000 : 10'000;
 }
 
-// Returns the single cullings, auto, then the subjects that use all cores.
+// Returns the single cullings, then Culling::automatic, then the subjects that use all cores.
 std::vector<BenchSubject> subjects_of(std::uint32_t cores) {
   std::vector<BenchSubject> subjects;
   const auto add = [&](Culling culling, std::uint32_t threads) {
