@@ -48,7 +48,7 @@ enum class RationalState { exact, not_a_number, zero_denominator, not_a_double }
 
 struct RationalValue {
   RationalState state;
-  double value;  // when exact
+  double value;  // set if the state is `exact`
 };
 
 // Returns the double that equals numerator/denominator, two decimal integers of any sign and

@@ -116,7 +116,7 @@ class NearRegions {
   const Number& squared_;
 };
 
-enum class Near { within, nearer };  // at most the distance apart, and less
+enum class Near { within, nearer };  // within: at most d apart; nearer: less than d
 
 // Returns whether some region holds. This means that the features are within the distance (with
 // Near::nearer: nearer than it) at the instant that `regions` was made for. Cheap regions are tried

@@ -221,11 +221,11 @@ class CostModel : public CullingPolicy {
   bool paid_ = true;
   bool proves_ = false;
   ViewUse use_ = ViewUse::used;
-  std::optional<double> overhead_;  // of this step, if views were used or found not worth using
+  std::optional<double> overhead_;  // set if views were used in this step, or found not worth using
 
   bool saves_up_ = false, waits_ = false, is_at_rest_ = false;
   double most_for_views_ = 0;
-  double spent_ = 0;                   // by this step, on views and the view test, in box tests
+  double spent_ = 0;                   // work of this step on views and the view test, in box tests
   std::optional<std::uint64_t> of_k_;  // candidates before the closure, once known
 };
 

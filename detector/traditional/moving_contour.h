@@ -195,7 +195,7 @@ class MovingContour {
   bool is_simple(const Chain& chain) const;
   bool keeps_apart(const Chain& a, const Chain& b) const;
   bool edges_keep_apart(std::size_t i, std::size_t j) const;
-  bool corner_stays_open(std::size_t i) const;  // of the two edges at vertex i
+  bool corner_stays_open(std::size_t i) const;  // the corner is that of the edges at vertex i
   Flat flat(std::int32_t p, std::int32_t q, std::array<double, 2>& magnitude) const;
   std::size_t next(std::size_t i) const { return i + 1 == contour_.size() ? 0 : i + 1; }
 

@@ -26,7 +26,7 @@ struct QueryTask;
 struct RandomCase;
 
 struct Family {
-  std::string_view name;  // of the stratum
+  std::string_view name;  // also the name of the stratum
   std::string_view about;
   bool is_closed = false;   // every case is a cycle
   bool degenerate = false;  // exact coincidences are frequent, so the oracle needs slow rungs

@@ -78,7 +78,7 @@ const QueryMethod* method_of(std::string_view word);
 // The results of a family of queries.
 struct QueryTally {
   std::uint64_t queries = 0;
-  std::uint64_t contacts = 0;  // or queries within the distance
+  std::uint64_t contacts = 0;  // queries with a contact, or within the distance
   std::uint64_t contradictions = 0;
   std::uint64_t open = 0;    // queries that a referee leaves open
   oracle::RungCounts rungs;  // the rungs of the oracle's timed answer

@@ -235,8 +235,8 @@ struct RunRequest {
 ASSAY_FIELDS(RunRequest, number, cases, configurations)
 
 struct RunReply {
-  std::uint64_t number = 0;  // of the request
-  std::uint64_t place = 0;   // of the run in the request
+  std::uint64_t number = 0;  // that of the request
+  std::uint64_t place = 0;   // the place of the run in the request
   CaseRun run;
 };
 ASSAY_FIELDS(RunReply, number, place, run)

@@ -126,7 +126,7 @@ struct CheckQuestion {
 
 // A step that breaks a claim, or differs from the oracle.
 struct StepFailure {
-  std::uint64_t number = 0;  // in its input, from 0
+  std::uint64_t number = 0;  // the step's number in its input, from 0
   const corpus::StepSource& source;
   const corpus::SourceStep& step;
   const detector::StepResult& result;

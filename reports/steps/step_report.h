@@ -34,11 +34,11 @@ std::string met_text(double separation);
 
 // The parts of a detector's work that can be shown.
 struct ShownWork {
-  bool has_stages = true;     // view sets, counts, times and features: the built-in detector's
-  bool reports_pairs = true;  // by its contract
+  bool has_stages = true;     // view sets, counts, times, features: only of the built-in detector
+  bool reports_pairs = true;  // as the contract says
   std::optional<double> create_ms;  // shown if given
   const properties::BodyNames& bodies;
-  double separation = 0;  // of the contract
+  double separation = 0;  // that of the contract
   bool is_at_rest = false;
 };
 

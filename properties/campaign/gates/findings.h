@@ -15,8 +15,8 @@
 namespace assay::properties {
 
 struct StoreFile {
-  std::string name;    // without its folder
-  std::string sha256;  // of its bytes
+  std::string name;    // the name of the file, without its folder
+  std::string sha256;  // the hash of its bytes
 };
 ASSAY_FIELDS(StoreFile, name, sha256)
 

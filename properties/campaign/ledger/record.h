@@ -41,9 +41,9 @@ ASSAY_FIELDS(SetPairCount, contacts, first_contacts)
 struct Extremes {
   std::uint64_t steps_in_a_row = 0;  // from a new start to the step before the next new start
   std::uint64_t valence = 0;         // triangles at a vertex
-  std::uint64_t bodies = 0;          // in a relation that names bodies
+  std::uint64_t bodies = 0;          // bodies of a relation that names bodies
   std::uint64_t components = 0;      // sets of triangles connected through shared vertices
-  std::uint64_t pairs = 0;           // in contact in one step, by the oracle
+  std::uint64_t pairs = 0;           // pairs in contact in one step, by the oracle
   std::uint64_t triangles = 0;
   void include(const Extremes& other);  // each member becomes the larger of the two values
   friend bool operator==(const Extremes&, const Extremes&) = default;
