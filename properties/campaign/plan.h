@@ -17,7 +17,7 @@ namespace assay::properties {
 // One family of cases. Each case is a trial of every configuration of the detector.
 struct StratumPlan {
   std::string family;       // a name that find_family (queries/query_families.h) knows
-  std::uint64_t cases = 0;  // their number n
+  std::uint64_t cases = 0;  // the number of its cases, n
   double wanted_bound = 0;  // upper bound wanted on the share of defects; 0: none
 };
 

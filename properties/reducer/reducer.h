@@ -45,7 +45,7 @@ struct PassStatistics {
 
 struct Reduction {
   Case smallest;
-  Finding finding;  // the finding in `smallest`; without signature if the given case did not fail
+  Finding finding;  // the finding in `smallest`; without a signature if the given case did not fail
   std::uint64_t calls = 0;
   double seconds = 0;
   bool fixed_point = false;  // no pass finds a smaller case; false if a limit ended the search

@@ -168,7 +168,7 @@ Expected<std::unique_ptr<StepAnswers>> answers_of_table(const std::string& file,
 
 // Which steps of a log are judged.
 struct LogSelection {
-  double share = 1;                   // in (0, 1]; the numbers of steps alone decide which steps
+  double share = 1;                   // in (0, 1]; which steps it is depends only on their numbers
   std::uint64_t from = 1;             // steps before this one, from 1, are not judged
   std::optional<std::uint64_t> step;  // only this step is judged; counted from 0
   bool follow = false;                // wait for steps until the recorder ends the log
