@@ -109,7 +109,7 @@ def test_check_within_a_distance_has_a_report_of_its_own(tmp_path):
     touch = assay.check(assay.read_frames(tmp_path / "*.ply"), separation=0)
     assert (touch.outcome, touch.least_distance) == ("near", 0)
     for more in ({"culling": "bvh"}, {"detector": "libmine.so"}):
-        with pytest.raises(ValueError, match="no detector"):
+        with pytest.raises(ValueError, match="leave out detector"):
             assay.check(frames, separation=2, **more)
     for wrong in (-1, np.nan, np.inf):
         with pytest.raises(ValueError, match="separation"):

@@ -149,13 +149,14 @@ TEST_F(QueriesWithin, EveryMethodThatKnowsDistanceTellsItFromTheDoubleBelow) {
 TEST_F(QueriesWithin, RowsWithASeparationGoBeforeTheOption) {
   const auto text = rows(",0,0.5") + rows(",1,2") + rows(",1,0.75") + rows(",1");
   expect_ended(check(text, "--separation 1"), 1,
-               {"oracle: 4 queries (4 within 0.5 to 2), 2 yes",
+               {"oracle: 4 queries (4 within 0.5 to 2), 2 answers yes",
                 "vf.csv query 2 within 0.75: answer false, label true\n"});
   EXPECT_EQ(report()["separation"], json::array({0.5, 2.0}));
   EXPECT_EQ(report()["differences"][0]["separation"], 0.75);
   // Without the option a row that says none asks for contact.
-  expect_ended(check(rows(",1,2") + rows(",1"), ""), 1,
-               {"2 queries (1 within 2), 1 yes", "vf.csv query 1: answer false, label true\n"});
+  expect_ended(
+      check(rows(",1,2") + rows(",1"), ""), 1,
+      {"2 queries (1 within 2), 1 answers yes", "vf.csv query 1: answer false, label true\n"});
   EXPECT_EQ(report()["differences"][0]["separation"], nullptr);
 }
 

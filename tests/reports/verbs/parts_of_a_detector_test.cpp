@@ -222,7 +222,8 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
   expect_refused(candidates("", "check " + queries), "it answers no elementary queries");
-  expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
+  expect_refused(asked("", campaign("run", "steps") + " --part steps"),
+                 "it answers only elementary queries");
   expect_refused(candidates("", campaign("run", "query") + " --part query"),
                  "it answers no elementary queries");
   expect_refused(asked("", "check " + curated("B1_one_vertex_own_nearest")), "only queries");

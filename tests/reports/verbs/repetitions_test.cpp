@@ -156,7 +156,7 @@ TEST_F(Repetitions, WhatWasLeftUndecidedWasNotJudged) {
 
 TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
   expect_ended(judge("run", "threads_matter", 400), 0,
-               {" sequences of up to ", " steps; 0 differ"});
+               {" sequences of up to ", " steps; 0 sequences differ"});
   std::filesystem::remove_all(out);
   expect_ended(judge("certify", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=harmless "), 0);
   const auto stated = predicate();
@@ -174,7 +174,7 @@ TEST_F(Repetitions, TwoRunsThatDifferByThemselvesAreFoundToo) {
 
 TEST_F(Repetitions, TheSameCommandRepeatsNothingTwice) {
   ASSERT_EQ(judge("run", "threads_matter", 400).exit_code, 0);
-  expect_ended(judge("run", "threads_matter", 400), 0, {" steps; 0 differ"});
+  expect_ended(judge("run", "threads_matter", 400), 0, {" steps; 0 sequences differ"});
 }
 
 TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {

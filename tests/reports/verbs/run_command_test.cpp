@@ -203,7 +203,7 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
       verdict("example"), 0,
       {"neighbours no-shared-vertex",
        "steps the detector does not report a contact, as its contract allows (neighbours "
-       "no-shared-vertex): without this contract they would be misses\n"});
+       "no-shared-vertex): without this contract these steps would be misses\n"});
   EXPECT_FALSE(contains(example.out, "in 0 steps the detector does not report")) << example.out;
 
   const auto alarm = expect_ended(verdict("always_collision"), 1, {"DEFECT no-spurious: "});

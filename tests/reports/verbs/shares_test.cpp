@@ -129,7 +129,7 @@ TEST_F(Shares, ThatDoNotBelongTogetherAreRefused) {
   auto other = eighth(2);
   other.request.plan.case_seconds = 7;
   expect_problem(judge(first + store(other, "plan")),
-                 "cannot be judged together: campaign/case_seconds ");
+                 "does not go together with the runs before: campaign/case_seconds ");
   EXPECT_FALSE(has_a_store());
   other = eighth(2);
   other.request.detector.configurations.pop_back();
