@@ -231,7 +231,7 @@ TEST_F(CaseFile, ProblemsNameTheField) {
   expect("is not in [0, 5)", "ghosts.triangles[0]", "[0, 1, 4]", "[0, 1, 5]");
   expect("3 items expected, not 2", "frames[0][2]", "[1, 0, 0]", "[1, 0]");
   expect("a number expected", "frames[0][2][0]", "[1, 0, 0]", "[\"1\", 0, 0]");
-  expect("a number is too large for a double", "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
+  expect("a number is too large for a double", "too large", "[1, 0, 0]", "[1e999, 0, 0]");
   expect("not JSON", "not JSON", "[1, 0, 0]", "[nan, 0, 0]");
   expect("vertices, but frame 0 has", "frames[1]", ",\n      [1, 0, 0]", "");
   expect("3 items expected, not 2", "view.q1", ",\n      [0, 0, 3]", "");

@@ -109,7 +109,7 @@ TEST_F(Off, ProblemsNameTheLine) {
   expect("the file ends where", "a face", vertices);
   expect("the file ends where", "vertex 1", "OFF\n3 1 0\n0 0 0\n");
   expect("the file ends where", "counts", "OFF\n");
-  expect("in a file of 25 bytes", "4000000000", "OFF\n4000000000 1 0\n0 0 0\n");
+  expect("do not fit into 25 bytes", "4000000000", "OFF\n4000000000 1 0\n0 0 0\n");
   expect("a negative count", "negative", "OFF\n-1 1 0\n");
   expect("the number of vertices expected", "line 2", "OFF\nx 1 0\n");
   expect("the number of faces expected", "line 2", "OFF\n3\n");

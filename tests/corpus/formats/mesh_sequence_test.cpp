@@ -261,7 +261,8 @@ class DoubledCornersOfFiles : public BodiesOfFiles {
 
 TEST_F(DoubledCornersOfFiles, AreToldAndWelded) {
   const auto a = seam("a.obj", "0"), b = seam("b.obj", "0"), apart = seam("c.obj", "1e-300");
-  EXPECT_TRUE(says(last_remark({{{a, b}}}), "4 vertices are at 2 places: neighbours do not share"));
+  EXPECT_TRUE(says(last_remark({{{a, b}}}),
+                   "4 vertices are at 2 places: neighbouring triangles share none"));
   EXPECT_TRUE(says(last_remark({{{a, apart}}}), "2 vertices are at 1 place: "));
   BodyFiles welded{{{a, b}}};
   welded.weld = true;

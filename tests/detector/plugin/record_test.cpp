@@ -389,7 +389,7 @@ TEST_F(RecordFiles, RefusesAnswersThatCanBeNone) {
     for (const auto answer : {ASSAY_COLLISION, ASSAY_UNDECIDED}) {
       EXPECT_EQ(code({answer, 0, 0, 1, pair.data(), nullptr, nullptr}), ASSAY_RECORD_NO_ANSWER)
           << pair[0] << ' ' << pair[1];
-      EXPECT_TRUE(says(error(), "not two triangles"));
+      EXPECT_TRUE(says(error(), "does not name two triangles"));
     }
   }
   const std::int32_t pair[] = {1, 0};
