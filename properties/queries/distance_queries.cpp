@@ -351,7 +351,7 @@ constexpr Family distance_table[] = {
                               "edges parallel at an end of the step, or throughout", 5),
     family_of<feet_at_ends>("distance-ends", "at d; nearest points are corners or ends", 5),
     family_of<collapsing>("distance-collapsing", "features that become segments or points", 5),
-    family_of<no_normal>("distance-no-normal", "at d while a normal is 0 or almost 0", 5),
+    family_of<no_normal>("distance-no-normal", "at d while a normal vanishes or nearly does", 5),
     family_of<tangent>("distance-tangent", "reach d without coming nearer, or stay at d", 5),
     family_of<at_rest>("distance-at-rest", "at rest, at distance d or nearly d", 5),
     family_of<no_distance>("distance-zero", "d = 0: contacts", 5),
