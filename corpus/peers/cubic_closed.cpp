@@ -4,12 +4,12 @@
 // Version: 1, of this file. Settings: one tolerance, of barycentric coordinates and of times. It is
 // 1e-6 in doubles and 1e-5 in floats (some 80 steps of a float below 1). In floats, coefficients
 // below 1e-7 of the greatest coefficient are treated as zero. Contract: no contact at the start,
-// coordinates of usual sizes (in floats float32), times within the tolerance. Claims: free-sound
-// and not-late, because Bridson, Fedkiw and Anderson, Robust treatment of collisions, contact and
-// friction for cloth animation (2002), section 6.1, offer the same test ("we check for interference
-// at the roots") and say that it finds all collisions of a step; total and deterministic, because
-// it is a function of its arguments. The paper promises this without a word on rounding or
-// arithmetic.
+// coordinates of usual sizes (float32 coordinates, if it is built in floats), times within the
+// tolerance. Claims: free-sound and not-late, because Bridson, Fedkiw and Anderson, Robust
+// treatment of collisions, contact and friction for cloth animation (2002), section 6.1, offer the
+// same test ("we check for interference at the roots") and say that it finds all collisions of a
+// step; total and deterministic, because it is a function of its arguments. The paper promises this
+// without a word on rounding or arithmetic.
 //
 // As a limiter (limiter.h) it stops at 0.9 of the first time, as solvers with a line search do (Li
 // et al., Incremental potential contact, 2020, scale the time of a collision before they step).

@@ -166,7 +166,7 @@ typedef struct assay_contact_place {
   double barycentric[2][3]; /* for each triangle, corner weights; the weighted sum is the point */
   double error;             /* no coordinate of this sum differs more from the point */
   double normal[3];         /* the unit normal of the face or of both edges; 0 if there is none */
-  double normal_error;      /* no coordinate of `normal` is off by more; 0 if there is no normal */
+  double normal_error;      /* no coordinate of `normal` is off by more than this; 0: no normal */
 } assay_contact_place;
 
 /* Sets *place to the place of a pair of the last result. x_t0 and x_t1 must be the positions that

@@ -100,7 +100,7 @@ struct Result {
   std::int32_t answer = ASSAY_FREE;
   Interval first = {{0, 0}};
   std::vector<Pair> pairs;
-  std::vector<Interval> pair_times;  // one for each pair; times are unknown if their number differs
+  std::vector<Interval> pair_times;  // one for each pair; any other number: times are unknown
   std::string text;                  // says what went wrong, with ASSAY_ERROR
 
   static Result free() { return {}; }

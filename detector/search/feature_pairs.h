@@ -266,10 +266,10 @@ class FeaturePairs {
     points_.assign(motion, pace, separation);
   }
   const FloatGrid& grid() const { return points_.grid(); }
-  // Proves pairs apart over the whole step, mostly neighbours. It looks for sheets only in a mesh
-  // at rest, and only if all triangles have one type, because with several types most pairs are not
-  // asked for. If the sheets leave more than a few pairs, it looks for fans; before that it calls
-  // fit_to_motion(), which has to call fit() with `motion` unless that was done.
+  // Proves pairs, most of them neighbours, apart over the whole step. It looks for sheets only in a
+  // mesh at rest, and only if all triangles have one type, because with several types most pairs
+  // are not asked for. If the sheets leave more than a few pairs, it looks for fans; before that it
+  // calls fit_to_motion(), which has to call fit() with `motion` unless that was done.
   template <class Fit>
   void prove_apart(const SteppedMesh& motion, const WideTree& tree, PacedStop* pace,
                    Fit fit_to_motion) {

@@ -10,9 +10,9 @@
 // - s = (p-q0).d / d.d is a ratio of quadratics. It is a weighted mean of the ratios of their
 //   coefficients; the weights are made of the coefficients of d.d, which are all positive. So s
 //   lies between the least and the greatest of these ratios.
-// - (1-s) h0 + s h1 at a time, with the s of that time, is a weighted mean of the values (1-s)
-//   h0[j] + s h1[j]. Each of these is linear in s, so its least and greatest values are at the ends
-//   of the range that s has over the step and the three corners.
+// - (1-s) h0 + s h1 is, at any time, a weighted mean of the four values (1-s) h0[j] + s h1[j] with
+//   the same s. Each of the four is linear in s, so it is least and greatest where s is least or
+//   greatest. The range of s is taken over the whole step and over all three corners.
 #include <cstddef>
 #include <cstdint>
 

@@ -181,7 +181,8 @@ struct Enclosure {
 
   Enclosure() = default;
   explicit Enclosure(double x) : lo(x), hi(x) {}
-  // Holds two exact results, given rounded as `least` and `greatest`, and all numbers between them.
+  // `least` and `greatest` are two exact results after rounding. Holds both exact results and all
+  // numbers between them.
   Enclosure(double least, double greatest)
       : lo(least - slack(least)), hi(greatest + slack(greatest)) {}
 

@@ -22,7 +22,8 @@ inline constexpr auto stage_places =
                std::pair(&detector::Stages::elementary, "elementary"),
                std::pair(&detector::Stages::release, "release"));
 
-// Calls `use` with the member and the name of the stage from which `Wrong` derives.
+// Calls use(member, name) for the stage from which `Wrong` derives: with the member of
+// detector::Stages that holds this stage, and with the stage's name.
 template <class Wrong, class Use>
 constexpr void at_place_of(const Use& use) {
   const auto look = [&]<class Stage>(std::shared_ptr<const Stage> detector::Stages::*stage,

@@ -62,7 +62,8 @@ struct Motion {
 
 std::span<const Motion> motions();
 
-// Chooses `count` different motions. A case uses only these few motions (swarm weights).
+// Chooses `count` different motions. A case uses only these few motions, so that each is used
+// often (swarm testing).
 std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too,
                                         bool for_a_small_mesh);
 

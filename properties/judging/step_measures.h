@@ -38,8 +38,8 @@ struct LimitUse {
   std::uint64_t cut = 0;      // how many of `free` the limiter stopped before their end
   std::uint64_t contact = 0;  // steps with a contact ahead
   TimesOff unused;            // of `contact`: the unused part of the time until the contact
-  // How many of `contact` use less than the limiter claims, perhaps because of rounding
-  // (judge_limit).
+  // The number of steps with a contact ahead in which the limiter allows a shorter way than it
+  // claims, and rounding may be the reason (judge_limit).
   std::uint64_t excused = 0;
   // How many of `contact` the limiter does not let move at all, by the cause (LimitDiff::stall).
   std::map<std::string, std::uint64_t> stalls;

@@ -123,13 +123,13 @@ std::size_t cut_large_mesh(ReductionSearch& search);
 
 // step_passes.cpp: passes that shorten the sequence.
 void drop_later_steps(ReductionSearch& search);  // drops steps after the failing one
-void drop_steps(ReductionSearch& search);        // halves, then one by one
+void drop_steps(ReductionSearch& search);        // many at once (try_halves), then one by one
 void merge_steps(ReductionSearch& search);       // one step in place of two consecutive ones
 
 // mesh_passes.cpp: passes for any mesh. Only drop_components keeps a closed mesh closed.
-void drop_components(ReductionSearch& search);  // halves, then one by one
+void drop_components(ReductionSearch& search);  // many at once (try_halves), then one by one
 void keep_rings(ReductionSearch& search);       // the reported pair and 0, 1, 2 .. rings around it
-void drop_faces(ReductionSearch& search);       // halves, then one by one, far ones first
+void drop_faces(ReductionSearch& search);       // many at once, then one by one, far ones first
 void drop_unused_vertices(ReductionSearch& search);
 void drop_ghosts(ReductionSearch& search);  // ghosts that the case states
 
@@ -165,7 +165,7 @@ SphereMesh mirrored(SphereMesh mesh);
 SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 
 // step_passes.cpp: puts moving vertices to rest, each where it is at t=0 or where it is at t=1.
-void freeze_vertices(ReductionSearch& search);  // halves, then one by one
+void freeze_vertices(ReductionSearch& search);  // many at once (try_halves), then one by one
 
 // step_passes.cpp: simplifies the relation. Drops all of it, or parts of it, or takes the positions
 // at rest from frame 0.

@@ -93,8 +93,8 @@ struct CaseRun {
   // How often the worker was killed from outside during this run (which was then repeated), or
   // before it began.
   std::uint64_t disturbances = 0;
-  // The processor time of the last attempt: of the worker with its threads, and of the processes
-  // that it started if the run was long enough to measure them (child_process.h).
+  // The processor time of the last attempt: of the worker with its threads and, if the run was long
+  // enough to measure them, of the processes that the worker started (child_process.h).
   double processor_seconds = 0;
   // The last lines that a plug-in printed since the reply to the run before this one (isolation.h).
   // If cases were sent together, the lines may be those of a later case. Empty for the built-in

@@ -1,6 +1,6 @@
-// Proves small worlds. A world has every motion of a tetrahedron on a tiny grid, seen from every
-// view-point of that grid. For each motion and view-point the oracle checks the detector and the
-// laws of closed meshes.
+// Proves that the detector is right, and that the laws of closed meshes hold, in small worlds. A
+// world has every motion of a tetrahedron on a tiny grid, seen from every view-point of that grid.
+// For each motion and view-point the oracle checks the detector and the laws.
 //
 // The checks of one motion and one view-point, in both orientations of the faces, are:
 // - The detector with Culling::view_point, Start::verified and Pairs::all has the oracle's pairs
@@ -116,7 +116,7 @@ struct TetrahedronWorldOptions {
 struct TetrahedronWorldResult {
   bool complete = false;      // every class was checked and holds
   std::uint64_t classes = 0;  // pairs of a class and one of its `views` that were proved
-  std::uint64_t motions = 0;  // how many of `all` these pairs stand for
+  std::uint64_t motions = 0;  // the part of `all` that these pairs stand for
   std::uint64_t all = 0;      // TetrahedronMotions::all() of the world
   // How many of the pairs have a property. Each of the two orientations counts by itself.
   std::uint64_t collisions = 0, clean_starts = 0;

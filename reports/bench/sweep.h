@@ -1,6 +1,6 @@
 // Times several subjects on the same case, side by side, and returns their answers and the times of
-// each round. A subject is the built-in detector in this process, by its options, or any detector
-// in a worker. Subjects are measured in turn.
+// each round. A subject is either the built-in detector in this process, with given options, or any
+// detector in a worker. Subjects are measured in turn.
 //
 // The second half of this file computes medians and ratios of such measurements, with intervals.
 #pragma once

@@ -29,7 +29,8 @@ struct CampaignWords {
   std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's limit
   std::string power;                    // a folder with the proof of planted faults; empty: none
   std::string own_cases;                // a folder of cases of the detector's owner; empty: none
-  // Folder of the public data; empty: no detector is run several times on public data.
+  // Folder of the public data. Its sequences are given to a plug-in besides the scenes
+  // (CampaignRequest::repeated). Empty: a plug-in gets no public data.
   std::string data;
   DetectorWords detector;
   std::string out;

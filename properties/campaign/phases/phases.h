@@ -49,9 +49,10 @@ using OnHunt = std::function<void(const std::string&, std::uint64_t count, std::
 std::vector<FaultProof> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
                                     const OnHunt& progress);
 
-// Returns the failure of a case in a detector with the planted fault, judged by the claims of the
-// fault's options; nothing if the case holds. If `results` has no judgement of the oracle yet, adds
-// the judgement, which also serves the next fault.
+// Returns the failure of a case in a detector with the planted fault; nothing if the case holds.
+// The detector runs with Fault::options, and is judged by what the built-in detector claims under
+// these options. If `results` has no judgement of the oracle yet, adds the judgement, which also
+// serves the next fault.
 std::optional<Failure> failure_of_fault(const Fault& fault, CaseResults& results);
 
 // The canary is a detector that is known to be wrong. It goes through the same checks as the
@@ -285,10 +286,10 @@ struct TrialsAgain {
 };
 
 // Draws, by `seed`, a share (above 0, at most 1) of the trials in the stores of a folder, but at
-// least one trial. Runs the drawn trials again as the request says, and compares the outcomes in
-// every configuration, triangles, steps, collisions, pairs, counts and mesh with the stored values.
-// Times are not compared. A trial that ended at its time limit can have another result on a slower
-// machine.
+// least one trial. Runs the drawn trials again as the request says, and compares with the stored
+// values: the outcome in each configuration; the numbers of triangles, steps, collisions and pairs;
+// the mesh; and the counts. Times are not compared. A trial that ended at its time limit can have
+// another result on a slower machine.
 //
 // REQUIRES a request with the plan and the detector of the stores; each store states its own seed
 // and share. Fails if a store cannot be read, if the detector cannot be run, or if no trial is

@@ -227,8 +227,9 @@ class CaseFacts {
     return results_[s].doubts[static_cast<std::size_t>(triangle)] != 0;
   }
 
-  // Returns the range of the view values of the step, computed in doubles. `is_close` returns
-  // whether this range is close, and false if the step has no views.
+  // Returns the range of the magnitudes of the step's view values, computed in doubles. `is_close`
+  // returns whether the smallest magnitude is at most 1 % of the largest; false if the step has no
+  // views.
   const ValueRange& view_range(std::size_t s);
   bool is_close(std::size_t s);
 

@@ -1,7 +1,7 @@
 // Metamorphic laws: if a case is changed in a way that must not matter, its answers stay the same,
-// or change in the same way. For the built-in detector every bit is compared, in pinned runs. Laws
-// that need nothing from the inside of a detector are judged for plug-ins, too; a plug-in runs the
-// changed case.
+// or change as the case does. For the built-in detector every bit is compared, in pinned runs
+// (pinned_run.h). Laws that need nothing from the inside of a detector are judged for plug-ins,
+// too; a plug-in runs the changed case.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ namespace assay::properties {
 // The law about threads.
 inline constexpr std::string_view threads_law = "Change_ThreadsDoNotShow";
 // Returns whether the law is judged for plug-ins. A law is judged if it is about a change after
-// which any detector can run the case, or about threads, which the second runs of trials test.
-// Laws about saved states are not judged, because the interface of plug-ins has no call that saves
-// or restores a state.
+// which any detector can run the case. The law about threads is judged too: the second runs of
+// trials test it. Laws about saved states are not judged, because the interface of plug-ins has no
+// call that saves or restores a state.
 bool is_of_plugins(const Law& law);
 
 // Returns whether the case is in the share of cases that a plug-in gets in the form of this law.

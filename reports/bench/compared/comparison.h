@@ -33,8 +33,9 @@ namespace assay::reports {
 // The goals of the suites of `assay bench`, as ratios. Suites give these goals to their rows; the
 // comments below say to which rows.
 //
-// A goal has a name here only if its bound was chosen. Goals without a choice are written where
-// their rows are made: no wrong answer (at_most(0)), every answer the same (at_least(100) %).
+// A goal has a name here only if somebody had to choose its bound. Where only one bound makes
+// sense, the goal is written where its rows are made: no wrong answer (at_most(0)), every answer
+// the same (at_least(100) %).
 
 // The goal of a row.
 struct Goal {
