@@ -161,10 +161,23 @@ bool WideTree::refit(const Topology& mesh, const RoundedPositions& points, Float
         refit_node(static_cast<std::int32_t>(begin), mesh, points, by);
     }
   };
-  return for_all_pieces(nodes_.size(), nodes_of_piece, work_of_node, &pace, fit_leaves) &&
-         for_each_paced(inner_.size(), work_of_node, &pace, [&](std::size_t i) {
-           refit_node(inner_[inner_.size() - 1 - i], mesh, points, by);
-         });
+  if (!for_all_pieces(nodes_.size(), nodes_of_piece, work_of_node, &pace, fit_leaves)) return false;
+  // Below each child of the root the nodes follow each other, so threads can share these subtrees.
+  const Node& top = nodes_[at(root)];
+  const auto begin_of = [&](std::size_t subtree) {
+    return subtree == top.count
+               ? inner_.end()
+               : std::lower_bound(inner_.begin(), inner_.end(), child(top.first_slot + subtree));
+  };
+  const auto fit_subtree = [&](std::size_t subtree, std::size_t, std::size_t) {
+    const auto first = begin_of(subtree);
+    for (auto n = begin_of(subtree + 1); n != first;) refit_node(*--n, mesh, points, by);
+    return work_of_node * static_cast<std::uint64_t>(begin_of(subtree + 1) - first);
+  };
+  if (top.holds_triangles) return true;
+  if (!for_all_counted(top.count, 1, &pace, fit_subtree)) return false;
+  refit_node(root, mesh, points, by);
+  return true;
 }
 
 }  // namespace assay::detector

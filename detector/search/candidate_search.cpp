@@ -1,6 +1,7 @@
 #include "detector/search/candidate_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "detector/boxes/moving_box.h"
@@ -57,6 +58,9 @@ double CandidateSearch::share_of_edges(bool open_alone) const {
   constexpr std::size_t most_edges = 512;
   const PairTables k = stages_.rule.candidates();
   const std::size_t edges = std::min(mesh_.edges.size(), most_edges);
+  // If all triangles have the same flag, the rule asks for all pairs or for none.
+  const bool one_is_enough =
+      !open_alone && std::has_single_bit(memory_.marks.node_flags[BoundingVolumeTree::root]);
   std::size_t candidates = 0, pairs = 0;
   for (std::size_t i = 0; i < edges; ++i) {
     const auto holders =
@@ -65,6 +69,7 @@ double CandidateSearch::share_of_edges(bool open_alone) const {
     ++pairs;
     candidates += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1])) &&
                   !(open_alone && contacts_.are_proved_apart(holders[0], holders[1]));
+    if (one_is_enough) break;
   }
   return pairs == 0 ? 0 : static_cast<double>(candidates) / static_cast<double>(pairs);
 }

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cassert>
+#include <cstring>
 
 namespace assay::detector {
 PairTable& PairTable::add(std::uint8_t a, std::uint8_t b) {
@@ -73,6 +74,7 @@ void Marking::bring_to(std::span<const TriangleType> types, const BoundingVolume
                        Marks& marks, MarkingCounts& counts) const {
   assert(types.size() == marks.types.size());
   marks.changed.clear();
+  if (types.empty() || std::memcmp(types.data(), marks.types.data(), types.size()) == 0) return;
   for (std::size_t t = 0; t < types.size(); ++t) {
     if (types[t] == marks.types[t]) continue;
     marks.types[t] = types[t];

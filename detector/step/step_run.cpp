@@ -128,7 +128,11 @@ StepState state_at_end(const GivenStep& step, const StepMarks& marks, const Pace
   if (marks.has_views()) return state;
   for (std::size_t c = 0; c < state.inside.size(); ++c) {
     if (release.knows_clean(step, pairs, c)) continue;
-    for (const auto t : step.own_triangles(c)) state.clean[at(t)] = 0;
+    if (state.inside.size() == 1) {
+      std::fill(state.clean.begin(), state.clean.end(), 0);
+    } else {
+      for (const auto t : step.own_triangles(c)) state.clean[at(t)] = 0;
+    }
   }
   return state;
 }
