@@ -95,8 +95,7 @@ README.md says what that needs.</p>
 WORDS = """<ul>
 <li>A case counts once in a cell, as the worst of its steps: missed, late, alarm, unanswered or
 right. The sign before the misses: &#x2717; some; ! none, but late, alarms or unanswered; &#x2713;
-all right. Cases asked that a cell does not name were answered right. Pairs of triangles left out
-are no misses, but are counted further below.</li>
+all right. Cases that a cell does not name are right. Pairs left out are counted further below.</li>
 <li>A <b>miss</b>: the product answers "free" though features meet, or, when asked how far a step is
 safe, names a share at or beyond the contact. It counts even if the product promises nothing of the
 kind: <code>corpus/peers</code> has what each promises, FINDINGS.md what causes defects.</li>
@@ -308,8 +307,7 @@ def page(asked, every):
 
     def group_words(name):
         kind = {key: MORE["kinds"][kinds[name][key]] for key in vectors.KIND}
-        found = (" Smallest inputs of the defects in FINDINGS.md: chosen because some product fails "
-                 "(not always one of this page), so rates compare nothing here."
+        found = (" Smallest inputs of the defects in FINDINGS.md, of any product: no fair sample."
                  if name.endswith("-findings") else "")
         return again(name, f"{kind['question'].format(kind['features'])} Coordinates are "
                      f"{kind['precision']}.{found}")
