@@ -216,9 +216,9 @@ std::optional<bool> FeatureContacts::found_ignored(const StopFunction& stop) con
     return std::any_of(lanes_.begin(), lanes_.end(),
                        [](const auto& lane) { return lane->found_ignored; });
   }
-  std::size_t count = 0;
-  for (const auto& contact : contacts_.held()) {
-    if (count++ % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (i % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
+    const auto& contact = contacts_[i];
     const auto [a, b] = contact.pair;
     if (mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)] &&
         !relation_->counts(mesh_, contact.pair)) {
@@ -251,9 +251,10 @@ bool FeatureContacts::hand_over(Lane& lane, const StopFunction& stop) {
 
 bool FeatureContacts::hand_over(std::vector<PairContact>& found, PairContacts& contacts,
                                 const StopFunction& stop) {
-  for (const PairContact& contact : found) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
     if (contacts.is_nearly_full() && !contacts.make_room(stop)) return false;
-    contacts.add(contact);
+    contacts.fetch_after(found, i);
+    contacts.add(found[i]);
   }
   found.clear();
   return true;
@@ -369,104 +370,81 @@ bool is_before(const PairContact& x, const PairContact& y) {
   return x.feature.vertices < y.feature.vertices;
 }
 
-// The contacts of a triangle pair come soon after each other, so an added pair is mostly held
-// already.
-constexpr std::size_t recent_places = 4096;
-
-std::size_t place_of(TrianglePair pair) {
-  const auto mixed =
-      (static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)) *
-      0x9e3779b97f4a7c15u;
-  return static_cast<std::size_t>(mixed >> 52);
+std::uint64_t number_of(TrianglePair pair) {
+  return static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b);
 }
-
-constexpr std::size_t least_room = 1024;
-
-std::size_t with_room(std::size_t size) { return size + std::max(size / 4, least_room); }
 
 }  // namespace
 
+std::size_t PairContacts::first_place(TrianglePair pair, const std::vector<std::uint32_t>& table) {
+  const std::uint64_t mixed = number_of(pair) * 0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(mixed >> 32) & (table.size() - 1);
+}
+
+std::size_t PairContacts::place_of(TrianglePair pair,
+                                   const std::vector<std::uint32_t>& table) const {
+  const std::size_t last = table.size() - 1;
+  std::size_t place = first_place(pair, table);
+  while (table[place] != 0 && (*this)[table[place] - 1].pair != pair) place = (place + 1) & last;
+  return place;
+}
+
 void PairContacts::add(const PairContact& contact) {
-  if (recent_.empty()) recent_.resize(recent_places);
-  auto& place = recent_[place_of(contact.pair)];
-  if (place < all_.size() && all_[place].pair == contact.pair) {
-    if (is_before(contact, all_[place])) all_[place] = contact;
+  if (size_ == room_) make_room({});
+  auto& index = table_[place_of(contact.pair, table_)];
+  if (index != 0) {
+    PairContact& stored = chunks_[(index - 1) / contacts_of_chunk][(index - 1) % contacts_of_chunk];
+    if (is_before(contact, stored)) stored = contact;
     return;
   }
-  if (all_.size() == all_.capacity()) make_room({});
-  place = static_cast<std::uint32_t>(all_.size());
-  all_.push_back(contact);
+  chunks_[size_ / contacts_of_chunk].push_back(contact);
+  index = static_cast<std::uint32_t>(++size_);
+}
+
+void PairContacts::fetch_after(std::span<const PairContact> contacts, std::size_t i) const {
+  constexpr std::size_t ahead = 8;
+  if (table_.empty() || i + 2 * ahead >= contacts.size()) return;
+  __builtin_prefetch(&table_[first_place(contacts[i + 2 * ahead].pair, table_)]);
+  const auto index = table_[first_place(contacts[i + ahead].pair, table_)];
+  if (index != 0) __builtin_prefetch(&(*this)[index - 1]);
 }
 
 bool PairContacts::make_room(const StopFunction& stop) {
-  settle();
-  // The list grows if less than a fifth of it is free; otherwise it would be sorted too often.
-  const std::size_t capacity = with_room(all_.size());
-  if (all_.capacity() >= capacity) return true;
-  constexpr std::size_t at_once = 16'384;  // 768 KB
-  std::vector<PairContact> larger;
-  larger.reserve(capacity);
-  for (auto next = all_.begin(); next != all_.end();) {
-    const auto end = next + std::min<std::ptrdiff_t>(at_once, all_.end() - next);
-    larger.insert(larger.end(), next, end);
-    next = end;
-    if (stop && stop()) return false;
+  if (stop && stop()) return false;
+  const std::size_t room = chunks_.size() * contacts_of_chunk;
+  if (2 * (room + contacts_of_chunk) > table_.size()) {
+    std::vector<std::uint32_t> larger(std::max(2 * table_.size(), 2 * contacts_of_chunk));
+    constexpr std::size_t pairs_at_once = 16'384;
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (i % pairs_at_once == 0 && stop && stop()) return false;
+      larger[place_of((*this)[i].pair, larger)] = static_cast<std::uint32_t>(i + 1);
+    }
+    table_ = std::move(larger);
   }
-  std::swap(all_, larger);
+  std::vector<PairContact> chunk;
+  chunk.reserve(contacts_of_chunk);
+  chunks_.push_back(std::move(chunk));
+  room_ = room + contacts_of_chunk;
   return true;
 }
 
-// Sorts the late contacts. One whose pair is settled replaces the settled contact if it is
-// earlier; the others are merged in as new pairs.
-void PairContacts::settle() {
-  const auto late = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
-  std::sort(late, all_.end(), is_before);
-  auto new_end = late;
-  auto place = all_.begin();
-  for (auto next = late; next != all_.end(); ++next) {
-    if (new_end != late && std::prev(new_end)->pair == next->pair) continue;
-    place = std::lower_bound(place, late, next->pair,
-                             [](const PairContact& x, TrianglePair pair) { return x.pair < pair; });
-    if (place == late || place->pair != next->pair) {
-      new_.push_back(next->pair);
-      *new_end++ = *next;
-    } else if (is_before(*next, *place)) {
-      *place = *next;
-    }
-  }
-  all_.erase(new_end, all_.end());
-  merge_late(all_.size() - settled_);
-  settled_ = all_.size();
-}
-
-// Merges the last `count` contacts into the settled ones. They are copied aside, and the merge
-// fills the list from its end, so it needs no room but theirs.
-void PairContacts::merge_late(std::size_t count) {
-  if (late_.capacity() < count) {
-    late_ = {};
-    late_.reserve(with_room(count));
-  }
-  late_.assign(all_.end() - static_cast<std::ptrdiff_t>(count), all_.end());
-  auto place = all_.end();
-  auto settled = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
-  for (auto late = late_.end(); late != late_.begin();) {
-    const bool is_later =
-        settled != all_.begin() && is_before(*std::prev(late), *std::prev(settled));
-    *--place = is_later ? *--settled : *--late;
-  }
-}
-
 std::deque<TrianglePair> PairContacts::take_new_pairs() {
-  settle();
-  return std::exchange(new_, {});
+  std::deque<TrianglePair> pairs;
+  for (; new_from_ < size_; ++new_from_) pairs.push_back((*this)[new_from_].pair);
+  return pairs;
 }
 
 std::vector<PairContact> PairContacts::take() {
-  settle();
-  settled_ = 0;
-  new_ = {};
-  late_ = {};
-  return std::exchange(all_, {});
+  table_ = {};
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(size_);
+  for (std::size_t i = 0; i < size_; ++i) order.emplace_back(number_of((*this)[i].pair), i);
+  std::sort(order.begin(), order.end());
+  std::vector<PairContact> contacts;
+  contacts.reserve(size_);
+  for (const auto& [number, i] : order) contacts.push_back((*this)[i]);
+  *this = {};
+  return contacts;
 }
 
 }  // namespace assay::detector
