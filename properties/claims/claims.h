@@ -189,16 +189,16 @@ enum class Claim : std::uint8_t {
 };
 
 // The subject of a claim. The subject decides which part of a library can make the claim; any part
-// can make a claim about `runs`. If a claim about `times` fails, the explanation says how late or
-// early the time is (verdict.cpp). If a detector makes a claim about `pairs`, a missing pair makes
-// a step unsafe (StepDiff::claims_pairs).
+// can make a claim about `runs`. `times` is for claims that fail by a time too late or too early:
+// the explanation says by how much (verdict.cpp). If a detector makes a claim about `pairs`, a
+// missing pair makes a step unsafe (StepDiff::claims_pairs).
 enum class About : std::uint8_t { answers, times, pairs, broad_phase, limits, runs };
 
 // The kind of step or run that puts a claim to the test.
 enum class Probe : std::uint8_t {
   by_step,           // any judged step
   by_contact,        // a step with a contact that counts
-  by_stated_time,    // a step with a contact that counts and a stated first time
+  by_stated_time,    // the same, with a first time stated to widest_stated_time or better
   by_candidates,     // a step with pairs that must be among the candidates
   by_contact_ahead,  // a step of a limiter that starts without a contact and has one later
   by_free_way,       // a step of a limiter without any contact

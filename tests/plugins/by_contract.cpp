@@ -11,7 +11,7 @@
 //   burn=S                                   uses S seconds if the first time is a double above 0
 //   abort-outside                            aborts if it gets a step outside of its contract
 //   abort                                    aborts in every step
-//   whenever                                 collision at [0, 1] in every step
+//   whenever                                 collision at [0, 1] in every step, with its true pairs
 //   with-pairs                               gives pairs, even if it claims to give none
 //   drop-last                                does not report its last pair
 //   no-interval                              its first time is no interval
