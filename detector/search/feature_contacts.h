@@ -40,7 +40,7 @@ namespace assay::detector {
 //
 // Memory in proportion to the length of the list is allocated only in functions that call the stop
 // function, and in take(). So a stop function that watches a limit of memory can keep this limit.
-// Cost: O(1) for each contact, and O(n log n) for take() of n pairs. REQUIRES fewer than 2^32 pairs.
+// Cost: O(1) for each contact, and O(n log n) for take() of n pairs. REQUIRES less than 2^32 pairs.
 class PairContacts {
  public:
   void add(const PairContact& contact);

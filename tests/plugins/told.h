@@ -3,8 +3,7 @@
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
 //   margin=D, separation=D, no-pairs, adjacency=NUMBER, float32,
-//   displacement, claims=BITS (a decimal number), capacity-triangles=N, capacity-contacts=N,
-//   capacity-candidates=N
+//   displacement, claims=NUMBER, capacity-triangles=N, capacity-contacts=N, capacity-candidates=N
 #pragma once
 
 #include <algorithm>
