@@ -1,6 +1,7 @@
 #include "detector/search/feature_contacts.h"
 
 #include <atomic>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -216,9 +217,9 @@ std::optional<bool> FeatureContacts::found_ignored(const StopFunction& stop) con
     return std::any_of(lanes_.begin(), lanes_.end(),
                        [](const auto& lane) { return lane->found_ignored; });
   }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (i % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
-    const auto& contact = contacts_[i];
+  std::size_t count = 0;
+  for (const auto& contact : contacts_.held()) {
+    if (count++ % pairs_between_stops == 0 && stop && stop()) return std::nullopt;
     const auto [a, b] = contact.pair;
     if (mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)] &&
         !relation_->counts(mesh_, contact.pair)) {
@@ -385,20 +386,20 @@ std::size_t PairContacts::place_of(TrianglePair pair,
                                    const std::vector<std::uint32_t>& table) const {
   const std::size_t last = table.size() - 1;
   std::size_t place = first_place(pair, table);
-  while (table[place] != 0 && (*this)[table[place] - 1].pair != pair) place = (place + 1) & last;
+  while (table[place] != 0 && all_[table[place] - 1].pair != pair) place = (place + 1) & last;
   return place;
 }
 
 void PairContacts::add(const PairContact& contact) {
-  if (size_ == room_) make_room({});
+  if (all_.size() == room()) make_room({});
   auto& index = table_[place_of(contact.pair, table_)];
   if (index != 0) {
-    PairContact& stored = chunks_[(index - 1) / contacts_of_chunk][(index - 1) % contacts_of_chunk];
+    PairContact& stored = all_[index - 1];
     if (is_before(contact, stored)) stored = contact;
     return;
   }
-  chunks_[size_ / contacts_of_chunk].push_back(contact);
-  index = static_cast<std::uint32_t>(++size_);
+  all_.push_back(contact);
+  index = static_cast<std::uint32_t>(all_.size());
 }
 
 void PairContacts::fetch_after(std::span<const PairContact> contacts, std::size_t i) const {
@@ -406,45 +407,58 @@ void PairContacts::fetch_after(std::span<const PairContact> contacts, std::size_
   if (table_.empty() || i + 2 * ahead >= contacts.size()) return;
   __builtin_prefetch(&table_[first_place(contacts[i + 2 * ahead].pair, table_)]);
   const auto index = table_[first_place(contacts[i + ahead].pair, table_)];
-  if (index != 0) __builtin_prefetch(&(*this)[index - 1]);
+  if (index != 0) __builtin_prefetch(&all_[index - 1]);
 }
 
 bool PairContacts::make_room(const StopFunction& stop) {
-  if (stop && stop()) return false;
-  const std::size_t room = chunks_.size() * contacts_of_chunk;
-  if (2 * (room + contacts_of_chunk) > table_.size()) {
-    std::vector<std::uint32_t> larger(std::max(2 * table_.size(), 2 * contacts_of_chunk));
-    constexpr std::size_t pairs_at_once = 16'384;
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (i % pairs_at_once == 0 && stop && stop()) return false;
-      larger[place_of((*this)[i].pair, larger)] = static_cast<std::uint32_t>(i + 1);
+  constexpr std::size_t least_room = 1024, at_once = 16'384;  // 768 KB of contacts
+  const std::size_t room = all_.size() + std::max(all_.size() / 2, least_room);
+  if (2 * room > table_.size()) {
+    std::vector<std::uint32_t> larger(std::bit_ceil(2 * room));
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (i % at_once == 0 && stop && stop()) return false;
+      larger[place_of(all_[i].pair, larger)] = static_cast<std::uint32_t>(i + 1);
     }
     table_ = std::move(larger);
   }
-  std::vector<PairContact> chunk;
-  chunk.reserve(contacts_of_chunk);
-  chunks_.push_back(std::move(chunk));
-  room_ = room + contacts_of_chunk;
+  std::vector<PairContact> larger;
+  larger.reserve(room);
+  for (auto next = all_.begin(); next != all_.end();) {
+    const auto end = next + std::min<std::ptrdiff_t>(at_once, all_.end() - next);
+    larger.insert(larger.end(), next, end);
+    next = end;
+    if (stop && stop()) return false;
+  }
+  std::swap(all_, larger);
   return true;
 }
 
 std::deque<TrianglePair> PairContacts::take_new_pairs() {
   std::deque<TrianglePair> pairs;
-  for (; new_from_ < size_; ++new_from_) pairs.push_back((*this)[new_from_].pair);
+  for (; new_from_ < all_.size(); ++new_from_) pairs.push_back(all_[new_from_].pair);
   return pairs;
 }
 
 std::vector<PairContact> PairContacts::take() {
   table_ = {};
+  new_from_ = 0;
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  order.reserve(size_);
-  for (std::size_t i = 0; i < size_; ++i) order.emplace_back(number_of((*this)[i].pair), i);
+  order.reserve(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(number_of(all_[i].pair), i);
   std::sort(order.begin(), order.end());
-  std::vector<PairContact> contacts;
-  contacts.reserve(size_);
-  for (const auto& [number, i] : order) contacts.push_back((*this)[i]);
-  *this = {};
-  return contacts;
+  // Each contact moves to its place, along the cycles of the permutation.
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const PairContact first = all_[i];
+    std::size_t place = i;
+    for (std::size_t from = order[i].second; from != i; from = order[place].second) {
+      all_[place] = all_[from];
+      order[place].second = place;
+      place = from;
+    }
+    all_[place] = first;
+    order[place].second = place;
+  }
+  return std::exchange(all_, {});
 }
 
 }  // namespace assay::detector

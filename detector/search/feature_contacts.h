@@ -35,12 +35,13 @@ namespace assay::detector {
 //
 // The contacts come from feature pairs, so a triangle pair can be added up to 21 times. If all M
 // triangles lie on each other there are M^2 / 2 pairs. To save memory, each pair is stored once: a
-// hash table finds its place. A pair takes 56 to 72 bytes, 48 of them the result, and 112 bytes
-// while take() sorts.
+// hash table finds its place. A pair takes 56 to 96 bytes, 48 of them the result, and 144 bytes
+// while the list grows.
 //
 // Memory in proportion to the length of the list is allocated only in functions that call the stop
-// function, and in take(). So a stop function that watches a limit of memory can keep this limit.
-// Cost: O(1) for each contact, and O(n log n) for take() of n pairs. REQUIRES less than 2^32 pairs.
+// function, and in take(), which frees the table for it. So a stop function that watches a limit of
+// memory can keep this limit. Cost: O(1) for each contact, and O(n log n) for take() of n pairs.
+// REQUIRES less than 2^32 pairs.
 class PairContacts {
  public:
   void add(const PairContact& contact);
@@ -51,7 +52,7 @@ class PairContacts {
   // function. If so, the caller should call make_room(), which calls one.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
-    return size_ > 0 && size_ + a_few > room_;
+    return !all_.empty() && all_.size() + a_few > room();
   }
   // Makes room for more. Returns false if `stop` returned true; also then no contact is lost.
   bool make_room(const StopFunction& stop);
@@ -63,29 +64,25 @@ class PairContacts {
   // contact with the least vertices. The list is empty afterwards.
   std::vector<PairContact> take();
 
-  // The stored contacts, in any order.
-  std::size_t size() const { return size_; }
-  const PairContact& operator[](std::size_t i) const {
-    return chunks_[i / contacts_of_chunk][i % contacts_of_chunk];
-  }
+  // Returns the stored contacts, in any order.
+  std::span<const PairContact> held() const { return all_; }
 
   // Returns the memory that this object uses, in bytes.
   std::size_t bytes() const {
-    return chunks_.size() * contacts_of_chunk * sizeof(PairContact) +
-           table_.size() * sizeof(std::uint32_t);
+    return all_.capacity() * sizeof(PairContact) + table_.size() * sizeof(std::uint32_t);
   }
 
  private:
-  static constexpr std::size_t contacts_of_chunk = 1024;  // 48 KB
+  // Returns how many contacts the list and the table have room for.
+  std::size_t room() const { return std::min(all_.capacity(), table_.size() / 2); }
   static std::size_t first_place(TrianglePair pair, const std::vector<std::uint32_t>& table);
   // Returns the element of the table that has the pair, or the empty one where it belongs.
   std::size_t place_of(TrianglePair pair, const std::vector<std::uint32_t>& table) const;
 
-  std::vector<std::vector<PairContact>> chunks_;
+  std::vector<PairContact> all_;
   // At the place of a pair: the index of its contact, plus 1; 0 where there is none. At least half
   // of the elements are 0. The size is a power of two.
   std::vector<std::uint32_t> table_;
-  std::size_t size_ = 0, room_ = 0;  // room_: as many contacts as chunks and table hold
   std::size_t new_from_ = 0;
 };
 
