@@ -96,7 +96,7 @@ class WideTree {
   void refit_node(std::int32_t n, const Topology& mesh, const RoundedPositions& points,
                   FloatLanes by);
 
-  // Parents come before their children.
+  // Parents come before their children, and the nodes below a node have consecutive numbers.
   std::vector<Node> nodes_;
   std::vector<std::int32_t> binary_of_;  // by node
   LargeArray<Slot> slots_;
@@ -180,8 +180,7 @@ class BoundingVolumeTree {
     forget_fit();
   }
   double grown_by() const { return separation_; }
-  // Fits the boxes to the triangles as they move over the step. O(M): one pass over the nodes from
-  // the last to the first.
+  // Fits the boxes to the triangles as they move over the step. O(M).
   void refit(const Topology& mesh, const SteppedMesh& motion);
   // Does the same, and grows the boxes as if `slack` were added to the distance. Returns false if
   // `pace` was stopped; then some boxes are still fitted to another step. Boxes with a slack are

@@ -162,21 +162,29 @@ bool WideTree::refit(const Topology& mesh, const RoundedPositions& points, Float
     }
   };
   if (!for_all_pieces(nodes_.size(), nodes_of_piece, work_of_node, &pace, fit_leaves)) return false;
-  // Below each child of the root the nodes follow each other, so threads can share these subtrees.
+  const auto fit_inner = [&](std::size_t i) { refit_node(inner_[i], mesh, points, by); };
+  // The nodes below a child of the root have consecutive numbers, so threads can share these
+  // subtrees. A thread does not stop within a subtree, so that of a large mesh would be too long.
+  constexpr std::size_t worth_sharing = 64, too_long = 8192;
+  if (!has_workers(&pace) || inner_.size() < worth_sharing || inner_.size() > too_long) {
+    return for_each_paced(inner_.size(), work_of_node, &pace,
+                          [&](std::size_t i) { fit_inner(inner_.size() - 1 - i); });
+  }
   const Node& top = nodes_[at(root)];
   const auto begin_of = [&](std::size_t subtree) {
-    return subtree == top.count
-               ? inner_.end()
-               : std::lower_bound(inner_.begin(), inner_.end(), child(top.first_slot + subtree));
+    const auto end = inner_.end();
+    const auto begin = subtree == top.count
+                           ? end
+                           : std::lower_bound(inner_.begin(), end, child(top.first_slot + subtree));
+    return static_cast<std::size_t>(begin - inner_.begin());
   };
   const auto fit_subtree = [&](std::size_t subtree, std::size_t, std::size_t) {
-    const auto first = begin_of(subtree);
-    for (auto n = begin_of(subtree + 1); n != first;) refit_node(*--n, mesh, points, by);
-    return work_of_node * static_cast<std::uint64_t>(begin_of(subtree + 1) - first);
+    const std::size_t begin = begin_of(subtree), end = begin_of(subtree + 1);
+    for (std::size_t i = end; i-- > begin;) fit_inner(i);
+    return work_of_node * static_cast<std::uint64_t>(end - begin);
   };
-  if (top.holds_triangles) return true;
   if (!for_all_counted(top.count, 1, &pace, fit_subtree)) return false;
-  refit_node(root, mesh, points, by);
+  fit_inner(0);
   return true;
 }
 

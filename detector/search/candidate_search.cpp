@@ -58,7 +58,7 @@ double CandidateSearch::share_of_edges(bool open_alone) const {
   constexpr std::size_t most_edges = 512;
   const PairTables k = stages_.rule.candidates();
   const std::size_t edges = std::min(mesh_.edges.size(), most_edges);
-  // If all triangles have the same flag, the rule asks for all pairs or for none.
+  // If all triangles have the same flag, the rule asks for all of these pairs or for none.
   const bool one_is_enough =
       !open_alone && std::has_single_bit(memory_.marks.node_flags[BoundingVolumeTree::root]);
   std::size_t candidates = 0, pairs = 0;

@@ -1,7 +1,6 @@
 #include "detector/search/feature_contacts.h"
 
 #include <atomic>
-#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -252,10 +251,9 @@ bool FeatureContacts::hand_over(Lane& lane, const StopFunction& stop) {
 
 bool FeatureContacts::hand_over(std::vector<PairContact>& found, PairContacts& contacts,
                                 const StopFunction& stop) {
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  for (const PairContact& contact : found) {
     if (contacts.is_nearly_full() && !contacts.make_room(stop)) return false;
-    contacts.fetch_after(found, i);
-    contacts.add(found[i]);
+    contacts.add(contact);
   }
   found.clear();
   return true;
@@ -371,58 +369,43 @@ bool is_before(const PairContact& x, const PairContact& y) {
   return x.feature.vertices < y.feature.vertices;
 }
 
-std::uint64_t number_of(TrianglePair pair) {
-  return static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b);
+// The contacts of a triangle pair come soon after each other, so an added pair is mostly held
+// already.
+constexpr std::size_t recent_places = 4096;
+
+std::size_t place_of(TrianglePair pair) {
+  const auto mixed =
+      (static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)) *
+      0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(mixed >> 52);
 }
+
+constexpr std::size_t least_room = 1024;
+
+std::size_t with_room(std::size_t size) { return size + std::max(size / 4, least_room); }
 
 }  // namespace
 
-std::size_t PairContacts::first_place(TrianglePair pair, const std::vector<std::uint32_t>& table) {
-  const std::uint64_t mixed = number_of(pair) * 0x9e3779b97f4a7c15u;
-  return static_cast<std::size_t>(mixed >> 32) & (table.size() - 1);
-}
-
-std::size_t PairContacts::place_of(TrianglePair pair,
-                                   const std::vector<std::uint32_t>& table) const {
-  const std::size_t last = table.size() - 1;
-  std::size_t place = first_place(pair, table);
-  while (table[place] != 0 && all_[table[place] - 1].pair != pair) place = (place + 1) & last;
-  return place;
-}
-
 void PairContacts::add(const PairContact& contact) {
-  if (all_.size() == room()) make_room({});
-  auto& index = table_[place_of(contact.pair, table_)];
-  if (index != 0) {
-    PairContact& stored = all_[index - 1];
-    if (is_before(contact, stored)) stored = contact;
+  if (recent_.empty()) recent_.resize(recent_places);
+  auto& place = recent_[place_of(contact.pair)];
+  if (place < all_.size() && all_[place].pair == contact.pair) {
+    if (is_before(contact, all_[place])) all_[place] = contact;
     return;
   }
+  if (all_.size() == all_.capacity()) make_room({});
+  place = static_cast<std::uint32_t>(all_.size());
   all_.push_back(contact);
-  index = static_cast<std::uint32_t>(all_.size());
-}
-
-void PairContacts::fetch_after(std::span<const PairContact> contacts, std::size_t i) const {
-  constexpr std::size_t ahead = 8;
-  if (table_.empty() || i + 2 * ahead >= contacts.size()) return;
-  __builtin_prefetch(&table_[first_place(contacts[i + 2 * ahead].pair, table_)]);
-  const auto index = table_[first_place(contacts[i + ahead].pair, table_)];
-  if (index != 0) __builtin_prefetch(&all_[index - 1]);
 }
 
 bool PairContacts::make_room(const StopFunction& stop) {
-  constexpr std::size_t least_room = 1024, at_once = 16'384;  // 768 KB of contacts
-  const std::size_t room = all_.size() + std::max(all_.size() / 2, least_room);
-  if (2 * room > table_.size()) {
-    std::vector<std::uint32_t> larger(std::bit_ceil(2 * room));
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (i % at_once == 0 && stop && stop()) return false;
-      larger[place_of(all_[i].pair, larger)] = static_cast<std::uint32_t>(i + 1);
-    }
-    table_ = std::move(larger);
-  }
+  settle();
+  // The list grows if less than a fifth of it is free; otherwise it would be sorted too often.
+  const std::size_t capacity = with_room(all_.size());
+  if (all_.capacity() >= capacity) return true;
+  constexpr std::size_t at_once = 16'384;  // 768 KB
   std::vector<PairContact> larger;
-  larger.reserve(room);
+  larger.reserve(capacity);
   for (auto next = all_.begin(); next != all_.end();) {
     const auto end = next + std::min<std::ptrdiff_t>(at_once, all_.end() - next);
     larger.insert(larger.end(), next, end);
@@ -433,31 +416,56 @@ bool PairContacts::make_room(const StopFunction& stop) {
   return true;
 }
 
+// Sorts the late contacts. One whose pair is settled replaces the settled contact if it is
+// earlier; the others are merged in as new pairs.
+void PairContacts::settle() {
+  const auto late = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
+  std::sort(late, all_.end(), is_before);
+  auto new_end = late;
+  auto place = all_.begin();
+  for (auto next = late; next != all_.end(); ++next) {
+    if (new_end != late && std::prev(new_end)->pair == next->pair) continue;
+    place = std::lower_bound(place, late, next->pair,
+                             [](const PairContact& x, TrianglePair pair) { return x.pair < pair; });
+    if (place == late || place->pair != next->pair) {
+      new_.push_back(next->pair);
+      *new_end++ = *next;
+    } else if (is_before(*next, *place)) {
+      *place = *next;
+    }
+  }
+  all_.erase(new_end, all_.end());
+  merge_late(all_.size() - settled_);
+  settled_ = all_.size();
+}
+
+// Merges the last `count` contacts into the settled ones. They are copied aside, and the merge
+// fills the list from its end, so it needs no room but theirs.
+void PairContacts::merge_late(std::size_t count) {
+  if (late_.capacity() < count) {
+    late_ = {};
+    late_.reserve(with_room(count));
+  }
+  late_.assign(all_.end() - static_cast<std::ptrdiff_t>(count), all_.end());
+  auto place = all_.end();
+  auto settled = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
+  for (auto late = late_.end(); late != late_.begin();) {
+    const bool is_later =
+        settled != all_.begin() && is_before(*std::prev(late), *std::prev(settled));
+    *--place = is_later ? *--settled : *--late;
+  }
+}
+
 std::deque<TrianglePair> PairContacts::take_new_pairs() {
-  std::deque<TrianglePair> pairs;
-  for (; new_from_ < all_.size(); ++new_from_) pairs.push_back(all_[new_from_].pair);
-  return pairs;
+  settle();
+  return std::exchange(new_, {});
 }
 
 std::vector<PairContact> PairContacts::take() {
-  table_ = {};
-  new_from_ = 0;
-  std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  order.reserve(all_.size());
-  for (std::size_t i = 0; i < all_.size(); ++i) order.emplace_back(number_of(all_[i].pair), i);
-  std::sort(order.begin(), order.end());
-  // Each contact moves to its place, along the cycles of the permutation.
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const PairContact first = all_[i];
-    std::size_t place = i;
-    for (std::size_t from = order[i].second; from != i; from = order[place].second) {
-      all_[place] = all_[from];
-      order[place].second = place;
-      place = from;
-    }
-    all_[place] = first;
-    order[place].second = place;
-  }
+  settle();
+  settled_ = 0;
+  new_ = {};
+  late_ = {};
   return std::exchange(all_, {});
 }
 

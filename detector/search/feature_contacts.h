@@ -34,27 +34,25 @@ namespace assay::detector {
 // The triangle pairs in contact in a step, each with its first contact.
 //
 // The contacts come from feature pairs, so a triangle pair can be added up to 21 times. If all M
-// triangles lie on each other there are M^2 / 2 pairs. To save memory, each pair is stored once: a
-// hash table finds its place. A pair takes 56 to 96 bytes, 48 of them the result, and 144 bytes
-// while the list grows.
+// triangles lie on each other there are M^2 / 2 pairs. To save memory, each pair is stored once:
+// new contacts are merged into the sorted list when there are a quarter as many as in the list. A
+// pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
 //
 // Memory in proportion to the length of the list is allocated only in functions that call the stop
-// function, and in take(), which frees the table for it. So a stop function that watches a limit of
-// memory can keep this limit. Cost: O(1) for each contact, and O(n log n) for take() of n pairs.
-// REQUIRES less than 2^32 pairs.
+// function. So a stop function that watches a limit of memory can keep this limit. Cost of n
+// contacts in total: O(log n) for each.
 class PairContacts {
  public:
   void add(const PairContact& contact);
-  // Lets the processor fetch what add() will read for the contacts after contacts[i].
-  void fetch_after(std::span<const PairContact> contacts, std::size_t i) const;
 
   // Returns whether a few more contacts would make the list grow in add(), which calls no stop
   // function. If so, the caller should call make_room(), which calls one.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
-    return !all_.empty() && all_.size() + a_few > room();
+    return !all_.empty() && all_.capacity() - all_.size() < a_few;
   }
-  // Makes room for more. Returns false if `stop` returned true; also then no contact is lost.
+  // Makes room for a quarter more. Returns false if `stop` returned true; also then no contact is
+  // lost.
   bool make_room(const StopFunction& stop);
 
   // Returns the pairs that were added since the last call of this function, each once.
@@ -64,26 +62,27 @@ class PairContacts {
   // contact with the least vertices. The list is empty afterwards.
   std::vector<PairContact> take();
 
-  // Returns the stored contacts, in any order.
+  // Returns the stored contacts, in any order; some pairs are among them several times.
   std::span<const PairContact> held() const { return all_; }
 
   // Returns the memory that this object uses, in bytes.
   std::size_t bytes() const {
-    return all_.capacity() * sizeof(PairContact) + table_.size() * sizeof(std::uint32_t);
+    return (all_.capacity() + late_.capacity()) * sizeof(PairContact) +
+           new_.size() * sizeof(TrianglePair) + recent_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
-  // Returns how many contacts the list and the table have room for.
-  std::size_t room() const { return std::min(all_.capacity(), table_.size() / 2); }
-  static std::size_t first_place(TrianglePair pair, const std::vector<std::uint32_t>& table);
-  // Returns the element of the table that has the pair, or the empty one where it belongs.
-  std::size_t place_of(TrianglePair pair, const std::vector<std::uint32_t>& table) const;
+  void settle();
+  void merge_late(std::size_t count);
 
   std::vector<PairContact> all_;
-  // At the place of a pair: the index of its contact, plus 1; 0 where there is none. At least half
-  // of the elements are 0. The size is a power of two.
-  std::vector<std::uint32_t> table_;
-  std::size_t new_from_ = 0;
+  // The first settled_ contacts of all_ are ascending, with each pair once; later contacts follow.
+  std::size_t settled_ = 0;
+  std::vector<PairContact> late_;  // working memory of settle()
+  // The indices in all_ of the latest pairs, by a hash of the pair; 16 KB. At such an index there
+  // can be another pair by now, so an index is only a guess.
+  std::vector<std::uint32_t> recent_;
+  std::deque<TrianglePair> new_;
 };
 
 class FeatureContacts {

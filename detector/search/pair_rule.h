@@ -111,7 +111,7 @@ enum class TriangleType : std::uint8_t {
 };
 inline constexpr std::size_t triangle_types = 9;
 
-// Returns whether all triangles have one type. 30 ns a thousand triangles.
+// Returns whether all triangles have one type. Takes 30 ns for a thousand triangles.
 inline bool are_of_one_type(std::span<const TriangleType> types) {
   return types.empty() || std::memcmp(types.data(), types.data() + 1, types.size() - 1) == 0;
 }

@@ -22,7 +22,7 @@ std::size_t count_lines(const std::string& path) {
 // that is asked for is allowed. Detectors of others count apart; `scripts` are those of all rooms.
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
-      {"detector", 16439},   {"oracle", 5535},   {"corpus", 5251}, {"corpus/peers", 1560},
+      {"detector", 16447},   {"oracle", 5535},   {"corpus", 5251}, {"corpus/peers", 1560},
       {"properties", 24893}, {"reports", 12985}, {"tests", 43191}, {"scripts", 10799}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
