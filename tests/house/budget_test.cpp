@@ -23,7 +23,7 @@ std::size_t count_lines(const std::string& path) {
 TEST(Budget, NoRoomGrows) {
   const std::map<std::string, std::size_t> budgets = {
       {"detector", 16447},   {"oracle", 5535},   {"corpus", 5251}, {"corpus/peers", 1560},
-      {"properties", 24893}, {"reports", 12985}, {"tests", 43191}, {"scripts", 10799}};
+      {"properties", 24893}, {"reports", 12985}, {"tests", 43184}, {"scripts", 10799}};
   std::map<std::string, std::size_t> lines;
   for (const auto* room : rooms) {
     for (const auto& file : files_below(room)) {
