@@ -128,7 +128,7 @@ StepState state_at_end(const GivenStep& step, const StepMarks& marks, const Pace
   if (marks.has_views()) return state;
   for (std::size_t c = 0; c < state.inside.size(); ++c) {
     if (release.knows_clean(step, pairs, c)) continue;
-    if (state.inside.size() == 1) {
+    if (state.inside.size() == 1) {  // its triangles are all triangles
       std::fill(state.clean.begin(), state.clean.end(), 0);
     } else {
       for (const auto t : step.own_triangles(c)) state.clean[at(t)] = 0;
