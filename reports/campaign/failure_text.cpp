@@ -117,8 +117,7 @@ std::string sizes_text(const FailureRecord& failure) {
 // Returns the text of one kind of failure: one of its failures, in full.
 std::string paragraph(const FailureRecord& failure, std::uint64_t trials,
                       const std::filesystem::path& out, const DetectorWords& detector) {
-  const bool is_shrunk = !failure.smallest.empty();
-  const auto file = failure_file(failure, is_shrunk);
+  const auto file = failure_file(failure, !failure.smallest.empty());
   return fmt::format("\nDEFECT {} ({}), {}\n  {}\n  case {}: {}\n  picture {}\n  replay: {}\n{}",
                      failure.signature(), failure.shown_configuration(), failure.met_text(trials),
                      failure.shown_explanation(), failure.id(), sizes_text(failure),
@@ -147,13 +146,9 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
     const auto count = failure_list.times_met.find(failure.signature());
     return count == failure_list.times_met.end() ? 1 : count->second;
   };
-  const auto& first =
-      **std::max_element(kinds.begin(), kinds.end(), [&](const auto* a, const auto* b) {
-        const auto rank = [&](auto* kind) {
-          return std::pair(!kind->smallest.empty(), met_text(*kind));
-        };
-        return rank(a) < rank(b);
-      });
+  const auto& first = *std::ranges::max(kinds, {}, [&](const auto* kind) {
+    return std::pair(!kind->smallest.empty(), met_text(*kind));
+  });
   text += paragraph(first, met_text(first), out, detector);
   std::erase(kinds, &first);
   std::map<const FailureRecord*, std::size_t> triangles;
@@ -163,9 +158,8 @@ Expected<void> write_failures(const properties::FailureList& failure_list,
   // The smallest failure of each claim comes first, so that no broken claim is left out.
   std::set<std::string> claims = {first.rule()};
   std::set<const FailureRecord*> first_of_a_claim;
-  for (const auto* kind : kinds) {
+  for (const auto* kind : kinds)
     if (claims.insert(kind->rule()).second) first_of_a_claim.insert(kind);
-  }
   std::stable_partition(kinds.begin(), kinds.end(),
                         [&](const auto* kind) { return first_of_a_claim.contains(kind); });
   const auto top = std::min(kinds.size(), kinds_shown - 1);
@@ -208,13 +202,15 @@ std::string failures_text(const properties::RunFindings& findings, const Json& p
   std::string out = groups_text(findings, predicate);
   std::set<std::string> explanations;
   const auto failures = in_order(findings.failures);
+  const auto detector = detector_of(findings);
   for (const auto& failure : failures) {
     if (!explanations.insert(failure.signature()).second) continue;
-    out += paragraph(failure, findings.met_count(failure), findings.folder, detector_of(findings));
+    out += paragraph(failure, findings.met_count(failure), findings.folder, detector);
     for (const auto& other : failures) {
-      if (&other != &failure && other.signature() == failure.signature())
-        out += fmt::format("  also {} ({}): {}\n", other.id(), other.shown_configuration(),
-                           other.explanation);
+      if (&other == &failure || other.signature() != failure.signature()) continue;
+      const auto words = replay_words(findings.folder, failure_file(other, false), detector);
+      out += fmt::format("  also {} ({}): {}\n    {}\n", other.id(), other.shown_configuration(),
+                         other.explanation, line_to_paste(words));
     }
   }
   return failures.empty() ? "no failures\n" : out;

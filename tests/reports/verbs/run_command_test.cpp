@@ -188,7 +188,9 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "## Assay: defect\n"));
   EXPECT_TRUE(contains(read_text(folder + "/junit.xml"), "<failure message="));
   EXPECT_GE(originals, smallest);
-  EXPECT_TRUE(contains(listed.out, "  also tiny:1:")) << listed.out;
+  const std::regex other("\n  also tiny:1:[^\n]*\n    ([^\n]*-original.json'[^\n]*)\n");
+  ASSERT_TRUE(std::regex_search(listed.out, kind, other)) << listed.out;
+  EXPECT_EQ(exit_code_of(kind.str(1) + " >/dev/null"), 1) << kind.str(1);
 }
 
 TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
