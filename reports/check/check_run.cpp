@@ -56,8 +56,7 @@ class CheckRun {
         BOOST_OUTCOME_TRY(step, read_step(s));
         for (const auto& line : steps_.notes()) tell_note(s, line);
         auto json = leave_out(s);
-        const bool is_left_out = json.has_value();
-        if (!is_left_out) json = run_step(s, step);
+        if (!json) json = run_step(s, step);
         if (question_.wants_report && !json->is_null()) steps.push_back(std::move(*json));
         if (refusal_) return Problem{*refusal_};
         if (outcome_.unsound) break;
@@ -89,10 +88,9 @@ class CheckRun {
     write_ply();
     say(outcome_.summary());
     CheckAnswer answer{std::move(outcome_), nullptr};
-    if (question_.wants_report)
+    if (question_.wants_report) {
       answer.report = check_report(text_.files.empty() ? question_.files : text_.files, mesh_,
                                    answers_, answer.outcome, std::move(steps));
-    if (question_.wants_report) {
       answer.report["bodies"] = bodies_json();
       answer.report["at_rest"] = is_at_rest_;
       answer.report["inside"] = nlohmann::ordered_json::array();
@@ -109,8 +107,8 @@ class CheckRun {
   std::size_t step_count() const { return steps_.count(); }
 
   void announce() const {
-    std::size_t unclosed = 0;
-    for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
+    const auto unclosed =
+        std::ranges::count(mesh_.components, false, &detector::Component::is_cycle);
     const auto& title = text_.title;
     say(fmt::format("{}{}{} triangles, {} vertices{}, {} component{}", title,
                     title.empty() ? "" : ": ", mesh_.triangles.size(), steps_.first_frame().rows(),
@@ -312,27 +310,32 @@ class CheckRun {
     return json;
   }
 
-  // Names, reports and marks the contacts of this step.
+  // Names, reports and marks the contacts of this step that are asked for.
   void note_contacts(const corpus::SourceStep& step,
                      const std::vector<detector::PairContact>& pairs, Answer answer, bool is_shown,
                      nlohmann::ordered_json& json) {
     const detector::SteppedMesh motion{step.x_t0, step.x_t1};
     const detector::TrianglesView triangles(steps_.triangles());
-    const StepContacts contacts{motion, triangles, pairs, bodies_, is_at_rest_};
+    const bool asks_first = question_.built_in.pairs == detector::Pairs::first && !pairs.empty();
+    auto first = asks_first ? pairs : std::vector<detector::PairContact>();
+    if (asks_first) {
+      const auto end = std::ranges::min(pairs, {}, &detector::PairContact::time).time.hi;
+      std::erase_if(first, [&](const auto& contact) { return contact.time.lo > end; });
+    }
+    const StepContacts contacts{motion, triangles, asks_first ? first : pairs, bodies_,
+                                is_at_rest_};
     constexpr std::size_t most_named = 10;
     if (is_shown && named_pairs_ < most_named && !pairs.empty()) {
       say(contacts.text(most_named - named_pairs_));
-      named_pairs_ += pairs.size();
+      named_pairs_ += contacts.pairs.size();
     }
     if (!json.is_null()) json["contacts"] = contacts.json();
     if (is_at_rest_ && (answer != Answer::undecided || !pairs.empty()))
       outcome_.rest = rest_text(pairs, bodies_);
     if (!question_.ply_file.empty()) mark(step, contacts);
-    if (!nested_ && answer != Answer::undecided && is_judged_whole()) tell_nested(step, pairs);
-  }
-
-  bool is_judged_whole() const {
-    return !question_.no_oracle && (!steps_.counted() || steps_.counted()->count_all());
+    const bool is_judged_whole =
+        !question_.no_oracle && (!steps_.counted() || steps_.counted()->count_all());
+    if (!nested_ && answer != Answer::undecided && is_judged_whole) tell_nested(step, pairs);
   }
 
   // Returns by vertex its component, in place of its body, for a mesh without bodies.
@@ -492,9 +495,8 @@ class CheckRun {
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files) {
   BOOST_OUTCOME_TRY(steps, corpus::read_steps({files.begin(), files.end()}));
   if (const auto* c = steps->case_file()) {
-    if (const auto options = properties::read_options(*c); !options) {
+    if (const auto options = properties::read_options(*c); !options)
       return corpus::problem_in(files[0], options.error().message);
-    }
   }
   return CheckInput{files[0], std::move(steps)};
 }

@@ -135,7 +135,8 @@ Check whole_number() {
 void add_limits(CLI::App& verb, std::optional<double>& seconds,
                 std::optional<std::uint64_t>& bytes) {
   add(verb, "--time SECONDS", seconds,
-      "Limit of processor time in seconds, all threads together; the rest is undecided then")
+      "Limit of processor time in seconds, all threads together; the rest is undecided then "
+      "(default none: a plug-in that hangs is waited for)")
       ->check(positive())
       ->group(OptionGroup::limits);
   add_choice(verb, "--memory SIZE", bytes, "a whole number above 0, perhaps with K, M or G",

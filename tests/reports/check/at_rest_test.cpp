@@ -170,13 +170,19 @@ TEST_F(AtRest, ContactsOfAMotionAreNamedWithTheirPlaces) {
                        " at t = 0, piercing at (1, 2, 0), crossing\n"));
 }
 
-// Ten are named, the earliest first; the others are counted.
+// Ten are named, the earliest first; the others are counted. Those that meet first are asked for
+// alone.
 TEST_F(AtRest, TenContactsAreNamed) {
-  const auto all =
-      check("--body " + box("a.obj", {0, 0, 0}, 2) + " --body " + box("b.obj", {0, 0, 2}, 2));
-  EXPECT_EQ(count_of(all.out, "  contact: "), 10u) << all.out;
-  const auto count = report()["steps"][0]["contacts"].size();
-  expect_says(all.out, {"  ... " + std::to_string(count - 10) + " more pairs in contact"});
+  const auto bodies = "--body " + box("a.obj", {0, 0, 0}, 2) + " --body " +
+                      box("b.obj", {0, 0, 3}, 2) + " " + box("c.obj", {0, 0, -1}, 2);
+  for (const auto* pairs : {" --pairs all", " --pairs first"}) {
+    const auto outcome = check(bodies + pairs);
+    const auto step = report()["steps"][0];
+    EXPECT_EQ(step["contacts"].size(), step["pairs"].size());
+    EXPECT_EQ(count_of(outcome.out, "  contact: "), 10u) << outcome.out;
+    expect_says(outcome.out,
+                {fmt::format("  ... {} more pairs in contact", step["pairs"].size() - 10)});
+  }
 }
 
 TEST_F(AtRest, TheMeshIsWrittenWithItsContactsInRed) {
