@@ -80,7 +80,10 @@ def as_frames(given) -> Frames:
         triangles, positions = given
     except (TypeError, ValueError):
         raise TypeError("Frames are wanted, or a pair of triangles and positions") from None
-    return Frames(triangles, list(positions))
+    positions = list(positions)
+    if positions and np.ndim(positions[0]) == 1:
+        raise ValueError("positions are a list of frames, even a single one: (triangles, [x0])")
+    return Frames(triangles, positions)
 
 
 def _expanded(paths: Iterable[Path]) -> List[str]:
@@ -88,13 +91,10 @@ def _expanded(paths: Iterable[Path]) -> List[str]:
 
     files: List[str] = []
     for path in map(os.fspath, paths):
-        if os.path.exists(path):
-            files.append(path)
-            continue
-        found = _judge.in_order_of_numbers(sorted(glob.glob(path)))[0]
-        if not found:
+        names = [path] if os.path.exists(path) else sorted(glob.glob(path))
+        if not names:
             raise FileNotFoundError(f"{path}: no such file")
-        files += found
+        files += _judge.in_order_of_numbers(names)[0]
     return files
 
 

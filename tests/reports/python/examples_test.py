@@ -22,10 +22,9 @@ def test_every_example_runs_as_pasted(tmp_path, monkeypatch, capsys):
             exec(compile(block, str(README), "exec"), names)
     printed = capsys.readouterr().out
     for line in (
-        "collision (0.888888888888888",
-        "wrong_frame_size - ",
-        "[ True] [0.5] [0.5]",
-        "collision (0.888888888888888",
+        "collision 3 pairs\ntriangles 2 and 4 at [0.75  0.125 0.125]",
+        "collision (0.8888888888888888, 0.888888888888889) [[2, 4], [2, 5], [2, 7]]\n0.84",
+        "wrong_frame_size - positions have 7 rows, but the mesh has 8 vertices\n[ True] [0.5] [0.5]",
         "holds [(), ()]",
         "2 holds",
         "defect\n[('closed-degenerate', 4, ",

@@ -222,8 +222,9 @@ def test_options_and_detectors_are_checked(pair):
         assay.check(frames, 3)
     with pytest.raises(TypeError, match="Frames"):
         assay.check(3)
-    with pytest.raises(ValueError, match="at least one frame"):
-        assay.check((pair.triangles, []))
+    for positions, why in (([], "at least one frame"), (pair.x_t0, r"a list of frames.*\[x0\]")):
+        with pytest.raises(ValueError, match=why):
+            assay.check((pair.triangles, positions))
 
 
 def test_one_frame_is_a_mesh_at_rest(pair):
