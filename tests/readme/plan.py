@@ -260,7 +260,7 @@ NO_COMMAND = {
         "/usr/bin/python3 -m pip wheel": "builds; install_test does so",
         "/usr/bin/python3 -m venv": "installs; install_test does so",
         "import numpy as np": PYTHON,
-        "result = detector.step(": PYTHON,
+        "print(result.counts": PYTHON,
         "face = [[": PYTHON,
         "near = assay.judge": PYTHON,
         "import meshio": PYTHON,
