@@ -237,7 +237,7 @@ InputKind kind_of_file(const std::filesystem::path& file) {
 
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files) {
   const auto kind = kind_of_file(files[0]);
-  if (kind == InputKind::log) return problem_in(files[0], "it is a log of steps: use assay check");
+  if (kind == InputKind::log) return problem_in(files[0], "a log: in a shell, use assay check");
   if (files.size() > 1 || kind != InputKind::case_file) return steps_of_files(files);
   BOOST_OUTCOME_TRY(c, read_case(files[0]));
   return steps_of_case(std::make_shared<const Case>(std::move(c)), true);

@@ -38,9 +38,7 @@ py::array converted(const char* function, const Arguments&... arguments) {
 }
 
 template <class Scalar>
-constexpr const char* conversion = "positions";
-template <>
-constexpr const char* conversion<std::int32_t> = "triangles";
+constexpr const char* conversion = std::is_integral_v<Scalar> ? "triangles" : "positions";
 
 // Returns whether the object is a plain array. A subclass may mean something else by its elements;
 // masked arrays, for example, are treated in Python.

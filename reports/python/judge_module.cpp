@@ -30,8 +30,9 @@ namespace py = pybind11;
 void demand_good_input(const detector::TrianglesView& triangles,
                        const detector::PositionsView& x_t0, const detector::PositionsView& x_t1) {
   if (const auto bad = detector::check_triangles(triangles, x_t0.rows())) raise(*bad);
-  for (const auto* x : {&x_t0, &x_t1})
-    if (const auto bad = detector::check_positions(*x, x_t0.rows())) raise(*bad);
+  for (const auto& [name, x] : {std::pair{"x_t0: ", &x_t0}, {"x_t1: ", &x_t1}})
+    if (const auto bad = detector::check_positions(*x, x_t0.rows()))
+      raise({bad->error, name + bad->message});
 }
 
 // Asks the oracle. With a distance, the sum of two doubles, it is asked for pairs that come within
@@ -198,8 +199,7 @@ py::tuple mesh_and_frames(detector::Triangles& triangles,
 // Returns the files in order, and the remarks on their order.
 py::tuple in_order_of_numbers(const std::vector<std::string>& files) {
   const auto order = corpus::in_order_of_numbers({files.begin(), files.end()});
-  py::list paths;
-  for (const auto& file : order.files) paths.append(file.string());
+  const std::vector<std::string> paths(order.files.begin(), order.files.end());
   return py::make_tuple(paths, order.remarks);
 }
 

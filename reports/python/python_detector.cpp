@@ -137,9 +137,8 @@ py::array_t<T> array_of(const plugin::Rows<T>& rows) {
 
 template <class Row>
 std::vector<Row> rows_of(const py::object& object) {
-  const auto array =
-      object
-          .cast<py::array_t<typename Row::value_type, py::array::c_style | py::array::forcecast>>();
+  using Array = py::array_t<typename Row::value_type, py::array::c_style | py::array::forcecast>;
+  const auto array = object.cast<Array>();
   std::vector<Row> rows(static_cast<std::size_t>(array.size()) / 2);
   if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
   return rows;
@@ -162,10 +161,9 @@ class PythonDetector {
     static std::string name, version;
     return with_class([](const py::object& host) {
       const auto text = [&](const char* member) { return host.attr(member).cast<std::string>(); };
-      name = text("name"), version = text("version");
       plugin::Description d;
-      d.name = name.c_str();
-      d.version = version.c_str();
+      d.name = (name = text("name")).c_str();
+      d.version = (version = text("version")).c_str();
       d.claims = host.attr("claims").cast<std::uint32_t>();
       set_contract(d, host.attr("contract"));
       return d;

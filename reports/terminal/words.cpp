@@ -47,17 +47,20 @@ std::string this_program(PastePlace place) {
   return shell_word((here.has_parent_path() ? here : "." / here).string());
 }
 
-std::string to_this_folder() {
+// Python looks for the module of a detector in this folder, then in those of PYTHONPATH.
+std::string to_this_folder(const std::string& words) {
   std::error_code error;
-  return "cd " + shell_word(std::filesystem::current_path(error).string()) + " && ";
+  const char* folders = std::getenv("PYTHONPATH");
+  const bool are_told = folders && *folders && words.find("python:") != std::string::npos;
+  return "cd " + shell_word(std::filesystem::current_path(error).string()) + " && " +
+         (are_told ? "PYTHONPATH=" + shell_word(folders) + " " : "");
 }
 
 }  // namespace
 
 std::string line_to_paste(const std::string& words, PastePlace place) {
-  // A detector in Python is looked for in this folder.
   const bool has_module = words.find(" --detector python:") != std::string::npos;
-  return (place == PastePlace::any_folder && has_module ? to_this_folder() : "") +
+  return (place == PastePlace::any_folder && has_module ? to_this_folder(words) : "") +
          this_program(place) + " " + words;
 }
 
@@ -74,7 +77,7 @@ std::string this_command(PastePlace place) {
       words += (words.empty() ? "" : " ") + shell_word(word);
     }
   }
-  return (is_elsewhere ? to_this_folder() : "") + this_program(place) + " " + words;
+  return (is_elsewhere ? to_this_folder(words) : "") + this_program(place) + " " + words;
 }
 
 std::string absolute_path(const std::filesystem::path& path) {

@@ -48,10 +48,10 @@ enum class PastePlace : std::uint8_t { this_folder, any_folder };
 // "assay" if a shell finds it on the PATH by that name, and otherwise as its path; in a line for
 // this folder the path is relative, such as "build/release/assay", if the program lies below this
 // folder. A line for any folder first changes to this folder if it names a detector in Python,
-// because Python looks for the module in this folder. REQUIRES that each word is a shell_word, and
-// for PastePlace::any_folder that each path is an absolute_path. All lines to paste come from this
-// function or from this_command, except the lines in a certificate or a page, which begin with
-// "assay" on every machine.
+// and sets PYTHONPATH as it is here, because Python looks for the module in these folders. REQUIRES
+// that each word is a shell_word, and for PastePlace::any_folder that each path is an
+// absolute_path. All lines to paste come from this function or from this_command, except the lines
+// in a certificate or a page, which begin with "assay" on every machine.
 std::string line_to_paste(const std::string& words, PastePlace place = PastePlace::any_folder);
 
 // Returns the whole command as it was typed, with all of its inputs. With PastePlace::any_folder

@@ -80,9 +80,10 @@ void add_options(CLI::App& verb, BenchRequest& request) {
   const auto names = join(corpus::names_among(suites), ", ");
   auto* suite = add(verb, "--suite NAME", request.suite, "What to measure: " + names)
                     ->check(one_of(names, suite_named));
-  add_detector(verb, request.detector,
-               "In place of a suite: a plug-in's library. It is timed beside the built-in detector "
-               "on scenes and public sequences, and its answers are judged by its claims")
+  add_detector(
+      verb, request.detector,
+      "In place of a suite: a plug-in's library, or python:MODULE:CLASS. It is timed beside "
+      "the built-in detector on scenes and public sequences, and judged by its claims")
       ->excludes(suite);
   add(verb, "--case-seconds SECONDS", request.settings.case_seconds,
       "Processor seconds that a plug-in may take for a sequence")

@@ -94,13 +94,13 @@ SLOW = {
     "reports/README.md": [
         "assay self-test --jobs 2",
         "assay bench --suite speed-error --json build/speed-error.json",
-        "python3 reports/pictures/benches.py build/speed-error.json reports/pictures/speed-error.svg",
+        "python3 reports/pictures/benches.py build/speed-error.json build/speed-error.svg",
         "assay run --campaign smoke --out build/smoke",
         "assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
     ],
     "corpus/peers/README.md": [
         "assay bench --suite peers --quick --case-seconds 1 --json build/peers.json",
-        "python3 reports/pictures/benches.py build/peers.json reports/pictures/peers.svg",
+        "python3 reports/pictures/benches.py build/peers.json build/peers.svg",
     ],
     "reports/certificate/README.md": [
         "assay certify --campaign quick --out build/quick",

@@ -55,7 +55,7 @@ std::vector<Column> columns_of(const SubjectRow& row, const std::string& heading
       {Of::both, {"alarms", 7, text(e.false_alarms)}},
       {Of::here, {"missing", 8, text(e.missing)}},
       {Of::here, {"spurious", 9, text(e.spurious)}},
-      {Of::here, {"  late", -27, "  " + time_text(e.late)}},
+      {Of::here, {"  late", -31, "  " + time_text(e.late)}},
       {Of::here, {"early", 0, time_text(e.early)}},
       {Of::workers, {"late", 10, text_of(e.late)}},
       {Of::workers, {"early", 10, text_of(e.early)}},

@@ -78,11 +78,13 @@ def as_frames(given) -> Frames:
         return given
     try:
         triangles, positions = given
+        if isinstance(triangles, (str, os.PathLike)):
+            raise TypeError
     except (TypeError, ValueError):
-        raise TypeError("Frames are wanted, or a pair of triangles and positions") from None
+        raise TypeError("Frames are wanted, as of assay.read_frames(files), or a pair of triangles and positions") from None
     positions = list(positions)
     if positions and np.ndim(positions[0]) == 1:
-        raise ValueError("positions are a list of frames, even a single one: (triangles, [x0])")
+        raise ValueError("first triangles (m, 3), then a list of frames, even of a single one: (triangles, [x0])")
     return Frames(triangles, positions)
 
 

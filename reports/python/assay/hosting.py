@@ -50,10 +50,6 @@ class AskedAgain(BaseException):
     """Raised if the imported module itself asks for a judgement: a script without a guard. Its
     class can use only what is defined before that, because the rest of the script does not run."""
 
-    def __init__(self, module):
-        super().__init__()
-        self.module = module
-
 
 _imported = None  # the module that is being imported for its class
 
@@ -71,7 +67,11 @@ def class_of(module, name):
     try:
         found, judges = importlib.import_module(module), False
     except AskedAgain as asked:
-        found, judges = asked.module, True
+        found, judges = asked.args[0], True
+    except ModuleNotFoundError as error:
+        if not f"{module}.".startswith(f"{error.name}."):
+            raise
+        raise ValueError(f"no module {error.name}: put its folder on PYTHONPATH") from None
     finally:
         _imported = None
     if not hasattr(found, name):
@@ -212,9 +212,7 @@ def _interval(first):
 
 def pairs_of(pairs):
     """Returns pairs as int32 (k, 2)."""
-    if pairs is None:
-        return np.zeros((0, 2), np.int32)
-    given = np.asarray(pairs)
+    given = np.asarray(() if pairs is None else pairs)
     if not given.size:
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":

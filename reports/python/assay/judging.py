@@ -24,7 +24,7 @@ Interval = Tuple[float, float]
 class Contact:
     """A pair of triangles, the first time of their contact, and the features that meet then.
 
-    time: (lo, hi). feature: "vertex-face", ..., with its vertices (FEATURE_KINDS). bodies: for each
+    time: (lo, hi). feature: "vertex-face", ..., with its vertices in that order. bodies: for each
     triangle its body and its number there; None without bodies. The rest is only for contacts of a
     CheckedStep. meeting: "touching" or "crossing". crosses_at_end: whether the triangles cross at
     t = 1 (None at rest). point (3,), barycentric (2, 3), error, normal (3,): as in ContactPlaces.
@@ -309,6 +309,8 @@ def check(
         if isinstance(frames, (str, os.PathLike)):
             if bodies is not None or apart or rings or rest_distance or weld:
                 raise ValueError("a case file states which pairs count: bodies, apart, rings, rest_distance and weld are for meshes")
+            if "*" in os.fspath(frames):
+                raise ValueError(f"{frames}: a pattern is for assay.read_frames")
             answer = _judge.check_files([os.fspath(frames)], asked, worker, told)
         else:
             mesh: Frames = as_frames(frames)

@@ -40,19 +40,15 @@ def environment(detector: Any) -> Dict[str, str]:
 @contextlib.contextmanager
 def surroundings(detector: Any) -> Iterator[None]:
     """Sets the variables of environment() in this process for its children, and restores them."""
-    if detector is None:
-        yield
-        return
-    before = {name: os.environ.get(name) for name in ("PYTHONPATH", "ASSAY_PYTHON")}
-    os.environ.update(environment(detector))
+    during = {} if detector is None else environment(detector)
+    before = {name: os.environ[name] for name in during if name in os.environ}
+    os.environ.update(during)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        for name in during:
+            del os.environ[name]
+        os.environ.update(before)
 
 
 class Plugin:

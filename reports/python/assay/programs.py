@@ -51,8 +51,7 @@ class Outcome:
 
     @property
     def strata(self) -> List[Dict[str, Any]]:
-        """A dict for each family of cases: how many were judged, failed, ..., and a bound on the
-        risk."""
+        """A dict for each family of cases: how many were judged, failed, ..., and its bound."""
         strata: List[Dict[str, Any]] = self._findings()["strata"]
         return strata
 

@@ -125,7 +125,7 @@ class StepResult(_Step):
     answer: "free" or "collision".
     first: (lo, hi), the first contact time; None without a collision.
     pairs: int32 (k, 2), triangles in contact, ascending; times: float64 (k, 2), their first times.
-    features: int32 (k, 6), the features that meet then: a kind (FEATURE_KINDS) and their vertices.
+    features: int32 (k, 6): kind (of FEATURE_KINDS), its vertices (v, face; edge, edge), then -1.
     view_positive, view_negative, view_zero, against_all, violated, dirty: sizes of the view sets.
     views: whether the step used views, or else why not.
     signs: int8 (m + ghosts,), view signs of the triangles, then of the ghosts; empty without views.
@@ -204,7 +204,7 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactPlaces:
-    """Where k pairs meet, each at the lower end of its first time.
+    """Where k pairs meet, each at the lower end of its first time; midway, with a separation.
 
     point: float64 (k, 3); barycentric: float64 (k, 2, 3), weights of the point in both triangles.
     error: float64 (k,), bounds how far a coordinate of the point is from the weighted corners.

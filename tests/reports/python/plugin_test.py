@@ -194,7 +194,7 @@ def test_what_goes_wrong_is_told(mine, frames, name, outcome, text):
         ("python:mine:WrongClaim", "'fast' is none of free-sound"),
         ("python:mine:WrongContract", "'colour' is not a member"),
         ("python:mine:Absent", "mine has no class Absent"),
-        ("python:absent:Mine", "No module named 'absent'"),
+        ("python:absent:Mine", "no module absent: put its folder on PYTHONPATH"),
         ("python:mine", "write python:MODULE:CLASS"),
         ("python:mi-ne:X", "write python:MODULE:CLASS"),
         ("python:mine:Queries", "assay check QUERIES.csv"),
