@@ -2,11 +2,11 @@
 //
 // Version: 3.24, Debian libbullet-dev, floats (btScalar is float there). Function: bernsteinCCD of
 // the internal header of its soft bodies, which the package installs. The peer calls the function
-// as btSoftColliders::CollideCCD does: dt 1, margin SAFE_EPSILON, with velocities that are the
-// differences of the positions, and normals and end positions as
-// btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32, only
-// vertex-face, no contact at the start (roots at 0 are skipped), coordinates of usual sizes, and no
-// time, because the function tells no time. Claims: free-sound from the title of the change that
+// as btSoftColliders::CollideCCD does: dt 1, margin SAFE_EPSILON, and normals and end positions as
+// btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32;
+// displacements, because Bullet knows velocities, and a difference of two positions may be no
+// float; only vertex-face, no contact at the start (roots at 0 are skipped), coordinates of usual
+// sizes, and no time, because the function tells no time. Claims: free-sound from the title of the change that
 // added the function ("Add continuous collision detection for triangle vertex vs. face", pull
 // request 2612 of bulletphysics/bullet3); total and deterministic, because it is a function of its
 // arguments that returns a bool. The change states no tolerance for rounding, so contacts that the
@@ -26,7 +26,8 @@ struct BulletTests {
     for (int i = 0; i < 4; ++i) {
       auto& node = nodes[i];
       node.m_x = vector_of(paths.at[0][i]);
-      node.m_v = vector_of(paths.at[1][i]) - node.m_x;
+      for (int k = 0; k < 3; ++k)  // without rounding
+        node.m_v[k] = static_cast<btScalar>(paths.at[1][i][k] - paths.at[0][i][k]);
       node.m_q = node.m_x + dt * node.m_v;
     }
     const auto &a = nodes[1], &b = nodes[2], &c = nodes[3];
@@ -50,6 +51,14 @@ struct BulletTests {
 
 struct BulletBernstein : FeaturePairs<BulletTests> {
   using FeaturePairs::FeaturePairs;
+  plugin::Result evaluate(plugin::Positions x_t0, plugin::Positions ways) {
+    const auto x_t1 = ends_of(x_t0, ways);
+    return FeaturePairs::evaluate(x_t0, {x_t1.data(), x_t0.size()});
+  }
+  static plugin::Result query(std::int32_t kind, plugin::Positions x_t0, plugin::Positions ways) {
+    const auto x_t1 = ends_of(x_t0, ways);
+    return FeaturePairs::query(kind, x_t0, {x_t1.data(), x_t0.size()});
+  }
   static plugin::Description describe() {
     plugin::Description d;
     d.name = "Bullet, bernsteinCCD";
@@ -60,7 +69,16 @@ struct BulletBernstein : FeaturePairs<BulletTests> {
     d.least_nonzero = 1e-6;
     d.largest = 1e6;
     d.features = ASSAY_FEATURES_VERTEX_FACE;
+    d.motion = ASSAY_MOTION_DISPLACEMENT;
     return d;
+  }
+
+ private:
+  // These sums are exact.
+  static std::vector<double> ends_of(plugin::Positions x_t0, plugin::Positions ways) {
+    std::vector<double> ends(x_t0.data(), x_t0.data() + 3 * x_t0.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] += ways.data()[i];
+    return ends;
   }
 };
 
