@@ -114,14 +114,7 @@ class CubicTests {
 
 // Returns the description that all peers of this method have in common; it lacks a name.
 inline plugin::Description cubic_description() {
-  plugin::Description d;
-  d.version = "1";
-  d.claims =
-      ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
-  d.start = ASSAY_START_FREE;
-  d.least_nonzero = 1e-6;
-  d.largest = 1e6;
-  return d;
+  return usual_description("", "1", ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
 }
 
 }  // namespace assay::peers

@@ -3,7 +3,8 @@
 // Version: commit 5579391e (2025-05-22) of tysonbrochu/eltopo. Function:
 // rootparity::RootParityCollisionTest::run_test, called as in its wrapper; it tells no time.
 // Settings: none; -O2, as in its makefile. Contract: no contact at the start; lengths of usual
-// sizes. Its tunicate.h warns of underflow, but no contract leaves out small coordinates. Claim: no-spurious, because its header says "Returns true if there is an odd number of ray
+// sizes. The header of tunicate warns of underflow, but no contract leaves out small coordinates.
+// Claim: no-spurious, because its header says "Returns true if there is an odd number of ray
 // intersections (corresponding to an odd number of roots of F in the domain)", and an odd number is
 // at least one. The header also says that the answer for an even number is "no", so free-sound is
 // not claimed. Contacts that it misses are shown in brackets; a miss needs a look if the number of

@@ -27,7 +27,7 @@ struct FclTests {
     Point where;
     const bool found = Intersect::intersect_VF(p(0, 1), p(0, 2), p(0, 3), p(0, 0), p(1, 1), p(1, 2),
                                                p(1, 3), p(1, 0), &time, &where);
-    return time_of(found, time);
+    return at_time(found, time);
   }
   static Time edge_edge(const FourPaths& paths) {
     const Corners p(paths);
@@ -35,7 +35,7 @@ struct FclTests {
     Point where;
     const bool found = Intersect::intersect_EE(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1),
                                                p(1, 2), p(1, 3), &time, &where);
-    return time_of(found, time);
+    return at_time(found, time);
   }
 
  private:
@@ -47,23 +47,13 @@ struct FclTests {
       return {p[0], p[1], p[2]};
     }
   };
-  static Time time_of(bool found, double time) {
-    if (!found) return std::nullopt;
-    return plugin::Interval{{time, time}};
-  }
 };
 
 struct FclElementary : FeaturePairs<FclTests> {
   using FeaturePairs::FeaturePairs;
   static plugin::Description describe() {
-    plugin::Description d;
-    d.name = "FCL, Intersect";
-    d.version = "0.7.0";
-    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
-               ASSAY_CLAIM_TOTAL;
-    d.start = ASSAY_START_FREE;
-    d.least_nonzero = 1e-6;
-    d.largest = 1e6;
+    auto d =
+        usual_description("FCL, Intersect", "0.7.0", ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
     d.time_tolerance = 1e-6;
     return d;
   }

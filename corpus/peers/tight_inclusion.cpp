@@ -74,14 +74,9 @@ struct TightInclusion : FeaturePairs<TightInclusionTests> {
 
   explicit TightInclusion(const plugin::Mesh& mesh) : FeaturePairs(mesh, separation) {}
   static plugin::Description describe() {
-    plugin::Description d;
-    d.name = separation > 0 ? "Tight-Inclusion, minimum separation" : "Tight-Inclusion, all pairs";
-    d.version = TIGHT_INCLUSION_VER;
-    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
-               ASSAY_CLAIM_TOTAL;
-    d.start = ASSAY_START_FREE;
-    d.least_nonzero = 1e-6;
-    d.largest = 1e6;
+    auto d = usual_description(
+        separation > 0 ? "Tight-Inclusion, minimum separation" : "Tight-Inclusion, all pairs",
+        TIGHT_INCLUSION_VER, ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE);
     if (separation > 0) {
       constexpr double most_err = 7.6e-15;  // get_numerical_error, for ms above 0
       d.claims |= ASSAY_CLAIM_NO_SPURIOUS;

@@ -63,14 +63,15 @@ std::optional<Positions> exact_end(const Positions& x, const Positions& to) {
 }
 
 // Gives each step a start and an end of its own: the end is the exact sum of the start and of the
-// displacement that leads nearest to the end in `original`. Steps whose sum is no double are
-// left out. Returns false if all are. A mesh at rest stays the first frame, if the contract depends
-// on it.
+// displacement that leads nearest to the end in `original`. Steps whose sum is no double, or is
+// beyond the contract's range, are left out. Returns false if all are. A mesh at rest stays the
+// first frame, if the contract depends on it.
 bool hold_displacements(Case& c, Case original, const Contract& contract) {
   std::vector<std::size_t> exact;
   auto steps = steps_of(c);
   for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (exact_end(start_of(c, steps[s]), end_of(original, steps[s]))) exact.push_back(s);
+    const auto end = exact_end(start_of(c, steps[s]), end_of(original, steps[s]));
+    if (end && beyond_range(*end, edges_of(c), contract).empty()) exact.push_back(s);
   }
   if (exact.empty()) return false;
   if (exact.size() < steps.size()) {
@@ -83,11 +84,10 @@ bool hold_displacements(Case& c, Case original, const Contract& contract) {
   if (contract.rest_distance > 0) frames.push_back(c.frames.front());
   for (const auto& step : steps) {
     const auto& x = start_of(c, step);
-    const auto end = *exact_end(x, end_of(original, step));
     const auto place = static_cast<std::int32_t>(frames.size());
     script.push_back({place, place + 1, step.commit});
     frames.push_back(x);
-    frames.push_back(end);
+    frames.push_back(*exact_end(x, end_of(original, step)));
   }
   if (frames == c.frames && script == steps) return true;
   c.frames = std::move(frames);
@@ -213,7 +213,7 @@ std::string why_left_out(const Case& c, const Contract& contract) {
   for (auto& frame : contracted_case.frames) frame = round_to(frame, contract.coordinates);
   if (Case displaced = contracted_case;
       contract.motion == MotionGiven::displacement && !hold_displacements(displaced, c, contract))
-    return "motion displacement: in every step, some exact end position is no double";
+    return "motion displacement: in every step, an exact end is no double, or beyond the range";
   if (contract.limit_gives == LimitGives::start_plus && !ways_are_finite(contracted_case, contract))
     return "stops at start-plus: a vertex moves farther than the largest number";
   if (!contract_relation(contracted_case, contract)) return "a rest position is beyond float32";
