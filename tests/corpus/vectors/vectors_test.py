@@ -433,18 +433,18 @@ class Committed(unittest.TestCase):
                 vectors.check_halves(by_id)
 
     def test_who_broke_on_a_case_answers_it_wrongly(self):
-        """Touching counts as a contact, because these detectors claim to test closed sets."""
-        asked = 0
-        for results in self.results:
-            for case in self.set.cases:
-                if results["product"]["name"] not in case.json.get("breaks", ()):
-                    continue
-                answers = results["answers"][case.id]
-                given = answers["steps"] if case.triangles is not None else [answers]
-                self.assertTrue(any(map(self.is_wrong, given, case.steps)),
-                                (results["product"]["name"], case.id))
-                asked += 1
-        self.assertEqual(asked, sum(len(case.json.get("breaks", ())) for case in self.set.cases))
+        """Touching counts: closed sets are claimed. Nine cases of Bullet's have no float velocities."""
+        broken = [(results, case) for results in self.results for case in self.set.cases
+                  if results["product"]["name"] in case.json.get("breaks", ())]
+        left_out = 0
+        for results, case in broken:
+            name, answers = results["product"]["name"], results["answers"][case.id]
+            given = answers["steps"] if case.triangles is not None else [answers]
+            is_left_out = name[:6] == "Bullet" and given[0]["answer"] == "unsupported"
+            left_out += is_left_out
+            self.assertTrue(is_left_out or any(map(self.is_wrong, given, case.steps)), (name, case.id))
+        self.assertEqual(left_out, 9)
+        self.assertEqual(len(broken), sum(len(case.json.get("breaks", ())) for case in self.set.cases))
 
     @staticmethod
     def is_wrong(answer, step):
