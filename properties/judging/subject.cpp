@@ -95,7 +95,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
       part == DetectorPart::query || (part == DetectorPart::by_library && !has_steps);
   if (of_queries && !plugin.parts.query)
     return Problem{fmt::format(
-        "{}: it answers no elementary queries: give `check` frames or a case file", library)};
+        "{}: it answers no elementary queries, and this is one: give it a mesh", library)};
   if (!of_queries && !has_steps)
     return Problem{fmt::format("{}: it answers only elementary queries, no steps", library)};
   subject.detector = {fmt::format("{} {}", plugin.name, plugin.version),

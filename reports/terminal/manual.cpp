@@ -65,7 +65,7 @@ const std::vector<VerbManual>& verb_manuals() {
         {"assay list failures own-run", "The failures of a run, each with its replay line"}}},
       {"replay",
        failing,
-       "012345",
+       "01234",
        "",
        {{"assay replay smoke:1:closed-generic:5 --why 0,1",
          "Runs a case of a campaign again, and says why two of its triangles were tested"},

@@ -148,7 +148,7 @@ void add_jobs(CLI::App& verb, int& jobs) {
   jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   // The number of cores is no part of the manual, for it is another on every machine.
   add(verb, "--jobs N", jobs,
-      "Number of threads of the oracle (default: all cores); the result does not depend on it")
+      "How many threads or workers (default: all cores); the result does not depend on it")
       ->check(in_range(1, 1024))
       ->group(OptionGroup::limits);
 }

@@ -41,8 +41,8 @@ Expected<int> run_scene(const SceneRequest& request) {
     for (const auto& line : mesh.remarks) fmt::print("{}\n", line);
     options.mesh = std::move(mesh);
   }
-  BOOST_OUTCOME_TRY(may_fill(request.out));
   BOOST_OUTCOME_TRY(sequence, corpus::make_scene(request.name, options));
+  BOOST_OUTCOME_TRY(may_fill(request.out));
   if (auto stale = stale_frame(request.out, sequence.frames.size())) {
     return Problem{*stale};
   }
