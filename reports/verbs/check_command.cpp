@@ -382,7 +382,7 @@ void add_options(CLI::App& verb, CheckRequest& request) {
   add_choice(verb, "--start", built_in.start, all_names<detector::Start>(),
              from_name<detector::Start>, "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", built_in.pairs, all_names<detector::Pairs>(),
-             from_name<detector::Pairs>, "Pairs asked of the built-in, and listed (default all)");
+             from_name<detector::Pairs>, "Pairs asked of the built-in (default all)");
   add_choice(verb, "--arithmetic", built_in.arithmetic, all_names<detector::Arithmetic>(),
              from_name<detector::Arithmetic>, "The detector's arithmetic (default exact)");
   verb.add_flag("--no-oracle", question.no_oracle, "Run only the detector; prints `not judged`");
