@@ -94,8 +94,7 @@ Expected<Subject> Subject::open(std::filesystem::path worker, const std::string&
   const bool of_queries =
       part == DetectorPart::query || (part == DetectorPart::by_library && !has_steps);
   if (of_queries && !plugin.parts.query)
-    return Problem{fmt::format(
-        "{}: it answers no elementary queries, and this is one: give it a mesh", library)};
+    return Problem{fmt::format("{}: it answers no elementary queries, only steps", library)};
   if (!of_queries && !has_steps)
     return Problem{fmt::format("{}: it answers only elementary queries, no steps", library)};
   subject.detector = {fmt::format("{} {}", plugin.name, plugin.version),

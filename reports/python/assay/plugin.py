@@ -47,7 +47,7 @@ def surroundings(detector: Any) -> Iterator[None]:
         yield
     finally:
         for name in during:
-            del os.environ[name]
+            os.environ.pop(name, None)
         os.environ.update(before)
 
 
